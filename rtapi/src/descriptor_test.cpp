@@ -46,7 +46,7 @@ TEST_F(DescriptorTest, HeapDescriptions) {
                                              .Flags = DescriptorHeapFlags::kShaderVisible}),
                "KA0620", "2048");
   EXPECT_ERROR(device_.CreateDescriptorHeap(
-                   {.Type = static_cast<DescriptorHeapType>(2), .NumDescriptors = 1}),
+                   {.Type = static_cast<DescriptorHeapType>(4), .NumDescriptors = 1}),
                "KA0621");
   EXPECT_ERROR(device_.CreateDescriptorHeap(
                    {.NumDescriptors = 1, .Flags = static_cast<DescriptorHeapFlags>(2)}),

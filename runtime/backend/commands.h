@@ -134,8 +134,8 @@ struct TextureCopyPlace {
   uint32_t origin[3] = {0, 0, 0};  // in elements: where the copy begins
 };
 
-// Copies `extent` elements from one place to another; at most one of them is a buffer. An element is
-// a texel, or a block of a block-compressed texture. Checked: the copy is inside both, and the
+// Copies `extent` elements from one place to another; at most one of them is a buffer. An element
+// is a texel, or a block of a block-compressed texture. Checked: the copy is inside both, and the
 // formats have elements of equal size.
 struct CopyTextureCommand {
   TextureCopyPlace dest;

@@ -95,12 +95,20 @@ constexpr void set_fields(TargetCodec& codec, const std::array<Field, 4>& fields
   }
 }
 
+// Formats of depth buffers, and those that shaders read them by.
+constexpr bool is_of_depth(Format format) {
+  return rtapi::IsDepthFormat(format) || format == Format::kR32FloatX8X24Typeless ||
+         format == Format::kX32TypelessG8X24Uint || format == Format::kR24UnormX8Typeless ||
+         format == Format::kX24TypelessG8Uint;
+}
+
 template <uint32_t kFormat>
 constexpr TargetCodec codec_of() {
   constexpr auto kInfo = rtapi::GetFormatInfo(static_cast<Format>(kFormat));
   using C = rtapi::FormatClass;
   constexpr auto kTheFormat = static_cast<Format>(kFormat);
   if constexpr (kInfo.type == C::kUnsupported || kInfo.type == C::kTypeless || kInfo.bytes == 12 ||
+                kInfo.block_side != 1 || is_of_depth(kTheFormat) ||
                 kTheFormat == Format::kR9G9B9E5Sharedexp) {
     return {};
   } else {

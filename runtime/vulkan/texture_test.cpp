@@ -52,11 +52,16 @@ rtapi::TextureDesc desc_of(uint32_t width, uint32_t height, uint16_t slices, uin
   return desc;
 }
 
+// Those of colours: depth and stencil come with depth buffers.
 std::vector<Format> formats() {
   std::vector<Format> result;
   for (uint32_t i = 1; i < 120; ++i) {
     const auto format = static_cast<Format>(i);
-    if (shader::format_codec(i).bytes != 0 && rtapi::GetFormatInfo(format).bytes != 0) {
+    const bool of_depth =
+        format == Format::kR32FloatX8X24Typeless || format == Format::kX32TypelessG8X24Uint ||
+        format == Format::kR24UnormX8Typeless || format == Format::kX24TypelessG8Uint;
+    if (!of_depth && shader::format_codec(i).bytes != 0 &&
+        rtapi::GetFormatInfo(format).bytes != 0) {
       result.push_back(format);
     }
   }
@@ -420,7 +425,7 @@ TEST(VulkanTexture, BuffersAreCleared) {
 TEST(VulkanTexture, WhatTheDeviceLacksIsAnError) {
   KAAMOS_NEED_GPU(gpu);
   Harness h(gpu);
-  for (const Format format : {Format::kBC1Unorm, Format::kD32Float, Format::kUnknown}) {
+  for (const Format format : {Format::kD32Float, Format::kUnknown}) {
     const auto texture = h.textures->create_texture(desc_of(4, 4, 1, 1, format));
     ASSERT_FALSE(texture);
     EXPECT_EQ(texture.error().id.text(), "KA0960");

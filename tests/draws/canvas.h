@@ -6,6 +6,7 @@
 #include <rtapi/rtapi.h>
 
 #include <array>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>

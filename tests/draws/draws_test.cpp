@@ -272,8 +272,7 @@ TEST_F(Draws, RAS_108_PixelShadersTraceRays) {
   geometry.Triangles.VertexFormat = Format::kR32G32B32Float;
   geometry.Triangles.VertexCount = 3;
   geometry.Triangles.VertexBuffer = {vertices.GetGPUVirtualAddress(), 12};
-  const Buffer bottom =
-      test::build_bottom_level(canvas_.device, canvas_.queue, {geometry});
+  const Buffer bottom = test::build_bottom_level(canvas_.device, canvas_.queue, {geometry});
   RaytracingInstanceDesc instance = {};
   instance.Transform[0][0] = instance.Transform[1][1] = instance.Transform[2][2] = 1;
   instance.InstanceMask = 0xFF;

@@ -227,18 +227,20 @@ class Device {
   /// @errors KA0904 empty device; KA0903 texture of another device; KA0731 `dest` is no such slot;
   /// KA0730 dimension, format, mip, slices, or a texture without kAllowRenderTarget; KA0726 the
   /// backend cannot draw to the format.
-  ///@{
   Status CreateRenderTargetView(const Texture& texture, const RenderTargetViewDesc& desc,
                                 CpuDescriptorHandle dest) const;
+  /// A view of mip 0 of the whole texture, with its own format.
+  /// @errors as of the overload with a desc: KA0726, KA0730, KA0731, KA0903, KA0904.
   Status CreateRenderTargetView(const Texture& texture, CpuDescriptorHandle dest) const;
-  ///@}
   /// The same for depth, in a DSV heap. [D3D12: CreateDepthStencilView]
-  /// @errors as of CreateRenderTargetView, for kAllowDepthStencil; KA0730 also for undefined flags.
-  ///@{
+  /// @errors KA0904 empty device; KA0903 texture of another device; KA0731 `dest` is no such slot;
+  /// KA0730 dimension, flags, format, mip, slices, or a texture without kAllowDepthStencil; KA0726
+  /// the backend has no such depth buffers.
   Status CreateDepthStencilView(const Texture& texture, const DepthStencilViewDesc& desc,
                                 CpuDescriptorHandle dest) const;
+  /// A view of mip 0 of the whole texture, with its depth format.
+  /// @errors as of the overload with a desc: KA0726, KA0730, KA0731, KA0903, KA0904.
   Status CreateDepthStencilView(const Texture& texture, CpuDescriptorHandle dest) const;
-  ///@}
   /// Writes a sampler into slot `dest` of a living sampler heap. [D3D12: CreateSampler]
   /// @errors KA0904 empty device; KA0622 `dest` is no such slot; KA0631 a member out of its range;
   /// on Vulkan KA0956 too many samplers, KA0962 the device has no such sampler.

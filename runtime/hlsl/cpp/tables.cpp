@@ -105,7 +105,7 @@ void CppEmitter::emit_unlinked(const EntryPoint& e, const std::string& bindings,
        number(e.unbounded_payload ? 64u : 0u) + ", " + bindings +
        ", nullptr, 0u, nullptr, 0u, nullptr, 0u, " + quote(value_layout(e.payload)) + ", " +
        quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) + ", nullptr, " +
-       (e.root_signature ? quote(*e.root_signature) : "nullptr") + ", " + imports + "},");
+       (e.root_signature ? quote(*e.root_signature) : "nullptr") + ", nullptr, " + imports + "},");
 }
 
 void CppEmitter::emit_tables() {
@@ -193,7 +193,7 @@ void CppEmitter::emit_tables() {
          "0u, "
          "nullptr, 0u, callers_" +
          std::to_string(i) + ", " + number(f.callers.size()) +
-         ", nullptr, nullptr, 0u, nullptr, nullptr, needed_" + std::to_string(i) + ", " +
+         ", nullptr, nullptr, 0u, nullptr, nullptr, nullptr, needed_" + std::to_string(i) + ", " +
          number(f.imports.size()) + ", " + quote(f.signature) + "},");
   }
   line("{}};");

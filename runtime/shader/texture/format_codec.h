@@ -25,7 +25,8 @@ struct FormatCodec {
   void (*encode)(uint8_t* element, const Texel& value) = nullptr;
 };
 
-// Never fails: unknown, typeless, depth-stencil and block-compressed formats have 0 bytes and no functions.
+// Never fails: unknown, typeless, depth-stencil and block-compressed formats have 0 bytes and no
+// functions.
 const FormatCodec& format_codec(uint32_t dxgi_format);
 
 // sRGB to linear for every byte: the value of the formula, rounded to float. [D3D11.3 3.2.3.7]

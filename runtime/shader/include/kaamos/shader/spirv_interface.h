@@ -49,10 +49,10 @@ inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable 
 inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 // Checked libraries: CheckEntry::shader.
 inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
-// Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's format
-// differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it does not.
-// The bits of an integer component, to whose range values are clamped; of a UNORM component, to
-// whose steps values are rounded.
+// Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's
+// format differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it
+// does not. The bits of an integer component, to whose range values are clamped; of a UNORM
+// component, to whose steps values are rounded.
 inline constexpr uint32_t kTargetConstant = 0xFFFF0010u;
 
 // Driver faults that generated code works around; each is off unless its bit is set. The ids are
@@ -198,7 +198,6 @@ static_assert(sizeof(ReachedEntry) == 32);
 //
 // Attributes: vec2 if the HLSL type holds two 32-bit floats, otherwise uint[words].
 
-
 // ---------------------------------------------------------------------------------------------
 // Vertex and pixel shaders
 //
@@ -213,12 +212,13 @@ static_assert(sizeof(ReachedEntry) == 32);
 // the locations of the vertex shader's outputs with the same semantics. SV_Barycentrics is a
 // location like any other, which the backend has to feed.
 //
-// Output SV_Target n is at location n, prepared as kTargetConstant + n says. An SV_Depth that is not a number becomes the float whose
-// bits are DispatchBlock::base[0], the lower end of the viewport's range; all others leave as they
-// are.
+// Output SV_Target n is at location n, prepared as kTargetConstant + n says. An SV_Depth that is
+// not a number becomes the float whose bits are DispatchBlock::base[0], the lower end of the
+// viewport's range; all others leave as they are.
 //
 // Device features: shaderDrawParameters (base vertex and instance); by use shaderClipDistance,
-// shaderCullDistance, shaderOutputLayer, shaderOutputViewportIndex, geometryShader (SV_PrimitiveID),
-// shaderDemoteToHelperInvocation, vertexPipelineStoresAndAtomics, fragmentStoresAndAtomics.
+// shaderCullDistance, shaderOutputLayer, shaderOutputViewportIndex, geometryShader
+// (SV_PrimitiveID), shaderDemoteToHelperInvocation, vertexPipelineStoresAndAtomics,
+// fragmentStoresAndAtomics.
 
 }  // namespace kaamos::shader::spirv
