@@ -76,12 +76,12 @@ TEST(Bench, WrongArgumentsSayWhatIsAllowed) {
   }
 }
 
-TEST(Bench, ThePrecisionTableHasNoWrongHitInExact) {
+TEST(Bench, ThePrecisionTableHasWrongHitsInFastOnly) {
   const Output table = run({"--precision-table", "--quick", "--threads", "2"});
   EXPECT_EQ(table.status, 0);
   EXPECT_EQ(table.errors, "");
   int rows = 0;
-  int wrong_in_robust = 0;
+  int wrong_in_fast = 0;  // or the rays would find nothing
   const size_t start = table.out.find("Wrong hits");
   const size_t end = table.out.find("Largest error");
   ASSERT_LT(start, end);
@@ -89,11 +89,12 @@ TEST(Bench, ThePrecisionTableHasNoWrongHitInExact) {
     const auto cells = split(line, '|');  // before the first bar: nothing
     if (cells.size() < 5 || cells[2].find(" / ") == std::string::npos) continue;
     ++rows;
+    EXPECT_EQ(cells[3], " 0 / 0 / 0 ") << line;
     EXPECT_EQ(cells[4], " 0 / 0 / 0 ") << line;
-    wrong_in_robust += cells[3] != " 0 / 0 / 0 " ? 1 : 0;
+    wrong_in_fast += cells[2] != " 0 / 0 / 0 " ? 1 : 0;
   }
   EXPECT_GE(rows, 10) << table.out;
-  EXPECT_GT(wrong_in_robust, 5) << table.out;
+  EXPECT_GT(wrong_in_fast, 5) << table.out;
 }
 
 TEST(Bench, ALineHasSixFields) {
