@@ -29,6 +29,12 @@ constexpr uint32_t kMaxVertexStride = 2048;
 constexpr float kViewportMin = -32768;
 constexpr float kViewportMax = 32767;
 
+// Remembers what the next draw with this buffer uses.
+void NoteInput(CommandListImpl& list, uint32_t slot, GpuVirtualAddress address, std::string role) {
+  list.input_uses.erase(slot);
+  if (address != 0) list.input_uses[slot] = UseOf(*list.device, address, std::move(role));
+}
+
 bool IsFinite(const Viewport& v) {
   return std::isfinite(v.TopLeftX) && std::isfinite(v.TopLeftY) && std::isfinite(v.Width) &&
          std::isfinite(v.Height) && std::isfinite(v.MinDepth) && std::isfinite(v.MaxDepth);
@@ -89,11 +95,8 @@ void RecordDraw(CommandListImpl& list, const char* call, bool indexed,
                 const DrawIndexedArguments& arguments) {
   if (!list.CheckOpen(call)) return;
   if (arguments.IndexCountPerInstance == 0 || arguments.InstanceCount == 0) return;
-  const PipelineStateImpl* pipeline = list.DrawPipeline(call);
+  const PipelineStateImpl* pipeline = list.DrawPipeline(call, indexed);
   if (!pipeline) return;
-  if (indexed && list.draw_state->index_buffer.BufferLocation != 0) {
-    list.Use(call, list.draw_state->index_buffer.BufferLocation, "index buffer");
-  }
   runtime::DrawCommand command;
   command.pipeline = pipeline->pipeline;
   command.linked = pipeline->graphics;
@@ -106,24 +109,24 @@ void RecordDraw(CommandListImpl& list, const char* call, bool indexed,
 
 }  // namespace
 
-const PipelineStateImpl* CommandListImpl::DrawPipeline(const char* call) {
+const PipelineStateImpl* CommandListImpl::DrawPipeline(const char* call, bool indexed) {
   const PipelineStateImpl* set = GraphicsPipeline(call);
   if (!set) return nullptr;
   if (draw_state->topology == PrimitiveTopology::kUndefined) {
     Fail(MakeError(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
     return nullptr;
   }
-  for (const runtime::LinkedElement& element : set->graphics->elements) {
-    const VertexBufferView& view = draw_state->vertex_buffers[element.slot];
-    if (view.BufferLocation != 0) {
-      Use(call, view.BufferLocation, Text("vertex buffer ", element.slot));
-    }
-  }
-  for (MemoryUse use : target_uses) {
+  const auto note = [&](MemoryUse use) {
     use.call = call;
     use.command = commands->size();
     uses->push_back(std::move(use));
-  }
+  };
+  const auto note_input = [&](uint32_t slot) {
+    if (auto node = input_uses.extract(slot)) note(std::move(node.mapped()));
+  };
+  for (const runtime::LinkedElement& element : set->graphics->elements) note_input(element.slot);
+  if (indexed) note_input(kIndexBufferSlot);
+  for (MemoryUse& use : std::exchange(target_uses, {})) note(std::move(use));
   return set;
 }
 
@@ -175,12 +178,17 @@ void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const Vertex
   }
   std::copy(views.begin(), views.end(),
             impl_->WritableDrawState().vertex_buffers.begin() + start_slot);
+  for (size_t i = 0; i < views.size(); ++i) {
+    const auto slot = static_cast<uint32_t>(start_slot + i);
+    NoteInput(*impl_, slot, views[i].BufferLocation, Text("vertex buffer ", slot));
+  }
 }
 
 void CommandList::IASetIndexBuffer(const IndexBufferView* view) {
   if (!impl_ || !impl_->CheckOpen("IASetIndexBuffer")) return;
   if (!view || view->BufferLocation == 0) {
     impl_->WritableDrawState().index_buffer = {};
+    impl_->input_uses.erase(kIndexBufferSlot);
     return;
   }
   if (view->Format != Format::kR16Uint && view->Format != Format::kR32Uint) {
@@ -198,6 +206,7 @@ void CommandList::IASetIndexBuffer(const IndexBufferView* view) {
                                  bytes));
   }
   impl_->WritableDrawState().index_buffer = *view;
+  NoteInput(*impl_, kIndexBufferSlot, view->BufferLocation, "index buffer");
 }
 
 void CommandList::RSSetViewports(std::span<const Viewport> viewports) {

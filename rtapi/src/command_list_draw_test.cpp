@@ -124,6 +124,21 @@ TEST_F(DrawTest, VertexBuffersMustLiveUntilTheListHasExecuted) {
   EXPECT_ERROR(queue_.ExecuteCommandLists({list_}), "KA0856", "vertex buffer 2", "vertices");
 }
 
+// Even if the memory is freed before the draw is recorded.
+TEST_F(DrawTest, BuffersAreLookedUpWhenTheyAreSet) {
+  Buffer buffer = MakeBuffer(256, HeapType::kDefault, "indices");
+  Prepare(list_);
+  const IndexBufferView view = {buffer.GetGPUVirtualAddress(), 12, Format::kR16Uint};
+  list_.IASetIndexBuffer(&view);
+  buffer = {};
+  list_.DrawInstanced(3, 1, 0, 0);  // does not use it
+  list_.DrawIndexedInstanced(3, 1, 0, 0, 0);
+  list_.DrawIndexedInstanced(3, 1, 0, 0, 0);
+  EXPECT_OK(list_.Close());
+  EXPECT_ERROR(queue_.ExecuteCommandLists({list_}), "KA0856", "DrawIndexedInstanced, command 1",
+               "index buffer", "indices");
+}
+
 TEST_F(DrawTest, RAS_140_GraphicsAndComputeArgumentsAreSeparate) {
   LibraryBuilder b;
   b.Export("Kernel", Stage::kCompute);

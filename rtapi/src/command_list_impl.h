@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ using CommandVector = std::vector<runtime::Command>;
 struct StateObjectImpl;
 struct PipelineStateImpl;
 
+// In CommandListImpl::input_uses.
+inline constexpr uint32_t kIndexBufferSlot = kIAVertexInputResourceSlotCount;
+
 struct CommandListImpl {
   std::shared_ptr<DeviceImpl> device;
   bool open = true;
@@ -36,7 +40,11 @@ struct CommandListImpl {
   PipelineState pipeline_state;  // compute or graphics; at most one of the two is set
   StateObject raytracing_pipeline;
   std::shared_ptr<runtime::DrawState> draw_state = std::make_shared<runtime::DrawState>();
-  std::vector<MemoryUse> target_uses;  // the textures of its targets
+  // What draws refer to and no draw has used yet: targets, and buffers by slot, where the index
+  // buffer has the slot behind those of vertices. They are looked up when they are set, since their
+  // memory may be freed, and taken again, before the draw.
+  std::vector<MemoryUse> target_uses;
+  std::map<uint32_t, MemoryUse> input_uses;
   uint32_t open_events = 0;
 
   // Keeps the error: as in D3D12, Close() reports it.
@@ -53,8 +61,8 @@ struct CommandListImpl {
   const StateObjectImpl* RaysPipeline(const char* call);
   const PipelineStateImpl* ComputePipeline(const char* call);
   const PipelineStateImpl* GraphicsPipeline(const char* call);
-  // The same for a draw, which needs a topology, too, and uses vertex buffers and targets.
-  const PipelineStateImpl* DrawPipeline(const char* call);
+  // The same for a draw, which needs a topology, too, and uses buffers and targets.
+  const PipelineStateImpl* DrawPipeline(const char* call, bool indexed);
 
   // Built in place, because gcc 12 at -O3 warns that members of a temporary variant are
   // uninitialised.

@@ -67,7 +67,8 @@ bool TakePipeline(CommandListImpl& list, runtime::IndirectWork work,
     command.linked_compute = pipeline->linked;
     return true;
   }
-  const PipelineStateImpl* pipeline = list.DrawPipeline(kCall);
+  const PipelineStateImpl* pipeline =
+      list.DrawPipeline(kCall, work == runtime::IndirectWork::kDrawIndexed);
   if (!pipeline) return false;
   command.pipeline = pipeline->pipeline;
   command.linked_graphics = pipeline->graphics;
@@ -94,6 +95,10 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
     return impl_->Fail(
         MakeError(Id::kIndirectArguments, Named("command signature", given.desc.Name),
                   " was made for another root signature than the one that is set on the list"));
+  }
+  // The commands bring these buffers along.
+  for (const runtime::IndirectBufferView& view : given.layout->buffer_views) {
+    impl_->input_uses.erase(view.of_indices ? kIndexBufferSlot : view.slot);
   }
   runtime::ExecuteIndirectCommand command;
   if (!TakePipeline(*impl_, work, command)) return;

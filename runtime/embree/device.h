@@ -17,6 +17,7 @@
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/texture.h"
+#include "runtime/raster/rasterizer.h"
 #include "runtime/structures/structure_commands.h"
 
 namespace kaamos::embree {
@@ -66,6 +67,8 @@ class Device final : public runtime::BackendDevice {
     return {&arena_, memory_.get(), &context_, wave_lanes_};
   }
   tbb::task_arena& arena() { return arena_; }
+  // One pass at a time: its memory stays from list to list.
+  raster::Rasterizer& rasterizer() { return rasterizer_; }
   void add_counters(const Counters& counters);
 
  private:
@@ -85,6 +88,7 @@ class Device final : public runtime::BackendDevice {
   RTCDevice embree_ = nullptr;
   std::atomic<int64_t> embree_bytes_ = 0;
   std::shared_ptr<ViewPool> views_ = std::make_shared<ViewPool>();
+  raster::Rasterizer rasterizer_;
   std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();
   mutable std::mutex statistics_mutex_;
   Counters counters_;

@@ -16,7 +16,8 @@ namespace kaamos::embree {
 
 class DrawPass {
  public:
-  explicit DrawPass(const DispatchEnvironment& environment) : environment_(environment) {}
+  DrawPass(const DispatchEnvironment& environment, raster::Rasterizer& rasterizer)
+      : environment_(environment), rasterizer_(rasterizer) {}
 
   // Takes a draw into the pass, after a flush if its targets are others. `label` names it in
   // messages.
@@ -29,7 +30,7 @@ class DrawPass {
   static constexpr size_t kMostDraws = 4096;
 
   DispatchEnvironment environment_;
-  raster::Rasterizer rasterizer_;
+  raster::Rasterizer& rasterizer_;
   std::deque<RunningDraw> running_;
   std::vector<raster::Draw> draws_;
 };

@@ -56,7 +56,7 @@ class TopLevel final : public runtime::TopLevelBase {
     const TopLevel* made = non_opaque_.load(std::memory_order_acquire);
     return made != nullptr ? *made : make_non_opaque();
   }
-  // Of a tree with exact bottom levels: where Embree's coordinates have their origin.
+  // Where Embree's coordinates have their origin in a tree with exact bottom levels.
   const ExactFrame& frame() const { return frame_; }
   PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }

@@ -40,7 +40,7 @@ class FrontEnd {
   const Draw* draw_ = nullptr;
   const DrawPlan* plan_ = nullptr;
   Batch* batch_ = nullptr;
-  // Of the triangle that is being added.
+  // Where the triangle that is being added is drawn to.
   const ViewportState* viewport_ = nullptr;
   uint32_t viewport_flags_ = 0;
   uint32_t slice_ = 0;

@@ -97,7 +97,7 @@ class DepthTest {
     }
     return pass;
   }
-  // Of two quads that need not be side by side.
+  // The same for two quads that need not be side by side.
   KAAMOS_INLINE lanes run(uint32_t* first, uint32_t* second, const Floats8& z, const lanes& active,
                           bool write) const {
     uint32_t both[8];

@@ -72,7 +72,7 @@ class QuadShader {
   size_t linear_words_ = 0;
   bool is_set_up_ = false;
 
-  // Of the triangle.
+  // set_up() computes these for the triangle.
   double edge_[2][2];  // of vertices 1 and 2: by x and y, from vertex 0, in subpixels
   double area_;
   float inv_area_;

@@ -7,8 +7,8 @@
 
 namespace kaamos::raster {
 
-// Of numbers from 0 to 1 in buckets of equal width. The curve is steepest at 0, where a bucket is
-// 0.8 of a byte's step wide, so there is at most one border between bytes in each.
+// Maps numbers from 0 to 1 by buckets of equal width. The curve is steepest at 0, where a bucket is
+// 0.8 of a byte's step wide, so each bucket holds at most one border between bytes.
 struct SrgbTable {
   static constexpr int kBuckets = 4096;
   struct Bucket {
