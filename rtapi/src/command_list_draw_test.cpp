@@ -286,7 +286,7 @@ TEST_F(DrawTest, TargetsAreChecked) {
   };
   EXPECT_ERROR(set(&unwritten, nullptr), "KA0731", "no view was made");
   const CpuDescriptorHandle depth = Dsv(0);
-  EXPECT_ERROR(set(&depth, nullptr), "KA0731", "another type");
+  EXPECT_ERROR(set(&depth, nullptr), "KA0731", "is in a DSV heap");
   const CpuDescriptorHandle wild = {12345};
   EXPECT_ERROR(set(nullptr, &wild), "KA0731", "not in a live descriptor heap");
   EXPECT_ERROR(Record([&](CommandList& list) { list.OMSetRenderTargets(9, &unwritten); }), "KA0742",
@@ -450,7 +450,7 @@ TEST_F(DrawTest, TargetHeapsAreOfTheHost) {
   EXPECT_OK(device_.CopyDescriptorsSimple(1, Rtv(1), Rtv(0), DescriptorHeapType::kRtv));
   const CpuDescriptorHandle copied = Rtv(1);
   EXPECT_OK(Record([&](CommandList& list) { list.OMSetRenderTargets(1, &copied); }));
-  EXPECT_ERROR(device_.CreateShaderResourceView(color, Rtv(0)), "KA0622", "another type");
+  EXPECT_ERROR(device_.CreateShaderResourceView(color, Rtv(0)), "KA0622", "is in an RTV heap");
 }
 
 }  // namespace

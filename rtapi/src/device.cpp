@@ -91,6 +91,21 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
   return host == 0 ? std::nullopt : FindSlot(CpuDescriptorHandle{host});
 }
 
+std::string DescribeHeap(const std::optional<HeapSlot>& slot) {
+  if (!slot) return " is not in a live descriptor heap";
+  switch (slot->type) {
+    case DescriptorHeapType::kCbvSrvUav:
+      return " is in a CBV/SRV/UAV heap";
+    case DescriptorHeapType::kSampler:
+      return " is in a sampler heap";
+    case DescriptorHeapType::kRtv:
+      return " is in an RTV heap";
+    case DescriptorHeapType::kDsv:
+      return " is in a DSV heap";
+  }
+  return " is in a heap of unknown type";
+}
+
 ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
   if (!reporter) return library;
   CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");

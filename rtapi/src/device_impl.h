@@ -35,6 +35,9 @@ struct HeapSlot {
   std::string heap_name = {};
 };
 
+// Returns " is in a sampler heap", or that it is in no live heap: the middle of an error's text.
+std::string DescribeHeap(const std::optional<HeapSlot>& slot);
+
 struct DeviceImpl {
   DeviceDesc desc;
   ViewNames views;  // which textures and samplers the descriptors stand for

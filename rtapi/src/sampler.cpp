@@ -82,8 +82,8 @@ Status Device::CreateSampler(const SamplerDesc& desc, CpuDescriptorHandle dest) 
   if (Status s = CheckSampler(desc, Id::kSamplerInvalid, "sampler"); !s.ok()) return s;
   const auto slot = impl_->FindSlot(dest);
   if (!slot || slot->type != DescriptorHeapType::kSampler) {
-    return MakeError(Id::kDescriptorHandle, "CreateSampler: ", Hex(dest.ptr),
-                     slot ? " is in a CBV/SRV/UAV heap" : " is not in a live descriptor heap");
+    return MakeError(Id::kDescriptorHandle, "CreateSampler: ", Hex(dest.ptr), DescribeHeap(slot),
+                     "; it must be in one of kSampler");
   }
   auto object = impl_->backend->create_sampler(desc);
   if (!object.ok()) return object.error();

@@ -90,8 +90,7 @@ Result<TargetSlot*> FindTarget(const DeviceImpl& device, CpuDescriptorHandle han
   const DescriptorHeapType type =
       depth_stencil ? DescriptorHeapType::kDsv : DescriptorHeapType::kRtv;
   if (slot && slot->type == type) return slot->target;
-  return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr),
-                   slot ? " is in a heap of another type" : " is not in a live descriptor heap",
+  return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), DescribeHeap(slot),
                    "; it must be in one of ", depth_stencil ? "kDsv" : "kRtv");
 }
 

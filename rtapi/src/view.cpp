@@ -32,8 +32,8 @@ struct BufferView {
 Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descriptor& value) {
   const auto slot = device.FindSlot(dest);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
-    return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr),
-                     slot ? " is in a heap of another type" : " is not in a live descriptor heap");
+    return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr), DescribeHeap(slot),
+                     "; it must be in one of kCbvSrvUav");
   }
   std::memcpy(slot->slot, &value, sizeof value);
   return {};
