@@ -184,5 +184,18 @@ std::vector<RuleTest> as_copy_tests();
 std::vector<RuleTest> pay_qualifier_tests();
 std::vector<RuleTest> rq_tests();
 std::vector<RuleTest> err_tests();
+std::vector<RuleTest> ras_assembler_tests();
+std::vector<RuleTest> ras_link_tests();
+std::vector<RuleTest> ras_clip_tests();
+std::vector<RuleTest> ras_viewport_tests();
+std::vector<RuleTest> ras_coverage_tests();
+std::vector<RuleTest> ras_depth_tests();
+std::vector<RuleTest> ras_attribute_tests();
+std::vector<RuleTest> ras_quad_tests();
+std::vector<RuleTest> ras_lod_tests();
+std::vector<RuleTest> ras_order_tests();
+std::vector<RuleTest> ras_output_tests();
+std::vector<RuleTest> ras_clear_tests();
+std::vector<RuleTest> ras_draw_tests();
 
 }  // namespace kaamos::conformance

@@ -43,6 +43,7 @@ void list_rules(const std::string& filter) {
               << (tested                ? ""
                   : rule.tag == 'F'     ? " (free: tests assert nothing)"
                   : rule.not_applicable ? " (not applicable)"
+                  : rule.not_offered    ? " (not offered)"
                                         : " (not yet tested)")
               << "\n";
   }

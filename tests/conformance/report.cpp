@@ -19,6 +19,8 @@ const char* name_of(Outcome outcome) {
       return "known deviation";
     case Outcome::kNotApplicable:
       return "not applicable";
+    case Outcome::kNotOffered:
+      return "not offered";
     case Outcome::kNotTested:
       break;
   }
@@ -41,7 +43,9 @@ std::string line_of(const RuleResult& result) {
   for (std::string line; std::getline(detail, line);) {
     // Prints the reason and the first line of what was found; JSON has the rest.
     if (result.outcome == Outcome::kKnownDeviation && ++lines > 2) break;
-    out += result.outcome == Outcome::kNotApplicable ? ": " + line : "\n    " + line;
+    const bool reason =
+        result.outcome == Outcome::kNotApplicable || result.outcome == Outcome::kNotOffered;
+    out += reason ? ": " + line : "\n    " + line;
   }
   return out;
 }
@@ -53,8 +57,12 @@ std::string line_of(const Target& target, const Progress& progress) {
 
 std::string summary_of(const TargetResults& results) {
   size_t required = 0, passed = 0, not_tested = 0;
-  std::string failing;
+  std::string failing, not_offered;
   for (const RuleResult& result : results.second) {
+    if (result.outcome == Outcome::kNotOffered) {
+      not_offered += (not_offered.empty() ? "" : ", ") + std::string(result.rule->id);
+      continue;
+    }
     if (!result.rule->required() || result.outcome == Outcome::kNotApplicable) continue;
     ++required;
     if (result.outcome == Outcome::kPassed) ++passed;
@@ -68,6 +76,7 @@ std::string summary_of(const TargetResults& results) {
                     std::to_string(required) + " required rules pass";
   if (!failing.empty()) out += "; failing: " + failing;
   if (not_tested > 0) out += "; not yet tested: " + std::to_string(not_tested);
+  if (!not_offered.empty()) out += "; not offered: " + not_offered;
   return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The rules of DXR that Kaamos keeps, and the known deviations.
+// The rules of DXR and of drawing that Kaamos keeps, and the known deviations.
 #pragma once
 
 #include <optional>
@@ -18,6 +18,7 @@ struct Rule {
   const char* title;
   const char* not_applicable = nullptr;  // why the rule cannot be kept or broken here
   const char* partly = nullptr;          // which part of the rule does not apply
+  const char* not_offered = nullptr;     // which feature the rule is of, that Kaamos does not have
 
   bool required() const { return tag == 'R'; }
 };

@@ -36,7 +36,7 @@ struct DeviceCheck {
 };
 DeviceCheck check_device(const Target& target);
 
-enum class Outcome { kPassed, kFailed, kKnownDeviation, kNotApplicable, kNotTested };
+enum class Outcome { kPassed, kFailed, kKnownDeviation, kNotApplicable, kNotOffered, kNotTested };
 struct RuleResult {
   const Rule* rule = nullptr;
   Outcome outcome = Outcome::kNotTested;
