@@ -119,7 +119,13 @@ std::vector<Section> all_sections() {
           {"ras_assembler", ras_assembler_tests()},
           {"ras_link", ras_link_tests()},
           {"ras_clip", ras_clip_tests()},
-          {"ras_viewport", ras_viewport_tests()}};
+          {"ras_viewport", ras_viewport_tests()},
+          {"ras_coverage", ras_coverage_tests()},
+          {"ras_depth", ras_depth_tests()},
+          {"ras_attribute", ras_attribute_tests()},
+          {"ras_quad", ras_quad_tests()},
+          {"ras_lod", ras_lod_tests()},
+          {"ras_order", ras_order_tests()}};
 }
 
 std::vector<RuleTest> all_tests() {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of depth share.
+#pragma once
+
+#include <vector>
+
+#include "tests/conformance/screen.h"
+
+namespace kaamos::conformance {
+
+// The target from side to side; z goes from `left` to `right`.
+std::vector<Corner> slope_over(const Screen& screen, float left, float right);
+// The tests of ras_depth_tests that are about depth bias.
+std::vector<RuleTest> ras_depth_bias_tests();
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/ras_reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaamos::conformance {
+
+namespace {
+
+// Pixels to the nearest 1/256, ties to even.
+int64_t subpixels_of(double pixels) {
+  return static_cast<int64_t>(std::nearbyint(pixels * 256));
+}
+
+}  // namespace
+
+ExactTriangle::ExactTriangle(const Screen& screen, const Corner* corners) : size_(screen.size()) {
+  const double half = size_ / 2.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto& p = corners[i].position;
+    const double w = static_cast<double>(p[3]);
+    x_[i] = subpixels_of((static_cast<double>(p[0]) / w + 1) * half);
+    y_[i] = subpixels_of((1 - static_cast<double>(p[1]) / w) * half);
+    z_[i] = static_cast<long double>(p[2] / p[3]);
+    w_[i] = static_cast<long double>(p[3]);
+    value_[i] = static_cast<long double>(corners[i].value[0]);
+  }
+  area_ = (x_[1] - x_[0]) * (y_[2] - y_[0]) - (x_[2] - x_[0]) * (y_[1] - y_[0]);
+}
+
+// Twice the area of corners `from`, from + 1 and a point; positive as the triangle's own.
+int64_t ExactTriangle::edge(int from, int64_t x, int64_t y) const {
+  const int to = (from + 1) % 3;
+  const int64_t value = (x_[to] - x_[from]) * (y - y_[from]) - (x - x_[from]) * (y_[to] - y_[from]);
+  return area_ < 0 ? -value : value;
+}
+
+bool ExactTriangle::covers(uint32_t px, uint32_t py) const {
+  if (area_ == 0) return false;
+  const int64_t x = int64_t{px} * 256 + 128;
+  const int64_t y = int64_t{py} * 256 + 128;
+  for (int from = 0; from < 3; ++from) {
+    const int64_t value = edge(from, x, y);
+    if (value > 0) continue;
+    if (value < 0) return false;
+    // The clockwise direction of the edge: right is a top edge, up is a left one.
+    const int to = (from + 1) % 3;
+    const int64_t sign = area_ < 0 ? -1 : 1;
+    const int64_t dx = (x_[to] - x_[from]) * sign;
+    const int64_t dy = (y_[to] - y_[from]) * sign;
+    if (!(dy < 0 || (dy == 0 && dx > 0))) return false;
+  }
+  return true;
+}
+
+void ExactTriangle::each_pixel(const std::function<void(uint32_t x, uint32_t y)>& visit) const {
+  const auto pixel = [&](int64_t subpixels) {
+    return static_cast<uint32_t>(std::clamp<int64_t>(subpixels / 256, 0, size_));
+  };
+  const uint32_t left = pixel(*std::min_element(x_, x_ + 3));
+  const uint32_t right = pixel(*std::max_element(x_, x_ + 3) + 256);
+  const uint32_t top = pixel(*std::min_element(y_, y_ + 3));
+  const uint32_t bottom = pixel(*std::max_element(y_, y_ + 3) + 256);
+  for (uint32_t y = top; y < bottom; ++y) {
+    for (uint32_t x = left; x < right; ++x) {
+      if (covers(x, y)) visit(x, y);
+    }
+  }
+}
+
+void ExactTriangle::weights(uint32_t px, uint32_t py, long double out[3]) const {
+  const int64_t x = int64_t{px} * 256 + 128;
+  const int64_t y = int64_t{py} * 256 + 128;
+  const auto area = static_cast<long double>(std::abs(area_));
+  for (int i = 0; i < 3; ++i) {
+    out[i] = static_cast<long double>(edge((i + 1) % 3, x, y)) / area;
+  }
+}
+
+long double ExactTriangle::depth(uint32_t x, uint32_t y) const {
+  long double b[3];
+  weights(x, y, b);
+  return b[0] * z_[0] + b[1] * z_[1] + b[2] * z_[2];
+}
+
+long double ExactTriangle::value(uint32_t x, uint32_t y, bool perspective) const {
+  long double b[3];
+  weights(x, y, b);
+  long double sum = 0, weight = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (perspective) b[i] /= w_[i];
+    sum += b[i] * value_[i];
+    weight += b[i];
+  }
+  return sum / weight;
+}
+
+long double ExactTriangle::slope() const {
+  const auto area = static_cast<long double>(area_);
+  const long double dz1 = z_[1] - z_[0], dz2 = z_[2] - z_[0];
+  const auto dx1 = static_cast<long double>(x_[1] - x_[0]);
+  const auto dx2 = static_cast<long double>(x_[2] - x_[0]);
+  const auto dy1 = static_cast<long double>(y_[1] - y_[0]);
+  const auto dy2 = static_cast<long double>(y_[2] - y_[0]);
+  const long double x = (dz1 * dy2 - dz2 * dy1) / area;
+  const long double y = (dz2 * dx1 - dz1 * dx2) / area;
+  return (std::abs(x) + std::abs(y)) * 256;
+}
+
+long double ExactTriangle::thinness() const {
+  long double longest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto dx = static_cast<long double>(x_[(i + 1) % 3] - x_[i]);
+    const auto dy = static_cast<long double>(y_[(i + 1) % 3] - y_[i]);
+    longest = std::max(longest, dx * dx + dy * dy);
+  }
+  return longest / static_cast<long double>(std::abs(area_));
+}
+
+std::vector<Corner> grid_triangles(const Screen& screen, GridKind kind, uint32_t count,
+                                   std::mt19937& random) {
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const double size = screen.size();
+  const auto on_grid = [](double pixels) {
+    return static_cast<float>(std::nearbyint(pixels * 2048) / 2048);
+  };
+  std::vector<Corner> out;
+  out.reserve(size_t{count} * 3);
+  for (uint32_t i = 0; i < count; ++i) {
+    const double x = between(-20, size + 20), y = between(-20, size + 20);
+    const double along_x = between(-150, 150), along_y = between(-150, 150);
+    for (int corner = 0; corner < 3; ++corner) {
+      double px = x, py = y;
+      switch (kind) {
+        case GridKind::kSmall:
+          px += between(-4, 4);
+          py += between(-4, 4);
+          break;
+        case GridKind::kMedium:
+          px += between(-size / 4, size / 4);
+          py += between(-size / 4, size / 4);
+          break;
+        case GridKind::kHuge:
+          px = std::nearbyint(px + between(-4000, 4000));
+          py = std::nearbyint(py + between(-4000, 4000));
+          break;
+        case GridKind::kSliver:
+          px += along_x * corner / 2 + between(-0.6, 0.6);
+          py += along_y * corner / 2 + between(-0.6, 0.6);
+          break;
+        case GridKind::kCenters:
+          px = std::floor(px + between(-20, 20)) + 0.5;
+          py = std::floor(py + between(-20, 20)) + 0.5;
+          break;
+      }
+      const auto w = static_cast<float>(std::ldexp(1.0, static_cast<int>(random() % 6) - 1));
+      const auto z = static_cast<float>(random() % 65537) / 65536;
+      const auto value = static_cast<float>(random() % 65537) / 65536;
+      out.push_back(screen.at(on_grid(px), on_grid(py), z, w, {value, 0, 0, 1}));
+    }
+  }
+  return out;
+}
+
+}  // namespace kaamos::conformance
