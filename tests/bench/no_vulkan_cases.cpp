@@ -4,6 +4,10 @@
 
 namespace kaamos::bench {
 
+bool has_vulkan() {
+  return false;
+}
+
 std::vector<Case> vulkan_cases() {
   return {};
 }

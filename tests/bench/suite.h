@@ -48,6 +48,8 @@ std::string format_line(const Line& line);
 // What the cases share and only some of them need; made on first use.
 class Fixtures;
 
+bool has_vulkan();  // vulkan_cases.cpp: whether there is a Vulkan device
+
 struct Case {
   std::string name;
   // Throws std::runtime_error with a readable message.
@@ -63,6 +65,7 @@ std::vector<Case> claims_cases();     // claims_cases.cpp
 std::vector<Case> frame_cases();      // frame_cases.cpp
 std::vector<Case> reference_cases();  // reference_cases.cpp
 std::vector<Case> vulkan_cases();     // vulkan_cases.cpp; empty where there is no Vulkan device
+std::vector<Case> raster_cases();     // raster_cases.cpp; last: they change how the heap grows
 
 // If it fails, `error` says which argument is wrong and what is allowed. `arguments` excludes the
 // program.

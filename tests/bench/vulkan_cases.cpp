@@ -268,14 +268,14 @@ Case first_dispatch_case(bool cached) {
           }};
 }
 
+}  // namespace
+
 bool has_vulkan() {
   for (const rtapi::DeviceInfo& info : rtapi::EnumerateDevices()) {
     if (info.Backend == "vulkan") return true;
   }
   return false;
 }
-
-}  // namespace
 
 std::vector<Case> vulkan_cases() {
   std::vector<Case> cases;

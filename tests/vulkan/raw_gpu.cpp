@@ -138,7 +138,10 @@ void Gpu::open_device() {
   v12.descriptorBindingUpdateUnusedWhilePending = VK_TRUE;
   v12.shaderSampledImageArrayNonUniformIndexing = VK_TRUE;
   v12.shaderStorageImageArrayNonUniformIndexing = VK_TRUE;
-  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, &v12};
+  v13.dynamicRendering = VK_TRUE;
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v13};
+  features.features.geometryShader = VK_TRUE;  // for gl_PrimitiveID in pixel shaders
   features.features.shaderInt64 = VK_TRUE;
   features.features.shaderStorageImageReadWithoutFormat = VK_TRUE;
   features.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
@@ -220,6 +223,7 @@ Buffer Gpu::buffer(uint64_t size_bytes) {
                VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR |
                VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
                VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
+               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   check(vkCreateBuffer(device_, &info, nullptr, &result.buffer), "vkCreateBuffer");
   VkMemoryRequirements needs;
@@ -250,6 +254,21 @@ void Gpu::free(Buffer& buffer) {
 }
 
 Image Gpu::image(VkFormat format, uint32_t width, uint32_t height) {
+  return make_image(format, width, height, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT,
+                    VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+Image Gpu::target(VkFormat format, uint32_t width, uint32_t height) {
+  if (format == VK_FORMAT_D32_SFLOAT) {
+    return make_image(format, width, height, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                      VK_IMAGE_ASPECT_DEPTH_BIT);
+  }
+  return make_image(format, width, height, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                    VK_IMAGE_ASPECT_COLOR_BIT);
+}
+
+Image Gpu::make_image(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage,
+                      VkImageAspectFlags aspect) {
   Image result;
   result.format = format;
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
@@ -259,8 +278,7 @@ Image Gpu::image(VkFormat format, uint32_t width, uint32_t height) {
   info.mipLevels = 1;
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-               VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  info.usage = usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   check(vkCreateImage(device_, &info, nullptr, &result.image), "vkCreateImage");
   VkMemoryRequirements needs;
   vkGetImageMemoryRequirements(device_, result.image, &needs);
@@ -273,7 +291,7 @@ Image Gpu::image(VkFormat format, uint32_t width, uint32_t height) {
   view.image = result.image;
   view.viewType = VK_IMAGE_VIEW_TYPE_2D;
   view.format = format;
-  view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  view.subresourceRange = {aspect, 0, 1, 0, 1};
   check(vkCreateImageView(device_, &view, nullptr, &result.view), "vkCreateImageView");
   run([&](VkCommandBuffer list) {
     VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The least Vulkan that a ray tracing program needs, without anything of runtime/vulkan. The
-// driver's stress test and the hand-written baselines of tests/bench use it. A call that fails
-// throws std::runtime_error with the call's name, which is fine for standalone programs.
+// The least Vulkan that a program needs which traces rays or draws, without anything of
+// runtime/vulkan. The driver's stress test and the hand-written baselines of tests/bench use it. A
+// call that fails throws std::runtime_error with the call's name, which is fine for standalone
+// programs.
 #pragma once
 
 #define VK_NO_PROTOTYPES
@@ -83,7 +84,9 @@ class Gpu {
 
   Buffer buffer(uint64_t size_bytes);
   void free(Buffer& buffer);
-  Image image(VkFormat format, uint32_t width, uint32_t height);  // layout: GENERAL
+  // Layout: GENERAL.
+  Image image(VkFormat format, uint32_t width, uint32_t height);   // for shaders
+  Image target(VkFormat format, uint32_t width, uint32_t height);  // for draws; depth: D32 only
   void free(Image& image);
 
   // Records, submits and waits. Throws after a minute. Any thread may call it.
@@ -118,6 +121,8 @@ class Gpu {
   void choose_device();
   void open_device();
   void create_layout();
+  Image make_image(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage,
+                   VkImageAspectFlags aspect);
   uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags wanted) const;
 
   VkInstance instance_ = VK_NULL_HANDLE;

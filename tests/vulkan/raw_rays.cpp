@@ -200,7 +200,9 @@ std::vector<uint32_t> compile(VkShaderStageFlagBits stage, const std::string& gl
       {VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, EShLangClosestHit},
       {VK_SHADER_STAGE_MISS_BIT_KHR, EShLangMiss},
       {VK_SHADER_STAGE_CALLABLE_BIT_KHR, EShLangCallable},
-      {VK_SHADER_STAGE_COMPUTE_BIT, EShLangCompute}};
+      {VK_SHADER_STAGE_COMPUTE_BIT, EShLangCompute},
+      {VK_SHADER_STAGE_VERTEX_BIT, EShLangVertex},
+      {VK_SHADER_STAGE_FRAGMENT_BIT, EShLangFragment}};
   const EShLanguage language = languages.at(stage);
   glslang::TShader shader(language);
   const char* text = glsl.c_str();
