@@ -87,6 +87,11 @@ class NullBackend : public runtime::BackendDevice {
     return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
   }
 
+  Result<std::shared_ptr<runtime::BackendQueryHeap>> create_query_heap(uint32_t count) override {
+    return std::make_shared<runtime::BackendQueryHeap>(count);
+  }
+  uint64_t timestamp_frequency() const override { return 1000; }
+
   RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       RaytracingAccelerationStructureType, RaytracingAccelerationStructureBuildFlags flags,
       std::span<const RaytracingGeometryDesc> geometries, uint32_t instances) const override {

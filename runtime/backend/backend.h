@@ -104,6 +104,10 @@ class BackendDevice {
   virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_graphics_pipeline(
       std::shared_ptr<const LinkedGraphics> pipeline) = 0;
 
+  // Timestamps
+  virtual rtapi::Result<std::shared_ptr<BackendQueryHeap>> create_query_heap(uint32_t count) = 0;
+  virtual uint64_t timestamp_frequency() const = 0;  // ticks per second
+
   // Acceleration structures. `geometries` is empty for a top level, `instance_count` is 0 for a
   // bottom level. GPU memory is not read. Sizes are multiples of 256 and grow with every count.
   virtual rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(

@@ -27,6 +27,8 @@ struct NameOf {
   const char* operator()(const ClearTargetCommand& clear) const {
     return clear.depth_stencil ? "ClearDepthStencilView" : "ClearRenderTargetView";
   }
+  const char* operator()(const TimestampCommand&) const { return "EndQuery"; }
+  const char* operator()(const ResolveTimestampsCommand&) const { return "ResolveQueryData"; }
   const char* operator()(const EventCommand& event) const {
     return event.begin ? "BeginEvent" : "EndEvent";
   }

@@ -18,6 +18,7 @@
 #include <rtapi/root_signature.h>
 
 #include "runtime/backend/draw_commands.h"
+#include "runtime/backend/queries.h"
 #include "runtime/backend/root_bindings.h"
 
 namespace kaamos::runtime {
@@ -174,7 +175,7 @@ using Command =
     std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
                  EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, CopyBufferCommand,
                  CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand, DrawCommand,
-                 ClearTargetCommand>;
+                 ClearTargetCommand, TimestampCommand, ResolveTimestampsCommand>;
 
 // What the application called, for messages: "DispatchRays".
 const char* command_name(const Command& command);

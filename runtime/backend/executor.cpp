@@ -46,6 +46,12 @@ class Executor {
   rtapi::Status operator()(const ClearTargetCommand& command) {
     return target_.clear_target(command);
   }
+  rtapi::Status operator()(const TimestampCommand& command) {
+    auto status = target_.write_timestamp(command);
+    if (status) command.heap->set_written(command.index);
+    return status;
+  }
+  rtapi::Status operator()(const ResolveTimestampsCommand& command);
   rtapi::Status operator()(const BarrierCommand&) { return target_.barrier(); }
   rtapi::Status operator()(const EventCommand& command) {
     if (command.begin) {
@@ -113,6 +119,17 @@ rtapi::Status Executor::operator()(const ExecuteIndirectCommand& command) {
     return status;
   };
   return execute_indirect(*context_.addresses, command, label("ExecuteIndirect"), run_one);
+}
+
+rtapi::Status Executor::operator()(const ResolveTimestampsCommand& command) {
+  for (uint32_t i = command.first; i < command.first + command.count; ++i) {
+    if (command.heap->written(i)) continue;
+    warnings_.push_back({Id::kTimestampNotWritten, label("ResolveQueryData") + ": query " +
+                                                       std::to_string(i) +
+                                                       " was never ended, and is 0."});
+    break;
+  }
+  return target_.resolve_timestamps(command);
 }
 
 }  // namespace

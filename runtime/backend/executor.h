@@ -46,6 +46,8 @@ class CommandTarget {
   virtual rtapi::Status copy_buffer(const CopyBufferCommand& command, const std::string& label) = 0;
   virtual rtapi::Status copy_texture(const CopyTextureCommand& command) = 0;
   virtual rtapi::Status clear(const ClearUavCommand& command) = 0;
+  virtual rtapi::Status write_timestamp(const TimestampCommand& command) = 0;
+  virtual rtapi::Status resolve_timestamps(const ResolveTimestampsCommand& command) = 0;
   virtual rtapi::Status barrier() = 0;
   // Returns when all earlier commands are done, so that the host sees what they wrote.
   virtual rtapi::Status finish() = 0;

@@ -214,6 +214,11 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics
       std::make_shared<GraphicsPipeline>(std::move(pipeline)));
 }
 
+rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Device::create_query_heap(
+    uint32_t count) {
+  return std::shared_ptr<runtime::BackendQueryHeap>(std::make_shared<Timestamps>(count));
+}
+
 rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
     rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
     std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const {

@@ -17,6 +17,7 @@
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/texture.h"
+#include "runtime/embree/timestamps.h"
 #include "runtime/raster/rasterizer.h"
 #include "runtime/structures/structure_commands.h"
 
@@ -44,6 +45,9 @@ class Device final : public runtime::BackendDevice {
       std::shared_ptr<const runtime::LinkedCompute> pipeline) override;
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_graphics_pipeline(
       std::shared_ptr<const runtime::LinkedGraphics> pipeline) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> create_query_heap(
+      uint32_t count) override;
+  uint64_t timestamp_frequency() const override { return Timestamps::kFrequency; }
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
       std::span<const rtapi::RaytracingGeometryDesc> geometries,

@@ -12,6 +12,7 @@
 #include "runtime/embree/device.h"
 #include "runtime/embree/draw.h"
 #include "runtime/embree/texture.h"
+#include "runtime/embree/timestamps.h"
 #include "runtime/raster/clear.h"
 
 namespace kaamos::embree {
@@ -61,6 +62,19 @@ class Target final : public runtime::CommandTarget {
                             const std::string& label) override;
   rtapi::Status copy_texture(const runtime::CopyTextureCommand& command) override;
   rtapi::Status clear(const runtime::ClearUavCommand& command) override;
+  rtapi::Status write_timestamp(const runtime::TimestampCommand& command) override {
+    if (auto s = finish(); !s) return s;
+    static_cast<Timestamps&>(*command.heap).write(command.index);
+    return {};
+  }
+  rtapi::Status resolve_timestamps(const runtime::ResolveTimestampsCommand& command) override {
+    if (auto s = finish(); !s) return s;
+    const uint64_t bytes = command.count * sizeof(uint64_t);
+    device_.memory().evict(command.dest->address() + command.dest_offset, bytes);
+    static_cast<const Timestamps&>(*command.heap)
+        .copy(command.first, command.count, command.dest->host() + command.dest_offset);
+    return {};
+  }
   // Only draws wait; nothing overlaps.
   rtapi::Status barrier() override { return finish(); }
   rtapi::Status finish() override { return reported(pass_.flush()); }

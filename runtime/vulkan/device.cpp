@@ -101,6 +101,11 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_
   return ComputePipeline::create(layout_, std::move(pipeline));
 }
 
+rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Device::create_query_heap(
+    uint32_t count) {
+  return Timestamps::create(gpu_, count);
+}
+
 rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
     rtapi::RaytracingAccelerationStructureType type,
     rtapi::RaytracingAccelerationStructureBuildFlags flags,

@@ -14,6 +14,7 @@
 #include "runtime/vulkan/memory.h"
 #include "runtime/vulkan/state_object.h"
 #include "runtime/vulkan/texture.h"
+#include "runtime/vulkan/timestamps.h"
 
 namespace kaamos::vulkan {
 
@@ -40,6 +41,9 @@ class Device final : public runtime::BackendDevice {
       std::shared_ptr<const runtime::LinkedCompute> pipeline) override;
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_graphics_pipeline(
       std::shared_ptr<const runtime::LinkedGraphics> pipeline) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> create_query_heap(
+      uint32_t count) override;
+  uint64_t timestamp_frequency() const override { return vulkan::timestamp_frequency(*gpu_); }
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       rtapi::RaytracingAccelerationStructureType type,
       rtapi::RaytracingAccelerationStructureBuildFlags flags,

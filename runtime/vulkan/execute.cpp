@@ -52,6 +52,14 @@ class Target final : public runtime::CommandTarget {
     }
     return device_.textures().clear(device_.stream(), command);
   }
+  rtapi::Status write_timestamp(const runtime::TimestampCommand& command) override {
+    return Timestamps::write(device_.stream(), command);
+  }
+  rtapi::Status resolve_timestamps(const runtime::ResolveTimestampsCommand& command) override {
+    device_.structures().evict(command.dest->address() + command.dest_offset,
+                               command.count * sizeof(uint64_t));
+    return Timestamps::resolve(device_.stream(), command);
+  }
   rtapi::Status barrier() override {
     device_.stream().everything();
     return {};

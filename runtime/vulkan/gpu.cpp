@@ -183,6 +183,7 @@ rtapi::Status Gpu::create_device() {
       [](const VkQueueFamilyProperties& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
   if (family == families.end()) return no_device(info_.Name + " has no queue for compute");
   queue_family_ = static_cast<uint32_t>(family - families.begin());
+  timestamp_bits_ = family->timestampValidBits;
   const FeatureChain features(physical_device_);
   features_ = features.optional();
   const float priority = 1;

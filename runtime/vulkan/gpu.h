@@ -113,6 +113,8 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   const rtapi::DeviceInfo& info() const { return info_; }
   const GpuProperties& properties() const { return properties_; }
   const GpuFeatures& features() const { return features_; }
+  // Valid bits of the queue's timestamps; 0: it has none.
+  uint32_t timestamp_bits() const { return timestamp_bits_; }
   const Workarounds& workarounds() const { return workarounds_; }
   // Names in the environment's lists of workarounds that do not exist.
   const std::vector<std::string>& unknown_workarounds() const { return unknown_workarounds_; }
@@ -162,6 +164,7 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   Workarounds workarounds_;
   std::vector<std::string> unknown_workarounds_;
   uint32_t queue_family_ = 0;
+  uint32_t timestamp_bits_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex queue_mutex_;
   std::mutex run_mutex_;  // guards the members below

@@ -202,3 +202,31 @@ void Box() {
 void HitBox(inout Payload payload, Attributes attributes) {
   payload.value = 200 + uint(attributes.place.x) + HitKind();
 }
+
+// Three triangles that cover the target, each with the depth of its instance.
+struct Corner {
+  float4 position : SV_Position;
+  nointerpolation uint instance : INSTANCE;
+};
+
+[shader("vertex")]
+Corner CoverAll(uint vertex : SV_VertexID, uint instance : SV_InstanceID) {
+  Corner corner;
+  const float2 side = float2(vertex == 1 ? 3.0f : -1.0f, vertex == 2 ? -3.0f : 1.0f);
+  corner.position = float4(side, float(instance + 1) / 4.0f, 1.0f);
+  corner.instance = instance;
+  return corner;
+}
+
+[shader("vertex")]
+Corner FromVertexBuffer(float2 position : POSITION) {
+  Corner corner;
+  corner.position = float4(position, 0.5f, 1.0f);
+  corner.instance = 6;
+  return corner;
+}
+
+[shader("pixel")]
+uint PixelNumber(Corner corner) : SV_Target {
+  return (corner.instance + 1) * 100 + uint(corner.position.x);
+}

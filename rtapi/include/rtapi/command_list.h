@@ -14,6 +14,7 @@
 #include <rtapi/descriptor.h>
 #include <rtapi/graphics_pipeline.h>
 #include <rtapi/pipeline_state.h>
+#include <rtapi/query.h>
 #include <rtapi/raytracing.h>
 #include <rtapi/resource.h>
 #include <rtapi/result.h>
@@ -361,6 +362,21 @@ class CommandList {
   /// of the resource, or a null pointer; KA0903 a resource of another device; KA0904 an empty one.
   void ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu_handle, CpuDescriptorHandle cpu_handle,
                                      const Resource& resource, const float values[4]);
+
+  /// Writes the time at which all earlier commands of the list are done, in ticks of
+  /// CommandQueue::GetTimestampFrequency, to a query of the heap. Later timestamps are never
+  /// smaller. [D3D12: EndQuery]
+  /// @errors KA0800; KA0745 another type than kTimestamp, or no such query; KA0903 a heap of
+  /// another device; KA0904 an empty handle.
+  void EndQuery(const QueryHeap& heap, QueryType type, uint32_t index);
+  /// Copies `count` queries from `start_index` on to a buffer of the default or readback heap: a
+  /// uint64_t each, without gaps. `destination_offset_bytes` is a multiple of 8. [D3D12:
+  /// ResolveQueryData]
+  /// @errors KA0800; KA0745 another type than kTimestamp, no such queries, or the buffer; KA0903 an
+  /// object of another device; KA0904 an empty handle. When it executes: warning KA0899, a query
+  /// that no EndQuery wrote; it is 0.
+  void ResolveQueryData(const QueryHeap& heap, QueryType type, uint32_t start_index, uint32_t count,
+                        const Buffer& destination, uint64_t destination_offset_bytes);
 
   /// Begins a span of commands that messages call by `name`. Spans nest. [D3D12: BeginEvent]
   /// @errors KA0800.

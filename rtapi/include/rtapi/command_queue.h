@@ -91,6 +91,10 @@ class CommandQueue {
   /// Device::GetDeviceRemovedReason says.
   Status Wait(const Fence& fence, uint64_t value);
 
+  /// Returns how many ticks of timestamps a second has. [D3D12: GetTimestampFrequency]
+  /// @errors KA0904 an empty handle.
+  Result<uint64_t> GetTimestampFrequency() const;
+
   /// Closes the list if it is open, executes it and waits until it has completed.
   /// @errors KA0904 an empty handle; KA0903 a list of another device; the first error of recording;
   /// KA0823 the list was closed with errors; KA0856 freed memory; what

@@ -14,6 +14,7 @@
 #include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
 #include <rtapi/pipeline_state.h>
+#include <rtapi/query.h>
 #include <rtapi/raytracing.h>
 #include <rtapi/resource.h>
 #include <rtapi/result.h>
@@ -318,6 +319,11 @@ class Device {
   /// the device is removed.
   Result<CommandSignature> CreateCommandSignature(const CommandSignatureDesc& desc,
                                                   const RootSignature& root_signature = {}) const;
+
+  /// Makes a heap of timestamp queries for CommandList::EndQuery. [D3D12: CreateQueryHeap]
+  /// @errors KA0904 an empty handle; KA0744 the description; on Vulkan KA0952, KA0958 the device
+  /// has no timestamps; KA0990 no memory; the reason if the device is removed.
+  Result<QueryHeap> CreateQueryHeap(const QueryHeapDesc& desc) const;
 
   // Acceleration structures
 

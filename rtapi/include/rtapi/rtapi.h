@@ -12,6 +12,7 @@
 #include <rtapi/device.h>             // IWYU pragma: export
 #include <rtapi/format.h>             // IWYU pragma: export
 #include <rtapi/pipeline_state.h>     // IWYU pragma: export
+#include <rtapi/query.h>              // IWYU pragma: export
 #include <rtapi/raytracing.h>         // IWYU pragma: export
 #include <rtapi/resource.h>           // IWYU pragma: export
 #include <rtapi/result.h>             // IWYU pragma: export
