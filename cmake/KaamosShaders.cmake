@@ -12,8 +12,12 @@ set(KAAMOS_SHADER_COMPILE_OPTIONS
 # eight threads that a compute shader runs at once. The program picks what its processor can run
 # (kaamos/shader/cpu_level.h); both give the same bits. -fno-weak keeps inline functions local to
 # their object, so the linker cannot pick the AVX2 version of one for code that runs everywhere.
-# Only g++ has this option.
+# Only g++ has this option. From version 12 on it has to be told that whole registers may be copied:
+# by itself it copies and clears eight threads' values in halves, which a load of the whole waits for.
 set(KAAMOS_SHADER_AVX2_OPTIONS -mavx2 -fno-weak)
+if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+  list(APPEND KAAMOS_SHADER_AVX2_OPTIONS -mmove-max=256 -mstore-max=256)
+endif()
 set(_kaamos_shader_avx2 OFF)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$"
    AND NOT KAAMOS_SANITIZE)

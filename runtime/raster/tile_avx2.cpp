@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/raster/tile_drawing.h"
 
+#ifndef __AVX2__
+#error "tile_avx2.cpp needs KAAMOS_SHADER_AVX2_OPTIONS"
+#endif
+
 namespace kaamos::raster {
 
 void draw_tile_avx2(const TileJob& job, TileScratch& scratch, ShaderThread& thread) {
