@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/raster/clear.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -16,7 +17,7 @@ constexpr uint32_t kMostTexelBytes = 16;
 // A texel, and which of its bits are written.
 struct Fill {
   uint32_t bytes = 0;
-  bool all_bits = true;
+  bool all_bits = true;  // then the mask does not count
   uint8_t value[kMostTexelBytes] = {};
   uint8_t mask[kMostTexelBytes] = {};
 };
@@ -64,7 +65,6 @@ uint32_t normalized(float depth, double steps) {
 
 Fill depth_fill(rtapi::Format format, const runtime::ClearTargetCommand& command) {
   Fill fill;
-  fill.all_bits = false;
   fill.bytes = rtapi::GetFormatInfo(format).bytes;
   const auto put_word = [&](uint32_t first, uint32_t word, uint32_t bytes) {
     uint8_t memory[4];
@@ -87,15 +87,21 @@ Fill depth_fill(rtapi::Format format, const runtime::ClearTargetCommand& command
   if (command.clear_stencil && rtapi::HasStencil(format)) {
     put_word(format == rtapi::Format::kD24UnormS8Uint ? 3 : 4, command.stencil, 1);
   }
+  fill.all_bits = std::count(fill.mask, fill.mask + fill.bytes, 0xFF) == fill.bytes;
   return fill;
 }
 
 void fill_row(uint8_t* texels, uint32_t count, const Fill& fill) {
-  for (uint32_t x = 0; x < count; ++x, texels += fill.bytes) {
-    if (fill.all_bits) {
-      std::memcpy(texels, fill.value, fill.bytes);
-      continue;
+  if (count == 0) return;
+  if (fill.all_bits) {
+    const size_t bytes = size_t{count} * fill.bytes;
+    std::memcpy(texels, fill.value, fill.bytes);
+    for (size_t done = fill.bytes; done < bytes; done *= 2) {
+      std::memcpy(texels + done, texels, std::min(done, bytes - done));
     }
+    return;
+  }
+  for (uint32_t x = 0; x < count; ++x, texels += fill.bytes) {
     for (uint32_t byte = 0; byte < fill.bytes; ++byte) {
       if (fill.mask[byte] != 0) texels[byte] = fill.value[byte];
     }

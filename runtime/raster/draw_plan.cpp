@@ -53,7 +53,7 @@ void plan_targets(const runtime::LinkedGraphics& linked, const Targets& targets,
     PlannedTarget target;
     target.codec = &target_codec(surface.format);
     if (target.codec->bytes == 0) continue;
-    target.surface = &surface;
+    target.slot = i;
     target.first_column = columns.first_column;
     target.components = columns.components;
     target.blend = linked.blend[i];

@@ -27,7 +27,7 @@ struct RowAttribute {
 // A render target that the pixel shader writes.
 struct PlannedTarget {
   const TargetCodec* codec = nullptr;
-  const Surface* surface = nullptr;
+  uint32_t slot = 0;
   uint32_t first_column = 0;
   uint32_t components = 0;
   uint32_t mask[4] = {};  // bits of each word that are written

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The most common formats of render targets, eight texels at a time: the words of
-// TargetCodec::encode.
+// TargetCodec::encode, as put(number of the word, words).
 #pragma once
 
 #include "runtime/raster/lanes.h"
@@ -56,54 +56,65 @@ KAAMOS_INLINE Ints8 to_halves(const shader::Column& column) {
       },
       load<int32_t>(column));
 }
+// As TargetCodec::encode.
+template <class Put>
+KAAMOS_INLINE void encode_any(const TargetCodec& codec, const shader::Column* colors,
+                              const Put& put) {
+  alignas(32) shader::Column words[4];
+  codec.encode(colors, words);
+  for (uint32_t w = 0; w < codec.words; ++w) put(w, load<int32_t>(words[w]));
+}
+
+template <class Put>
 KAAMOS_INLINE void encode_halves(const TargetCodec& codec, const shader::Column* colors,
-                                 shader::Column* words) {
+                                 const Put& put) {
   Ints8 largest{};
   for (uint32_t c = 0; c < codec.columns; ++c) {
     const Ints8 magnitude = magnitude_of(colors[c]);
     largest = choose(less(largest, magnitude), magnitude, largest);
   }
   // Infinity or NaN.
-  if (shader::any_lane(less(splat(0x7F7FFFFF), largest))) return codec.encode(colors, words);
+  if (shader::any_lane(less(splat(0x7F7FFFFF), largest))) return encode_any(codec, colors, put);
   for (uint32_t w = 0; w < codec.words; ++w) {
-    store(words[w], to_halves(colors[2 * w]) | shifted<16>(to_halves(colors[2 * w + 1])));
+    put(w, to_halves(colors[2 * w]) | shifted<16>(to_halves(colors[2 * w + 1])));
   }
 }
 
-template <int kRed, int kBlue, bool kSrgb>
-KAAMOS_INLINE void encode_bytes(const shader::Column* colors, shader::Column* words) {
+template <int kRed, int kBlue, bool kSrgb, class Put>
+KAAMOS_INLINE void encode_bytes(const shader::Column* colors, const Put& put) {
   const SrgbTable* table = kSrgb ? &srgb_table() : nullptr;
   const auto channel = [&](int c) KAAMOS_INLINE_LAMBDA {
     const Floats8 value = saturated(colors[c]);
     return kSrgb ? to_srgb(*table, value) : to_bytes(value);
   };
-  store(words[0], shifted<kRed>(channel(0)) | shifted<8>(channel(1)) | shifted<kBlue>(channel(2)) |
-                      shifted<24>(to_bytes(saturated(colors[3]))));
+  put(0, shifted<kRed>(channel(0)) | shifted<8>(channel(1)) | shifted<kBlue>(channel(2)) |
+             shifted<24>(to_bytes(saturated(colors[3]))));
 }
 
+template <class Put>
 KAAMOS_INLINE void encode_colors(const TargetCodec& codec, const shader::Column* colors,
-                                 shader::Column* words) {
+                                 const Put& put) {
   switch (codec.fast) {
     case FastEncode::kWords:
-      for (uint32_t w = 0; w < codec.words; ++w) store(words[w], load<int32_t>(colors[w]));
+      for (uint32_t w = 0; w < codec.words; ++w) put(w, load<int32_t>(colors[w]));
       break;
     case FastEncode::kHalves:
-      encode_halves(codec, colors, words);
+      encode_halves(codec, colors, put);
       break;
     case FastEncode::kRgba8:
-      encode_bytes<0, 16, false>(colors, words);
+      encode_bytes<0, 16, false>(colors, put);
       break;
     case FastEncode::kRgba8Srgb:
-      encode_bytes<0, 16, true>(colors, words);
+      encode_bytes<0, 16, true>(colors, put);
       break;
     case FastEncode::kBgra8:
-      encode_bytes<16, 0, false>(colors, words);
+      encode_bytes<16, 0, false>(colors, put);
       break;
     case FastEncode::kBgra8Srgb:
-      encode_bytes<16, 0, true>(colors, words);
+      encode_bytes<16, 0, true>(colors, put);
       break;
     default:
-      codec.encode(colors, words);
+      encode_any(codec, colors, put);
   }
 }
 

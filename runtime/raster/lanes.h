@@ -54,6 +54,17 @@ KAAMOS_INLINE wide<T> splat(T value) {
   shader::fill_lanes(out, value);
   return out;
 }
+// One value for each quad.
+template <class T>
+KAAMOS_INLINE wide<T> splat(T first, T second) {
+  simd::Register<T> a = simd::Register<T>{} + first;
+#ifdef __AVX2__
+  const simd::Register<T> b = simd::Register<T>{} + second;
+  return {__builtin_shufflevector(a, b, 0, 1, 2, 3, 12, 13, 14, 15)};
+#else
+  return {a, simd::Register<T>{} + second};
+#endif
+}
 template <class T>
 KAAMOS_INLINE wide<T> operator+(const wide<T>& a, const wide<T>& b) {
   return by_register<T>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x + y; }, a, b);
@@ -120,6 +131,23 @@ KAAMOS_INLINE lanes not_negative(const Ints8& a) {
   return by_register<bool>([](auto x) KAAMOS_INLINE_LAMBDA { return ~(x >> 31); }, a);
 }
 
+using IntQuarter [[gnu::vector_size(16)]] = int32_t;
+// The first and the last four lanes.
+KAAMOS_INLINE IntQuarter low_half(const Ints8& x) {
+#ifdef __AVX2__
+  return __builtin_shufflevector(x.a, x.a, 0, 1, 2, 3);
+#else
+  return x.a;
+#endif
+}
+KAAMOS_INLINE IntQuarter high_half(const Ints8& x) {
+#ifdef __AVX2__
+  return __builtin_shufflevector(x.a, x.a, 4, 5, 6, 7);
+#else
+  return x.b;
+#endif
+}
+
 // ---------------------------------------------------------------------------------------------
 // Doubles, for what must not round before the end.
 
@@ -148,6 +176,11 @@ KAAMOS_INLINE Doubles8 load_doubles(const double* from) {
   for (int i = 0; i < kDoubleRegisters; ++i) out.r[i] = (DoubleRegister)registers[i];
   return out;
 }
+KAAMOS_INLINE Doubles8 load_ints(const int32_t* from) {
+  double values[8];
+  for (int i = 0; i < 8; ++i) values[i] = from[i];
+  return load_doubles(values);
+}
 KAAMOS_INLINE Doubles8 operator+(const Doubles8& a, const Doubles8& b) {
   Doubles8 out;
   for (int i = 0; i < kDoubleRegisters; ++i) out.r[i] = a.r[i] + b.r[i];
@@ -165,7 +198,6 @@ KAAMOS_INLINE Doubles8 operator*(const Doubles8& a, const Doubles8& b) {
 }
 
 using FloatQuarter [[gnu::vector_size(16)]] = float;
-using IntQuarter [[gnu::vector_size(16)]] = int32_t;
 KAAMOS_INLINE Floats8 to_floats(const Doubles8& x) {
 #ifdef __AVX2__
   const FloatQuarter low = __builtin_convertvector(x.r[0], FloatQuarter);
@@ -205,6 +237,11 @@ KAAMOS_INLINE Doubles8 to_doubles(const Floats8& x) {
   double wide_values[8];
   for (int i = 0; i < 8; ++i) wide_values[i] = static_cast<double>(values[i]);
   return load_doubles(wide_values);
+}
+KAAMOS_INLINE Floats8 to_floats(const Ints8& x) {
+  return by_register<float>(
+      [](simd::Ints i) KAAMOS_INLINE_LAMBDA { return __builtin_convertvector(i, simd::Floats); },
+      x);
 }
 KAAMOS_INLINE Ints8 to_ints(const Floats8& x) {
   return by_register<int32_t>(

@@ -4,6 +4,9 @@
 // render targets.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+
 #include "runtime/raster/output_merger.h"
 #include "runtime/raster/pixel_depth.h"
 #include "runtime/raster/tile.h"
@@ -11,8 +14,8 @@
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
 
 // Centres of two quads' pixels in subpixels, from the first pixel's corner.
-inline constexpr double kQuadCenterX[8] = {128, 384, 128, 384, 128, 384, 128, 384};
-inline constexpr double kQuadCenterY[8] = {128, 128, 384, 384, 128, 128, 384, 384};
+inline constexpr int32_t kQuadCenterX[8] = {128, 384, 128, 384, 128, 384, 128, 384};
+inline constexpr int32_t kQuadCenterY[8] = {128, 128, 384, 384, 128, 128, 384, 384};
 
 // Weights of the primitive's vertices 1 and 2, in the order of Triangle::vertex.
 struct Weights8 {
@@ -51,8 +54,12 @@ class QuadShader {
   void set_up();
   void set_up_attributes();
   void shade(uint32_t first, bool pair);
-  KAAMOS_INLINE void set_position(const QuadPlaces& places, const Floats8& inv_w_scale);
   KAAMOS_INLINE void set_attributes(const QuadPlaces& places);
+  // Exact values of the two edges and of what they leave of the area, at the pixels of two quads.
+  struct Edges8 {
+    Floats8 first, second, rest;
+  };
+  KAAMOS_INLINE Edges8 edges_at(const int32_t x[2], const int32_t y[2]) const;
   KAAMOS_INLINE void interpolate(const std::vector<RowAttribute>& attributes, size_t first,
                                  const Weights8& weights);
   KAAMOS_INLINE void set_barycentrics(const Weights8& weights);
@@ -73,8 +80,9 @@ class QuadShader {
   bool is_set_up_ = false;
 
   // set_up() computes these for the triangle.
-  double edge_[2][2];  // of vertices 1 and 2: by x and y, from vertex 0, in subpixels
-  double area_;
+  int32_t edge_[2][2];  // of vertices 1 and 2: by x and y, from vertex 0, in subpixels
+  int64_t area_;
+  Ints8 in_quad_[2];  // of small triangles: what the edges add from a quad's corner
   float inv_area_;
   float inv_w_[3];  // scaled so that the largest is between 1 and 2
   float inv_w_scale_;
@@ -84,14 +92,20 @@ class QuadShader {
 inline void QuadShader::set_up() {
   is_set_up_ = true;
   const Triangle& t = *triangle_;
-  const double dx1 = t.x[1] - t.x[0], dy1 = t.y[1] - t.y[0];
-  const double dx2 = t.x[2] - t.x[0], dy2 = t.y[2] - t.y[0];
+  const int32_t dx1 = t.x[1] - t.x[0], dy1 = t.y[1] - t.y[0];
+  const int32_t dx2 = t.x[2] - t.x[0], dy2 = t.y[2] - t.y[0];
   edge_[0][0] = dy2;
   edge_[0][1] = -dx2;
   edge_[1][0] = -dy1;
   edge_[1][1] = dx1;
-  area_ = dx1 * dy2 - dx2 * dy1;
-  inv_area_ = static_cast<float>(1 / area_);
+  area_ = static_cast<int64_t>(dx1) * dy2 - static_cast<int64_t>(dx2) * dy1;
+  inv_area_ = static_cast<float>(1 / static_cast<double>(area_));
+  if ((t.flags & kSmall) != 0) {
+    for (int i = 0; i < 2; ++i) {
+      in_quad_[i] = splat(edge_[i][0]) * load<int32_t>(kQuadCenterX) +
+                    splat(edge_[i][1]) * load<int32_t>(kQuadCenterY);
+    }
+  }
   const float largest = std::max({t.inv_w[0], t.inv_w[1], t.inv_w[2]});
   // A power of 2: nothing rounds.
   const uint32_t exponent = std::bit_cast<uint32_t>(largest) & 0x7F800000u;
@@ -131,14 +145,7 @@ inline void QuadShader::set_up_attributes() {
 inline void QuadShader::shade(uint32_t first, bool pair) {
   const QuadQueue& queue = scratch_.queue;
   const uint32_t second = pair ? first + 1 : first;
-  QuadPlaces places;
-  for (int i = 0; i < 2; ++i) {
-    const uint32_t quad = queue.quad[i == 0 ? first : second];
-    places.x[i] = job_.x + quad % kQuadsPerRow * 2;
-    places.y[i] = job_.y + quad / kQuadsPerRow * 2;
-    places.inside[i] = places.x[i] + 2 <= job_.width && places.y[i] + 2 <= job_.height;
-  }
-  places.slice = job_.slice;
+  const QuadPlaces places = {{queue.quad[first], queue.quad[second]}};
   set_attributes(places);
   const auto& columns = plan_->linked->pixel_columns;
   if (columns.position != runtime::kNoColumn && columns.position_components > 2) {
@@ -152,41 +159,70 @@ inline void QuadShader::shade(uint32_t first, bool pair) {
   thread_.pixels(batch_->draw, pixel_lanes);
   uint32_t live = pixel_lanes.live & covered;
   if (live != 0 && (plan_->late_test || plan_->late_write)) live = test_late(first, pair, live);
-  if (live != 0) write_targets(*plan_, places, outputs_, live);
+  if (live != 0) write_targets(*plan_, scratch_.colors, places, outputs_, live);
+}
+
+inline QuadShader::Edges8 QuadShader::edges_at(const int32_t x[2], const int32_t y[2]) const {
+  const Triangle& t = *triangle_;
+  int32_t dx[2], dy[2];
+  for (int i = 0; i < 2; ++i) {
+    dx[i] = x[i] * kSubpixels - t.x[0];
+    dy[i] = y[i] * kSubpixels - t.y[0];
+  }
+  if ((t.flags & kSmall) != 0) {
+    const auto edge = [&](int k) KAAMOS_INLINE_LAMBDA {
+      const auto corner = [&](int i) { return edge_[k][0] * dx[i] + edge_[k][1] * dy[i]; };
+      return splat(corner(0), corner(1)) + in_quad_[k];
+    };
+    const Ints8 first = edge(0);
+    const Ints8 second = edge(1);
+    const Ints8 rest = splat(static_cast<int32_t>(area_)) - first - second;
+    return {to_floats(first), to_floats(second), to_floats(rest)};
+  }
+  const auto from_corner = [](const int32_t corner[2],
+                              const int32_t* centers) KAAMOS_INLINE_LAMBDA {
+    return doubles(static_cast<double>(corner[0]), static_cast<double>(corner[1])) +
+           load_ints(centers);
+  };
+  const Doubles8 from_x = from_corner(dx, kQuadCenterX);
+  const Doubles8 from_y = from_corner(dy, kQuadCenterY);
+  const auto edge = [&](int k) KAAMOS_INLINE_LAMBDA {
+    return doubles(static_cast<double>(edge_[k][0])) * from_x +
+           doubles(static_cast<double>(edge_[k][1])) * from_y;
+  };
+  const Doubles8 first = edge(0);
+  const Doubles8 second = edge(1);
+  return {to_floats(first), to_floats(second),
+          to_floats(doubles(static_cast<double>(area_)) - first - second)};
 }
 
 inline void QuadShader::set_attributes(const QuadPlaces& places) {
   const auto& columns = plan_->linked->pixel_columns;
   const bool position = columns.position != runtime::kNoColumn;
   if (!plan_->needs_perspective && !plan_->needs_screen && !position) return;
+  int32_t x[2], y[2];
+  for (int i = 0; i < 2; ++i) {
+    x[i] = static_cast<int32_t>(job_.x + places.quad[i] % kQuadsPerRow * 2);
+    y[i] = static_cast<int32_t>(job_.y + places.quad[i] / kQuadsPerRow * 2);
+  }
   if (position) {
-    const auto pixel = [](const uint32_t quad[2], const double* centers) KAAMOS_INLINE_LAMBDA {
-      return to_floats(doubles(quad[0], quad[1]) +
-                       load_doubles(centers) * doubles(1.0 / kSubpixels));
+    const auto pixel = [](const int32_t quad[2], const int32_t* centers) KAAMOS_INLINE_LAMBDA {
+      return to_floats(splat(quad[0] * kSubpixels, quad[1] * kSubpixels) + load<int32_t>(centers)) *
+             splat(1.0f / kSubpixels);
     };
-    store(inputs_[columns.position], pixel(places.x, kQuadCenterX));
+    store(inputs_[columns.position], pixel(x, kQuadCenterX));
     if (columns.position_components > 1) {
-      store(inputs_[columns.position + 1], pixel(places.y, kQuadCenterY));
+      store(inputs_[columns.position + 1], pixel(y, kQuadCenterY));
     }
   }
   if (!plan_->needs_perspective && !plan_->needs_screen) return;
 
-  const auto from_corner = [](const uint32_t quad[2], int32_t corner,
-                              const double* centers) KAAMOS_INLINE_LAMBDA {
-    const auto at = [&](int i) {
-      return static_cast<double>(static_cast<int32_t>(quad[i]) * kSubpixels - corner);
-    };
-    return doubles(at(0), at(1)) + load_doubles(centers);
-  };
-  const Doubles8 x = from_corner(places.x, triangle_->x[0], kQuadCenterX);
-  const Doubles8 y = from_corner(places.y, triangle_->y[0], kQuadCenterY);
-  const Doubles8 edge1 = doubles(edge_[0][0]) * x + doubles(edge_[0][1]) * y;
-  const Doubles8 edge2 = doubles(edge_[1][0]) * x + doubles(edge_[1][1]) * y;
+  const Edges8 edges = edges_at(x, y);
   const Floats8 inv_area = splat(inv_area_);
-  const Weights8 screen{to_floats(edge1) * inv_area, to_floats(edge2) * inv_area};
+  const Weights8 screen{edges.first * inv_area, edges.second * inv_area};
   Weights8 perspective = screen;
   if (plan_->needs_perspective) {
-    const Floats8 screen0 = to_floats(doubles(area_) - edge1 - edge2) * inv_area;
+    const Floats8 screen0 = edges.rest * inv_area;
     const Floats8 first = screen.first * splat(inv_w_[1]);
     const Floats8 second = screen.second * splat(inv_w_[2]);
     const Floats8 inv_sum = splat(1.0f) / (screen0 * splat(inv_w_[0]) + first + second);

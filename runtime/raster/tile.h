@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile of the targets while its triangles are drawn: depth is in a buffer of its own, in the
-// order of pixel shaders; colours are in the targets.
+// A tile of the targets while its triangles are drawn: depth and colours are in buffers of its own,
+// in the order of pixel shaders.
 #pragma once
 
 #include <cstdint>
 
 #include "runtime/raster/draw_plan.h"
 #include "runtime/raster/edges.h"
+#include "runtime/raster/tile_colors.h"
 #include "runtime/raster/triangle.h"
 #include "runtime/raster/workers.h"
 
@@ -38,6 +39,7 @@ struct QuadQueue {
 // Memory of one thread.
 struct TileScratch {
   TileDepth depth;
+  TileColors colors;
   QuadQueue queue;
   Storage<uint32_t> columns;  // inputs and outputs of the pixel shader
   Storage<float> attributes;  // at vertex 0 and the differences to the others

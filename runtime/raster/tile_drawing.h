@@ -15,6 +15,7 @@ class TileDrawing {
 
   void run() {
     scratch_.queue.count = 0;
+    scratch_.colors.begin(*job_.targets, job_.x, job_.y, job_.slice);
     bool loaded = false;
     bool written = false;
     for (uint32_t i = 0; i < job_.run_count; ++i) {
@@ -28,6 +29,7 @@ class TileDrawing {
       draw(run, plan);
     }
     if (written) scratch_.depth.store(job_.targets->depth, job_.x, job_.y, job_.slice);
+    scratch_.colors.store();
   }
 
  private:
@@ -110,7 +112,7 @@ class TileDrawing {
       Blocks<kKind, kShades> blocks{*this, plan, test, {}, {}};
       if (blocks.needs_z) blocks.plane.begin(triangle, x, y);
       if constexpr (kShades) {
-        prefetch(triangle, plan);
+        reach(triangle, plan);
         quads_.begin_triangle(triangle);
       }
       coverage.each_block(blocks);
@@ -118,26 +120,25 @@ class TileDrawing {
     }
   }
 
-  // The tile's rows of targets that a triangle is the first to reach, in bands of 8. Otherwise each
-  // quad would wait for memory.
-  KAAMOS_INLINE void prefetch(const Triangle& triangle, const DrawPlan& plan) {
-    if (prefetched_for_ != &plan) {
-      prefetched_for_ = &plan;
-      prefetched_ = 0;
+  // Fetches the colours that a triangle is the first to reach.
+  KAAMOS_INLINE void reach(const Triangle& triangle, const DrawPlan& plan) {
+    if (reached_by_ != &plan) {
+      reached_by_ = &plan;
+      reached_ = 0;
     }
+    constexpr int32_t kBand = TileColors::kBandRows;
+    constexpr int32_t kBands = kTileSize / kBand;
     const auto top = static_cast<int32_t>(job_.y);
-    const int32_t first = triangle.box.top > top ? (triangle.box.top - top) / 8 : 0;
-    const int32_t last =
-        triangle.box.bottom < top + kTileSize ? (triangle.box.bottom - 1 - top) / 8 : 7;
-    const uint32_t bands = ((2u << last) - 1) & ~((1u << first) - 1) & ~prefetched_;
-    if (bands != 0) prefetch_bands(plan, bands);
+    const int32_t first = triangle.box.top > top ? (triangle.box.top - top) / kBand : 0;
+    const int32_t last = triangle.box.bottom < top + kTileSize
+                             ? (triangle.box.bottom - 1 - top) / kBand
+                             : kBands - 1;
+    const uint32_t bands = ((2u << last) - 1) & ~((1u << first) - 1) & ~reached_;
+    if (bands != 0) load_bands(plan, bands);
   }
-  void prefetch_bands(const DrawPlan& plan, uint32_t bands) {
-    prefetched_ |= bands;
-    for (; bands != 0; bands &= bands - 1) {
-      const auto y = job_.y + 8 * static_cast<uint32_t>(std::countr_zero(bands));
-      prefetch_targets(plan, job_.x, y, job_.slice, kTileSize, 8);
-    }
+  void load_bands(const DrawPlan& plan, uint32_t bands) {
+    reached_ |= bands;
+    for (const PlannedTarget& target : plan.targets) scratch_.colors.load(target.slot, bands);
   }
 
   KAAMOS_INLINE void put(uint32_t quad, uint32_t bits, const Floats8& z, bool keeps_z) {
@@ -159,8 +160,8 @@ class TileDrawing {
   const TileJob& job_;
   TileScratch& scratch_;
   QuadShader quads_;
-  const DrawPlan* prefetched_for_ = nullptr;
-  uint32_t prefetched_ = 0;  // a bit for each band
+  const DrawPlan* reached_by_ = nullptr;
+  uint32_t reached_ = 0;  // bands of TileColors that are there for it
 };
 
 }  // namespace kaamos::raster::KAAMOS_RASTER_LEVEL
