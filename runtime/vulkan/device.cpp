@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/device.h"
 #include "runtime/backend/errors.h"
+#include "runtime/vulkan/texture_format.h"
 
 #include <utility>
 
@@ -41,7 +42,7 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   for (const std::string& name : gpu_->unknown_workarounds()) {
     warn(runtime::Id::kUnknownWorkaround,
          "KAAMOS_VULKAN_DISABLE_WORKAROUNDS or KAAMOS_VULKAN_ENABLE_WORKAROUNDS names \"" + name +
-             "\"; runtime/vulkan/README.md lists the known ones.");
+             "\"; runtime/vulkan/README.md and DRAWS.md list the known ones.");
   }
   return {};
 }
@@ -87,13 +88,24 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_raytraci
   return RaytracingPipeline::create(layout_, std::move(pipeline));
 }
 
-bool Device::supports_target(rtapi::Format, bool) const {
-  return false;
+bool Device::supports_target(rtapi::Format format, bool blended) const {
+  const TextureFormat known = texture_format(format);
+  if (!gpu_->features().graphics_lacks.empty() || known.format == VK_FORMAT_UNDEFINED) return false;
+  const VkFormatFeatureFlags2 features = format_features(gpu_->physical_device(), known.format);
+  if ((known.aspects & VK_IMAGE_ASPECT_COLOR_BIT) == 0) {
+    return !blended && rtapi::IsDepthFormat(format) &&
+           (features & VK_FORMAT_FEATURE_2_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
+  }
+  const bool snorm = rtapi::GetFormatInfo(format).type == rtapi::FormatClass::kSnorm;
+  if (blended && snorm && gpu_->workarounds().has(Workaround::kRefuseSnormBlend)) return false;
+  const VkFormatFeatureFlags2 needed = blended ? VK_FORMAT_FEATURE_2_COLOR_ATTACHMENT_BLEND_BIT
+                                               : VK_FORMAT_FEATURE_2_COLOR_ATTACHMENT_BIT;
+  return known.plain && (features & needed) != 0;
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics_pipeline(
-    std::shared_ptr<const runtime::LinkedGraphics>) {
-  return runtime::make_error(runtime::Id::kNoGraphics, "this is the Vulkan backend.");
+    std::shared_ptr<const runtime::LinkedGraphics> pipeline) {
+  return GraphicsPipeline::create(layout_, std::move(pipeline));
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_pipeline(

@@ -11,6 +11,7 @@
 #include "runtime/backend/errors.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/dispatch.h"
+#include "runtime/vulkan/draw.h"
 #include "runtime/vulkan/memory.h"
 #include "runtime/vulkan/state_object.h"
 #include "runtime/vulkan/texture.h"
@@ -67,6 +68,7 @@ class Device final : public runtime::BackendDevice {
     return {stream_.get(),  memory_.get(), structures_.get(), &scratch_, {},
             &check_memory_, &context_};
   }
+  DrawBlocks& draw_blocks() { return draw_blocks_; }
   void add(const rtapi::RaytracingStatistics& statistics);
   void warn(runtime::Id id, const std::string& text) const;
 
@@ -87,6 +89,7 @@ class Device final : public runtime::BackendDevice {
   std::unique_ptr<AccelerationStructures> structures_;
   DispatchMemory scratch_;
   DispatchMemory check_memory_;  // only for checked devices
+  DrawBlocks draw_blocks_;
   size_t validation_position_ = 0;
   mutable std::mutex statistics_mutex_;  // guards the next member
   rtapi::RaytracingStatistics statistics_;

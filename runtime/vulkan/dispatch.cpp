@@ -16,11 +16,6 @@ namespace {
 using shader::spirv::DispatchBlock;
 using shader::spirv::DispatchFeedback;
 
-constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks are at multiples of 64
-static_assert(sizeof(DispatchBlock) <= kBlockBytes);
-constexpr uint64_t kStatusBytes = 128;
-static_assert(sizeof(DispatchFeedback) <= kStatusBytes);
-
 // One of the application's tables, where its copy in the driver's form goes, and how many records
 // it has.
 struct Table {
@@ -254,7 +249,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   }
   auto status = run_dispatch(*environment_.stream, *buffer_, pipeline_.linked().max_recursion_depth,
                              pipeline_.max_trace_depth(), label_);
-  add_counts(*buffer_, result_.statistics);
+  add_counts(buffer_->host(), result_.statistics);
   const rtapi::DispatchRaysDesc& desc = command_.desc;
   checks::CodePlace place;
   place.dimensions[0] = desc.Width;
@@ -274,42 +269,6 @@ rtapi::Error fault_at(uint64_t address, const std::string& label) {
   return runtime::make_error(
       runtime::Id::kShaderFault,
       "it accessed address " + runtime::hexadecimal(address) + kWhoseAddress + " (" + label + ").");
-}
-
-// Whether a shader removed the device, and why.
-rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
-                        const std::string& label) {
-  DispatchFeedback status;
-  std::memcpy(&status, buffer.host(), sizeof(status));
-  if (status.removal_reason == 0) return {};
-  const auto reason = static_cast<shader::RemovalReason>(status.removal_reason - 1);
-  std::string text = "the shader asked for it";
-  switch (reason) {
-    case shader::RemovalReason::kRecursionDepth:
-      text = "the pipeline declares MaxTraceRecursionDepth " + std::to_string(declared_depth) +
-             ", but a shader at that depth called TraceRay";
-      if (depth_limit < declared_depth) {
-        text = "with such payloads this Vulkan device allows only a depth of " +
-               std::to_string(depth_limit) +
-               ", but a shader at that depth called TraceRay; the pipeline declares "
-               "MaxTraceRecursionDepth " +
-               std::to_string(declared_depth);
-      }
-      break;
-    case shader::RemovalReason::kStackOverflow:
-      text = "calls nest too deep";
-      break;
-    case shader::RemovalReason::kFault:
-      text = std::string("it accessed an address") + kWhoseAddress;
-      break;
-    case shader::RemovalReason::kMultisampled:
-      text = runtime::kMultisampledUse;
-      break;
-    case shader::RemovalReason::kOther:
-    case shader::RemovalReason::kStepLimit:
-      break;
-  }
-  return runtime::make_error(runtime::removal_id(reason), text + " (" + label + ").");
 }
 
 }  // namespace
@@ -367,9 +326,9 @@ void write_blocks(const DispatchBlock& block, const std::vector<GridPart>& parts
   }
 }
 
-void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics) {
+void add_counts(const uint8_t* feedback, rtapi::RaytracingStatistics& statistics) {
   DispatchFeedback status;
-  std::memcpy(&status, buffer.host(), sizeof(status));
+  std::memcpy(&status, feedback, sizeof(status));
   const auto count = [&](uint32_t what) {
     return uint64_t{status.counts[what][1]} << 32 | status.counts[what][0];
   };
@@ -384,13 +343,53 @@ void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics
   statistics.Hits = statistics.TraceRayCalls - statistics.Misses;
 }
 
-rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint32_t declared_depth,
-                           uint32_t depth_limit, const std::string& label) {
+rtapi::Status flush_guarded(CommandStream& stream, const std::string& label) {
   const bool processor = stream.gpu().properties().core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   const FaultGuard guard(processor);
   if (auto s = stream.flush(); !s) return s;
   if (guard.faulted()) return fault_at(guard.address(), label);
-  return status_of(buffer, declared_depth, depth_limit, label);
+  return {};
+}
+
+rtapi::Status status_of(const uint8_t* feedback, uint32_t declared_depth, uint32_t depth_limit,
+                        const std::string& label) {
+  DispatchFeedback status;
+  std::memcpy(&status, feedback, sizeof(status));
+  if (status.removal_reason == 0) return {};
+  const auto reason = static_cast<shader::RemovalReason>(status.removal_reason - 1);
+  std::string text = "the shader asked for it";
+  switch (reason) {
+    case shader::RemovalReason::kRecursionDepth:
+      text = "the pipeline declares MaxTraceRecursionDepth " + std::to_string(declared_depth) +
+             ", but a shader at that depth called TraceRay";
+      if (depth_limit < declared_depth) {
+        text = "with such payloads this Vulkan device allows only a depth of " +
+               std::to_string(depth_limit) +
+               ", but a shader at that depth called TraceRay; the pipeline declares "
+               "MaxTraceRecursionDepth " +
+               std::to_string(declared_depth);
+      }
+      break;
+    case shader::RemovalReason::kStackOverflow:
+      text = "calls nest too deep";
+      break;
+    case shader::RemovalReason::kFault:
+      text = std::string("it accessed an address") + kWhoseAddress;
+      break;
+    case shader::RemovalReason::kMultisampled:
+      text = runtime::kMultisampledUse;
+      break;
+    case shader::RemovalReason::kOther:
+    case shader::RemovalReason::kStepLimit:
+      break;
+  }
+  return runtime::make_error(runtime::removal_id(reason), text + " (" + label + ").");
+}
+
+rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint32_t declared_depth,
+                           uint32_t depth_limit, const std::string& label) {
+  if (auto s = flush_guarded(stream, label); !s) return s;
+  return status_of(buffer.host(), declared_depth, depth_limit, label);
 }
 
 CountedOutcome dispatch_rays(const DispatchEnvironment& environment,

@@ -69,10 +69,20 @@ void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<G
                   const GpuBuffer& buffer, uint64_t checks);
 uint64_t bytes_of_blocks(size_t part_count);
 uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
-// Submits what was recorded and waits. Ok, or why the device was removed.
+// A status, and a block behind it.
+inline constexpr uint64_t kStatusBytes = 128;
+inline constexpr uint64_t kBlockBytes = 640;  // blocks are at multiples of 64
+static_assert(sizeof(shader::spirv::DispatchFeedback) <= kStatusBytes);
+static_assert(sizeof(shader::spirv::DispatchBlock) <= kBlockBytes);
+// Submits what was recorded and waits; wild addresses in shaders are errors.
+rtapi::Status flush_guarded(CommandStream& stream, const std::string& label);
+// Whether a shader removed the device, and why. `status`: what shaders wrote.
+rtapi::Status status_of(const uint8_t* status, uint32_t declared_depth, uint32_t depth_limit,
+                        const std::string& label);
+// Both.
 rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint32_t declared_depth,
                            uint32_t depth_limit, const std::string& label);
 // After the work is done: adds what shaders counted.
-void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics);
+void add_counts(const uint8_t* status, rtapi::RaytracingStatistics& statistics);
 
 }  // namespace kaamos::vulkan

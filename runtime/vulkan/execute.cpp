@@ -14,31 +14,41 @@ namespace {
 
 class Target final : public runtime::CommandTarget {
  public:
-  explicit Target(Device& device) : device_(device) {}
+  explicit Target(Device& device)
+      : device_(device), pass_(device.dispatch_environment(), device.draw_blocks()) {}
 
   runtime::DispatchOutcome dispatch_rays(const runtime::DispatchRaysCommand& command,
                                          const std::string& label) override {
+    if (auto s = finish(); !s) return {s};
     return counted(vulkan::dispatch_rays(device_.dispatch_environment(), command, label));
   }
   runtime::DispatchOutcome dispatch(const runtime::DispatchCommand& command,
                                     const std::string& label) override {
+    if (auto s = finish(); !s) return {s};
     return counted(dispatch_compute(device_.dispatch_environment(), command, label));
   }
-  // Without graphics pipelines and targets there is nothing to record.
-  rtapi::Status draw(const runtime::DrawCommand&, const std::string&) override { return {}; }
-  rtapi::Status clear_target(const runtime::ClearTargetCommand&) override { return {}; }
+  rtapi::Status draw(const runtime::DrawCommand& command, const std::string& label) override {
+    return counted(pass_.draw(command, label)).status;
+  }
+  rtapi::Status clear_target(const runtime::ClearTargetCommand& command) override {
+    return pass_.clear(command);
+  }
   rtapi::Status build(const runtime::BuildCommand& command) override {
+    if (auto s = finish(); !s) return s;
     return device_.structures().build(device_.stream(), command);
   }
   rtapi::Status emit_postbuild_info(const runtime::EmitPostbuildInfoCommand& command) override {
+    if (auto s = finish(); !s) return s;
     return device_.structures().emit(device_.stream(), command);
   }
   rtapi::Status copy_structure(const runtime::CopyAccelerationStructureCommand& command) override {
+    if (auto s = finish(); !s) return s;
     return device_.structures().copy(device_.stream(), command);
   }
   rtapi::Status copy_buffer(const runtime::CopyBufferCommand& command,
                             const std::string& label) override;
   rtapi::Status copy_texture(const runtime::CopyTextureCommand& command) override {
+    if (auto s = end_draws(); !s) return s;
     if (command.dest.buffer != nullptr) {
       const runtime::TextureCopyPlace& place = command.dest;
       device_.structures().evict(place.buffer->address() + place.offset,
@@ -47,24 +57,27 @@ class Target final : public runtime::CommandTarget {
     return device_.textures().copy(device_.stream(), command);
   }
   rtapi::Status clear(const runtime::ClearUavCommand& command) override {
+    if (auto s = end_draws(); !s) return s;
     if (command.view.kind != shader::DescriptorKind::kTexture) {
       device_.structures().evict(command.view.address, command.view.size_bytes);
     }
     return device_.textures().clear(device_.stream(), command);
   }
   rtapi::Status write_timestamp(const runtime::TimestampCommand& command) override {
+    if (auto s = end_draws(); !s) return s;
     return Timestamps::write(device_.stream(), command);
   }
   rtapi::Status resolve_timestamps(const runtime::ResolveTimestampsCommand& command) override {
     device_.structures().evict(command.dest->address() + command.dest_offset,
                                command.count * sizeof(uint64_t));
+    if (auto s = end_draws(); !s) return s;
     return Timestamps::resolve(device_.stream(), command);
   }
   rtapi::Status barrier() override {
-    device_.stream().everything();
+    pass_.barrier();
     return {};
   }
-  rtapi::Status finish() override { return device_.stream().flush(); }
+  rtapi::Status finish() override { return counted(pass_.flush()).status; }
 
  private:
   runtime::DispatchOutcome counted(CountedOutcome result) {
@@ -72,12 +85,17 @@ class Target final : public runtime::CommandTarget {
     return result;
   }
 
+  // Before commands that may run what waits: draws need a guard when they run.
+  rtapi::Status end_draws() { return pass_.waits() ? finish() : rtapi::Status(); }
+
   Device& device_;
+  DrawPass pass_;
 };
 
 rtapi::Status Target::copy_buffer(const runtime::CopyBufferCommand& command,
                                   const std::string& label) {
   if (command.size_bytes == 0) return {};
+  if (auto s = end_draws(); !s) return s;
   device_.structures().evict(command.dest->address() + command.dest_offset, command.size_bytes);
   const uint64_t from = command.source_offset;
   const uint64_t to = command.dest_offset;
@@ -106,7 +124,8 @@ rtapi::Status Target::copy_buffer(const runtime::CopyBufferCommand& command,
 
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   Target target(*this);
-  const rtapi::Status status = runtime::execute(commands, target, context_);
+  rtapi::Status status = runtime::execute(commands, target, context_);
+  if (auto s = target.finish(); status && !s) status = s;
   // After an error too: what was recorded before it holds objects that may go now.
   if (auto s = stream_->flush(); !s) return s;
   return status ? validation_status() : status;

@@ -178,14 +178,21 @@ rtapi::Status Gpu::create_device() {
   vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, families.data());
-  const auto family = std::find_if(
-      families.begin(), families.end(),
-      [](const VkQueueFamilyProperties& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
+  const auto with = [&](VkQueueFlags flags) {
+    return std::find_if(families.begin(), families.end(), [&](const VkQueueFamilyProperties& f) {
+      return (f.queueFlags & flags) == flags;
+    });
+  };
+  const FeatureChain features(physical_device_);
+  features_ = features.optional();
+  auto family = with(VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT);
+  if (family == families.end()) {
+    family = with(VK_QUEUE_COMPUTE_BIT);
+    features_.graphics_lacks = "a queue for graphics and compute";
+  }
   if (family == families.end()) return no_device(info_.Name + " has no queue for compute");
   queue_family_ = static_cast<uint32_t>(family - families.begin());
   timestamp_bits_ = family->timestampValidBits;
-  const FeatureChain features(physical_device_);
-  features_ = features.optional();
   const float priority = 1;
   VkDeviceQueueCreateInfo queue = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = queue_family_;

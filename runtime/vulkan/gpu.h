@@ -54,6 +54,7 @@ struct GpuFeatures {
   bool sampler_filter_minmax = false;
   bool mirror_clamp_to_edge = false;
   bool external_memory_host = false;  // VK_EXT_external_memory_host
+  std::string graphics_lacks;         // what graphics pipelines need and the device does not have
 };
 
 class Gpu;

@@ -87,6 +87,10 @@ void FeatureChain::query(VkPhysicalDevice device) {
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_VIEW_MIN_LOD_FEATURES_EXT);
   optional(VK_EXT_ROBUSTNESS_2_EXTENSION_NAME, robustness2_,
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT);
+  optional(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip_,
+           VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT);
+  optional(VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME, divisor_,
+           VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VERTEX_ATTRIBUTE_DIVISOR_FEATURES_EXT);
   features_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features_.pNext = head;
   vkGetPhysicalDeviceFeatures2(device, &features_);
@@ -119,13 +123,12 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   require(core.shaderStorageImageReadWithoutFormat, "shaderStorageImageReadWithoutFormat");
   require(core.shaderStorageImageWriteWithoutFormat, "shaderStorageImageWriteWithoutFormat");
 
-  // Not wanted: they cost speed, or need special care.
-  features_.features.robustBufferAccess = VK_FALSE;
+  // Not wanted: they cost speed, or need special care. Robust buffers are wanted for vertices and
+  // indices; shaders access buffers by address, where it does not matter.
   vulkan11_.protectedMemory = VK_FALSE;
   vulkan12_.bufferDeviceAddressCaptureReplay = VK_FALSE;
   vulkan12_.bufferDeviceAddressMultiDevice = VK_FALSE;
   vulkan13_.robustImageAccess = VK_FALSE;
-  robustness2_.robustBufferAccess2 = VK_FALSE;
   robustness2_.robustImageAccess2 = VK_FALSE;
   acceleration_structure_.accelerationStructureCaptureReplay = VK_FALSE;
   acceleration_structure_.accelerationStructureHostCommands = VK_FALSE;
@@ -154,6 +157,37 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
     extensions_.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
   }
   optional_.mirror_clamp_to_edge = vulkan12_.samplerMirrorClampToEdge;
+  query_graphics();
+}
+
+void FeatureChain::query_graphics() {
+  std::string& lacks = optional_.graphics_lacks;
+  const auto need = [&](VkBool32 there, const char* name) {
+    if (!there) lacks += (lacks.empty() ? "" : ", ") + std::string(name);
+  };
+  const VkPhysicalDeviceFeatures& core = features_.features;
+  need(core.robustBufferAccess && robustness2_.robustBufferAccess2, "robustBufferAccess2");
+  need(robustness2_.nullDescriptor, "nullDescriptor");
+  need(core.fullDrawIndexUint32, "fullDrawIndexUint32");
+  need(core.independentBlend, "independentBlend");
+  need(core.depthClamp, "depthClamp");
+  need(core.depthBiasClamp, "depthBiasClamp");
+  need(core.multiViewport, "multiViewport");
+  need(core.geometryShader, "geometryShader");
+  need(core.shaderClipDistance, "shaderClipDistance");
+  need(core.shaderCullDistance, "shaderCullDistance");
+  need(core.vertexPipelineStoresAndAtomics, "vertexPipelineStoresAndAtomics");
+  need(core.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
+  need(core.occlusionQueryPrecise, "occlusionQueryPrecise");
+  need(vulkan11_.shaderDrawParameters, "shaderDrawParameters");
+  need(vulkan12_.shaderOutputLayer, "shaderOutputLayer");
+  need(vulkan12_.shaderOutputViewportIndex, "shaderOutputViewportIndex");
+  need(vulkan13_.dynamicRendering, "dynamicRendering");
+  need(vulkan13_.shaderDemoteToHelperInvocation, "shaderDemoteToHelperInvocation");
+  need(depth_clip_.depthClipEnable, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME);
+  need(divisor_.vertexAttributeInstanceRateDivisor &&
+           divisor_.vertexAttributeInstanceRateZeroDivisor,
+       VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME);
 }
 
 }  // namespace kaamos::vulkan

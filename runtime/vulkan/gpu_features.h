@@ -32,6 +32,8 @@ class FeatureChain {
  private:
   void query(VkPhysicalDevice device);
   void require(bool there, const char* name);
+  // Notes what graphics pipelines need.
+  void query_graphics();
   bool has(const char* extension) const;
 
   std::vector<VkExtensionProperties> available_;
@@ -49,6 +51,8 @@ class FeatureChain {
   VkPhysicalDeviceImage2DViewOf3DFeaturesEXT view_of_3d_ = {};
   VkPhysicalDeviceImageViewMinLodFeaturesEXT min_lod_ = {};
   VkPhysicalDeviceRobustness2FeaturesEXT robustness2_ = {};
+  VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip_ = {};
+  VkPhysicalDeviceVertexAttributeDivisorFeaturesEXT divisor_ = {};
 };
 
 }  // namespace kaamos::vulkan

@@ -13,9 +13,6 @@
 namespace kaamos::vulkan {
 namespace {
 
-using rtapi::SrvDimension;
-using runtime::TextureViewDesc;
-
 VkImageType image_type(rtapi::ResourceDimension dimension) {
   switch (dimension) {
     case rtapi::ResourceDimension::kTexture1D:
@@ -27,67 +24,8 @@ VkImageType image_type(rtapi::ResourceDimension dimension) {
   }
 }
 
-VkImageViewType view_type(SrvDimension dimension) {
-  switch (dimension) {
-    case SrvDimension::kTexture1D:
-      return VK_IMAGE_VIEW_TYPE_1D;
-    case SrvDimension::kTexture1DArray:
-      return VK_IMAGE_VIEW_TYPE_1D_ARRAY;
-    case SrvDimension::kTexture2DArray:
-      return VK_IMAGE_VIEW_TYPE_2D_ARRAY;
-    case SrvDimension::kTexture3D:
-      return VK_IMAGE_VIEW_TYPE_3D;
-    case SrvDimension::kTextureCube:
-      return VK_IMAGE_VIEW_TYPE_CUBE;
-    case SrvDimension::kTextureCubeArray:
-      return VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
-    default:
-      return VK_IMAGE_VIEW_TYPE_2D;
-  }
-}
-
 bool wants_storage(const rtapi::TextureDesc& desc) {
   return rtapi::HasAny(desc.Flags, rtapi::ResourceFlags::kAllowUnorderedAccess);
-}
-
-VkFormatFeatureFlags2 features_of(const Gpu& gpu, VkFormat format) {
-  VkFormatProperties3 properties3 = {VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3};
-  VkFormatProperties2 properties = {VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2};
-  properties.pNext = &properties3;
-  vkGetPhysicalDeviceFormatProperties2(gpu.physical_device(), format, &properties);
-  return properties3.optimalTilingFeatures;
-}
-
-constexpr VkFormatFeatureFlags2 kStorageFeatures =
-    VK_FORMAT_FEATURE_2_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_2_STORAGE_READ_WITHOUT_FORMAT_BIT |
-    VK_FORMAT_FEATURE_2_STORAGE_WRITE_WITHOUT_FORMAT_BIT;
-
-bool can_be_storage(const Gpu& gpu, VkFormat format) {
-  return (features_of(gpu, format) & kStorageFeatures) == kStorageFeatures;
-}
-
-std::string describe(const rtapi::TextureDesc& desc) {
-  return "\"" + desc.Name + "\" (" + std::to_string(desc.Width) + "x" +
-         std::to_string(desc.Height) + "x" + std::to_string(desc.DepthOrArraySize) + ", " +
-         std::to_string(desc.MipLevels) + " mips, DXGI format " +
-         std::to_string(static_cast<uint32_t>(desc.Format)) + ")";
-}
-
-VkComponentSwizzle swizzle_of(uint8_t source, const VkComponentMapping& channels) {
-  switch (source) {
-    case 0:
-      return channels.r;
-    case 1:
-      return channels.g;
-    case 2:
-      return channels.b;
-    case 3:
-      return channels.a;
-    case 5:
-      return VK_COMPONENT_SWIZZLE_ONE;
-    default:
-      return VK_COMPONENT_SWIZZLE_ZERO;
-  }
 }
 
 }  // namespace
@@ -97,7 +35,8 @@ Image::Image(std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptor
     : gpu_(std::move(gpu)),
       descriptors_(std::move(descriptors)),
       desc_(desc),
-      type_(image_type(desc.Dimension)) {}
+      type_(image_type(desc.Dimension)),
+      aspects_(image_format(desc).aspects) {}
 
 Image::~Image() {
   for (const View& view : views_) {
@@ -106,6 +45,9 @@ Image::~Image() {
         view.index);
     gpu_->vk().vkDestroyImageView(gpu_->device(), view.view, nullptr);
     gpu_->vk().vkDestroyImageView(gpu_->device(), view.other_form, nullptr);
+  }
+  for (const DrawnView& view : drawn_views_) {
+    gpu_->vk().vkDestroyImageView(gpu_->device(), view.view, nullptr);
   }
   gpu_->vk().vkDestroyImage(gpu_->device(), handle_, nullptr);
   gpu_->vk().vkFreeMemory(gpu_->device(), memory_, nullptr);
@@ -118,6 +60,20 @@ VkExtent3D Image::extent(uint32_t mip) const {
 
 bool Image::typeless() const {
   return rtapi::GetFormatInfo(desc_.Format).type == rtapi::FormatClass::kTypeless;
+}
+
+// Typeless textures, and targets that may be drawn to as sRGB. [RAS-118]
+bool Image::mutable_format() const {
+  if ((aspects_ & VK_IMAGE_ASPECT_COLOR_BIT) == 0) return false;
+  return typeless() || (rtapi::HasAny(desc_.Flags, rtapi::ResourceFlags::kAllowRenderTarget) &&
+                        rtapi::GetFormatInfo(desc_.Format).type == rtapi::FormatClass::kUnorm);
+}
+
+std::string Image::description() const {
+  return "\"" + desc_.Name + "\" (" + std::to_string(desc_.Width) + "x" +
+         std::to_string(desc_.Height) + "x" + std::to_string(desc_.DepthOrArraySize) + ", " +
+         std::to_string(desc_.MipLevels) + " mips, DXGI format " +
+         std::to_string(static_cast<uint32_t>(desc_.Format)) + ")";
 }
 
 rtapi::Result<std::shared_ptr<Image>> Image::create(std::shared_ptr<Gpu> gpu,
@@ -134,7 +90,7 @@ rtapi::Result<std::shared_ptr<Image>> Image::create(std::shared_ptr<Gpu> gpu,
 VkImageCreateInfo Image::create_info() const {
   VkImageCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = type_;
-  info.format = texture_format(desc_.Format).format;
+  info.format = image_format(desc_).format;
   info.extent = extent(0);
   info.mipLevels = desc_.MipLevels;
   info.arrayLayers = array_size();
@@ -143,8 +99,14 @@ VkImageCreateInfo Image::create_info() const {
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   if (wants_storage(desc_)) info.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
-  // Views of typeless textures have their own formats, some of which cannot be storage images.
-  if (typeless()) {
+  if (rtapi::HasAny(desc_.Flags, rtapi::ResourceFlags::kAllowRenderTarget)) {
+    info.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  }
+  if (rtapi::HasAny(desc_.Flags, rtapi::ResourceFlags::kAllowDepthStencil)) {
+    info.usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  }
+  // Views have their own formats, some of which cannot be storage images or targets.
+  if (mutable_format()) {
     info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_EXTENDED_USAGE_BIT;
   }
   if (type_ == VK_IMAGE_TYPE_2D && info.arrayLayers >= 6 && desc_.Width == desc_.Height) {
@@ -156,14 +118,14 @@ VkImageCreateInfo Image::create_info() const {
 rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
   const auto unsupported = [&](const std::string& why) {
     return runtime::make_error(runtime::Id::kTextureUnsupported,
-                               describe(desc_) + " on " + gpu_->info().Name + ": " + why + ".");
+                               description() + " on " + gpu_->info().Name + ": " + why + ".");
   };
   if (info.format == VK_FORMAT_UNDEFINED) {
     return unsupported("the Vulkan backend does not know this format");
   }
   const bool needs_storage = wants_storage(desc_) && !typeless();
-  if (needs_storage &&
-      (!texture_format(desc_.Format).plain || !can_be_storage(*gpu_, info.format))) {
+  if (needs_storage && (!texture_format(desc_.Format).plain ||
+                        !can_be_storage(gpu_->physical_device(), info.format))) {
     return unsupported(
         "the format does not support unordered access; create it without "
         "kAllowUnorderedAccess");
@@ -174,7 +136,7 @@ rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
                                                info.tiling, info.usage, info.flags, &limits);
   if (r == VK_ERROR_FORMAT_NOT_SUPPORTED)
     return unsupported("the device does not support the format");
-  if (r != VK_SUCCESS) return gpu_->error(r, "texture " + describe(desc_));
+  if (r != VK_SUCCESS) return gpu_->error(r, "texture " + description());
   if (info.extent.width > limits.maxExtent.width || info.extent.height > limits.maxExtent.height ||
       info.extent.depth > limits.maxExtent.depth || info.arrayLayers > limits.maxArrayLayers ||
       info.mipLevels > limits.maxMipLevels) {
@@ -189,7 +151,7 @@ rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
 
 rtapi::Status Image::allocate(const VkImageCreateInfo& info) {
   const VolkDeviceTable& vk = gpu_->vk();
-  const std::string what = "texture " + describe(desc_);
+  const std::string what = "texture " + description();
   VkResult r = vk.vkCreateImage(gpu_->device(), &info, nullptr, &handle_);
   if (r != VK_SUCCESS) return gpu_->error(r, what);
   VkMemoryRequirements needs;
@@ -231,7 +193,7 @@ void Image::clear_blocks(VkCommandBuffer commands, const GpuBuffer& zeros) const
 }
 
 rtapi::Status Image::fill_with_zeros() {
-  const std::string what = "clear of texture " + describe(desc_);
+  const std::string what = "clear of texture " + description();
   std::unique_ptr<GpuBuffer> zeros;
   if (block_side() != 1) {
     // Rows of 16384 texels have 64 KiB.
@@ -248,143 +210,23 @@ rtapi::Status Image::fill_with_zeros() {
         barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         barrier.image = handle_;
-        barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+        barrier.subresourceRange = {aspects_, 0, VK_REMAINING_MIP_LEVELS, 0,
                                     VK_REMAINING_ARRAY_LAYERS};
         gpu_->vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
                                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
                                         1, &barrier);
         if (zeros != nullptr) return clear_blocks(commands, *zeros);
+        if ((aspects_ & VK_IMAGE_ASPECT_COLOR_BIT) == 0) {
+          const VkClearDepthStencilValue nearest = {};
+          gpu_->vk().vkCmdClearDepthStencilImage(commands, handle_, VK_IMAGE_LAYOUT_GENERAL,
+                                                 &nearest, 1, &barrier.subresourceRange);
+          return;
+        }
         const VkClearColorValue black = {};
         gpu_->vk().vkCmdClearColorImage(commands, handle_, VK_IMAGE_LAYOUT_GENERAL, &black, 1,
                                         &barrier.subresourceRange);
       },
       what);
-}
-
-rtapi::Result<uint64_t> Image::view(const TextureViewDesc& desc) {
-  const std::lock_guard lock(mutex_);
-  for (const View& known : views_) {
-    if (known.desc == desc) return uint64_t{known.index};
-  }
-  if (auto s = check_view(desc); !s) return s.error();
-  auto view = create_view(desc);
-  if (!view) return view.error();
-  auto other = create_other_form(desc);
-  if (!other) {
-    gpu_->vk().vkDestroyImageView(gpu_->device(), *view, nullptr);
-    return other.error();
-  }
-  auto index = desc.unordered_access ? descriptors_->add_storage_images(*view, *other)
-                                     : descriptors_->add_sampled_images(*view, *other);
-  if (!index) {
-    gpu_->vk().vkDestroyImageView(gpu_->device(), *view, nullptr);
-    gpu_->vk().vkDestroyImageView(gpu_->device(), *other, nullptr);
-    return index.error();
-  }
-  views_.push_back({desc, *view, *other, *index});
-  return uint64_t{*index};
-}
-
-std::optional<TextureViewDesc> Image::storage_view(uint64_t index) const {
-  const std::lock_guard lock(mutex_);
-  for (const View& known : views_) {
-    if (known.desc.unordered_access && known.index == index) return known.desc;
-  }
-  return std::nullopt;
-}
-
-rtapi::Status Image::check_view(const TextureViewDesc& desc) const {
-  const auto unsupported = [&](const std::string& why) {
-    return runtime::make_error(runtime::Id::kViewUnsupported,
-                               "DXGI format " + std::to_string(static_cast<uint32_t>(desc.format)) +
-                                   " of texture " + describe(desc_) + " on " + gpu_->info().Name +
-                                   ": " + why + ".");
-  };
-  const TextureFormat format = texture_format(desc.format);
-  if (format.format == VK_FORMAT_UNDEFINED)
-    return unsupported("the Vulkan backend does not know this format");
-  if (desc.unordered_access && (!format.plain || !can_be_storage(*gpu_, format.format))) {
-    return unsupported("the format does not support unordered access");
-  }
-  if (!desc.unordered_access &&
-      (features_of(*gpu_, format.format) & VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_BIT) == 0) {
-    return unsupported("the format cannot be sampled");
-  }
-  if (desc.dimension == SrvDimension::kTextureCubeArray && !gpu_->features().image_cube_array) {
-    return unsupported("the device has no cube arrays (imageCubeArray)");
-  }
-  const bool part_of_volume =
-      type_ == VK_IMAGE_TYPE_3D && desc.unordered_access &&
-      (desc.first_slice != 0 || desc.slice_count != extent(desc.first_mip).depth);
-  if (part_of_volume) {
-    return unsupported("unordered access to only some slices of a volume; view all " +
-                       std::to_string(extent(desc.first_mip).depth) + " of them");
-  }
-  return {};
-}
-
-rtapi::Result<VkImageView> Image::create_view(const TextureViewDesc& desc) const {
-  const TextureFormat format = texture_format(desc.format);
-  const bool volume = type_ == VK_IMAGE_TYPE_3D;
-  VkImageViewUsageCreateInfo usage = {VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
-  usage.usage = desc.unordered_access ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT;
-  VkImageViewMinLodCreateInfoEXT min_lod = {VK_STRUCTURE_TYPE_IMAGE_VIEW_MIN_LOD_CREATE_INFO_EXT};
-  VkImageViewCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-  info.pNext = &usage;
-  info.image = handle_;
-  info.viewType = view_type(desc.dimension);
-  info.format = format.format;
-  info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, desc.first_mip, desc.mip_count,
-                           volume ? 0 : desc.first_slice, volume ? 1 : desc.slice_count};
-  if (!desc.unordered_access) {
-    info.components = {
-        swizzle_of(desc.swizzle[0], format.channels), swizzle_of(desc.swizzle[1], format.channels),
-        swizzle_of(desc.swizzle[2], format.channels), swizzle_of(desc.swizzle[3], format.channels)};
-    if (desc.min_lod > 0 && gpu_->features().image_view_min_lod) {
-      // Vulkan counts from the first mip of the image.
-      min_lod.minLod = std::min(desc.min_lod, static_cast<float>(desc.mip_count - 1)) +
-                       static_cast<float>(desc.first_mip);
-      min_lod.pNext = info.pNext;
-      info.pNext = &min_lod;
-    }
-  }
-  VkImageView view = VK_NULL_HANDLE;
-  const VkResult r = gpu_->vk().vkCreateImageView(gpu_->device(), &info, nullptr, &view);
-  if (r != VK_SUCCESS) return gpu_->error(r, "view of texture " + describe(desc_));
-  return view;
-}
-
-// An array of one for a single texture, the first element for an array.
-// [kaamos::shader::fits_shape]
-rtapi::Result<VkImageView> Image::create_other_form(const TextureViewDesc& desc) const {
-  TextureViewDesc other = desc;
-  switch (desc.dimension) {
-    case SrvDimension::kTexture1D:
-      other.dimension = SrvDimension::kTexture1DArray;
-      break;
-    case SrvDimension::kTexture2D:
-      other.dimension = SrvDimension::kTexture2DArray;
-      break;
-    case SrvDimension::kTexture1DArray:
-      other.dimension = SrvDimension::kTexture1D;
-      other.slice_count = 1;
-      break;
-    case SrvDimension::kTexture2DArray:
-      other.dimension = SrvDimension::kTexture2D;
-      other.slice_count = 1;
-      break;
-    case SrvDimension::kTextureCube:
-      if (!gpu_->features().image_cube_array) return VkImageView{VK_NULL_HANDLE};
-      other.dimension = SrvDimension::kTextureCubeArray;
-      break;
-    case SrvDimension::kTextureCubeArray:
-      other.dimension = SrvDimension::kTextureCube;
-      other.slice_count = 6;
-      break;
-    default:
-      return VkImageView{VK_NULL_HANDLE};
-  }
-  return create_view(other);
 }
 
 }  // namespace kaamos::vulkan

@@ -20,14 +20,19 @@ rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Memory::create_buffer(
   return std::shared_ptr<runtime::BackendBuffer>(std::move(buffer));
 }
 
-uint8_t* Memory::host(uint64_t address, uint64_t size_bytes) const {
+const GpuBuffer* Memory::find(uint64_t address) const {
   const std::shared_lock lock(mutex_);
   auto it = buffers_.upper_bound(address);
   if (it == buffers_.begin()) return nullptr;
-  const GpuBuffer& buffer = *std::prev(it)->second;
-  const uint64_t offset = address - buffer.address();
-  if (offset >= buffer.size_bytes() || size_bytes > buffer.size_bytes() - offset) return nullptr;
-  return buffer.host() == nullptr ? nullptr : buffer.host() + offset;
+  const GpuBuffer* buffer = std::prev(it)->second;
+  return address - buffer->address() < buffer->size_bytes() ? buffer : nullptr;
+}
+
+uint8_t* Memory::host(uint64_t address, uint64_t size_bytes) const {
+  const GpuBuffer* buffer = find(address);
+  if (buffer == nullptr || buffer->host() == nullptr) return nullptr;
+  const uint64_t offset = address - buffer->address();
+  return size_bytes > buffer->size_bytes() - offset ? nullptr : buffer->host() + offset;
 }
 
 void Memory::on_buffer_end(std::function<void(uint64_t, uint64_t)> listener) {

@@ -27,6 +27,9 @@ class Memory {
   // one live buffer. To see what GPU work wrote there, call CommandStream::flush first.
   uint8_t* host(uint64_t address, uint64_t size_bytes) const;
 
+  // The live buffer that has the byte at `address`; null if none has.
+  const GpuBuffer* find(uint64_t address) const;
+
   // The listener is called with the range of every buffer that ends, before its memory is freed;
   // null: none. It must not call back.
   void on_buffer_end(std::function<void(uint64_t address, uint64_t size_bytes)> listener);

@@ -74,7 +74,7 @@ VkShaderStageFlagBits stage_of(shader::Stage stage) {
 }
 
 StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
-                               const StageOptions& options) {
+                               const StageOptions& options, std::span<const StageConstant> more) {
   Constants constants;
   for (size_t i = 0; i < shader.slots.size(); ++i) {
     add_slot(static_cast<uint32_t>(i), shader.slots[i], constants);
@@ -84,6 +84,7 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
   constants.add(shader::spirv::kMaxCallableDepthConstant, options.max_callable_depth);
   constants.add(shader::spirv::kShaderConstant, options.shader);
   if (options.count) constants.add(shader::spirv::kCountConstant, 1);
+  for (const StageConstant& constant : more) constants.add(constant.id, constant.value);
   return std::move(constants.result);
 }
 
@@ -93,8 +94,7 @@ StageList::~StageList() {
   }
 }
 
-rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
-  if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
+rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
   if (shader.code->spirv == nullptr) {
     return runtime::make_error(
         runtime::Id::kNoSpirv,
@@ -109,6 +109,12 @@ rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& sha
             " uses RayQuery, but the device has no VK_KHR_ray_query; use another device "
             "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
   }
+  return {};
+}
+
+rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
+  if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
+  if (auto s = check_code(shader); !s) return s.error();
   auto made = create_module({shader.code->spirv, shader.code->spirv_words},
                             "the module of shader \"" + shader.name + "\"");
   if (made) modules_[shader.code] = *made;
@@ -127,12 +133,13 @@ rtapi::Result<VkShaderModule> StageList::create_module(std::span<const uint32_t>
   return made;
 }
 
-uint32_t StageList::push(shader::Stage stage, VkShaderModule module, StageConstants constants) {
+uint32_t StageList::push(VkShaderStageFlagBits stage, VkShaderModule module,
+                         StageConstants constants) {
   const StageConstants& kept = constants_.emplace_back(std::move(constants));
   infos_.push_back({static_cast<uint32_t>(kept.entries.size()), kept.entries.data(),
                     kept.values.size() * sizeof(uint32_t), kept.values.data()});
   VkPipelineShaderStageCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-  info.stage = stage_of(stage);
+  info.stage = stage;
   info.module = module;
   info.pName = "main";
   info.pSpecializationInfo = &infos_.back();
@@ -149,13 +156,26 @@ rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool
   StageOptions options = options_;
   options.shader = static_cast<uint32_t>(stages_.size() + 1);
   shaders_.push_back(&shader);
-  const uint32_t index = push(shader.code->stage, *made,
+  const uint32_t index = push(stage_of(shader.code->stage), *made,
                               stage_constants(shader, gpu_.workarounds().shader_bits(), options));
   if (!own) indices_[&shader] = index;
   return index;
 }
 
-rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, shader::Stage stage,
+rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader,
+                                       std::span<const uint32_t> code,
+                                       std::span<const StageConstant> more) {
+  if (auto s = check_code(shader); !s) return s.error();
+  auto made = create_module(code, "the module of shader \"" + shader.name + "\"");
+  if (!made) return made.error();
+  StageOptions options = options_;
+  options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  shaders_.push_back(&shader);
+  return push(stage_of(shader.code->stage), *made,
+              stage_constants(shader, gpu_.workarounds().shader_bits(), options, more));
+}
+
+rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
                                        uint32_t constant) {
   auto made = create_module(spirv, "a module of the backend's own");
   if (!made) return made.error();

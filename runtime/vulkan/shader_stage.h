@@ -23,6 +23,12 @@ struct StageOptions {
   uint32_t shader = 0;  // CheckEntry::shader
 };
 
+// A specialization constant of a stage.
+struct StageConstant {
+  uint32_t id = 0;
+  uint32_t value = 0;
+};
+
 VkShaderStageFlagBits stage_of(shader::Stage stage);
 
 // The values of a stage's constants, as VkSpecializationInfo takes them.
@@ -31,7 +37,8 @@ struct StageConstants {
   std::vector<uint32_t> values;
 };
 StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
-                               const StageOptions& options);
+                               const StageOptions& options,
+                               std::span<const StageConstant> more = {});
 
 // The stages of one pipeline while it is being created. Modules are destroyed with it; pipelines do
 // not need them.
@@ -45,9 +52,13 @@ class StageList {
   // The index of the shader's stage; repeated calls share the stage unless `own`. Errors: KA0954
   // the shader has no SPIR-V, KA0952.
   rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
+  // Adds a stage whose code was changed for this pipeline, with constants besides its own. Errors:
+  // as above.
+  rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, std::span<const uint32_t> code,
+                              std::span<const StageConstant> more);
   // Adds one of the backend's own shaders, after all others; `constant` is its specialization
   // constant 0.
-  rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, shader::Stage stage,
+  rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
                               uint32_t constant);
   const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
   // The shader of each stage, without the backend's own stages.
@@ -55,9 +66,10 @@ class StageList {
 
  private:
   rtapi::Result<VkShaderModule> module(const runtime::LinkedShader& shader);
+  rtapi::Status check_code(const runtime::LinkedShader& shader) const;
   rtapi::Result<VkShaderModule> create_module(std::span<const uint32_t> spirv,
                                               const std::string& name);
-  uint32_t push(shader::Stage stage, VkShaderModule module, StageConstants constants);
+  uint32_t push(VkShaderStageFlagBits stage, VkShaderModule module, StageConstants constants);
 
   Gpu& gpu_;
   StageOptions options_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/backend/wave_size.h"
 #include "runtime/vulkan/callable_frame.h"
 #include "runtime/vulkan/pipeline_stack.h"
@@ -16,7 +17,7 @@ constexpr VkShaderStageFlags kAllStages =
     VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
     VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
     VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR |
-    VK_SHADER_STAGE_COMPUTE_BIT;
+    VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_ALL_GRAPHICS;
 
 // Groups of the pipeline. The first ones belong to the records, in order.
 struct Groups {
@@ -155,7 +156,7 @@ rtapi::Status RaytracingPipeline::start() {
     runs |= record->kind == runtime::RecordKind::kRayGeneration;
   }
   if (frame.words != 0) {
-    auto stage = stages.add(callable_frame_spirv(), shader::Stage::kCallable, frame.words);
+    auto stage = stages.add(callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, frame.words);
     if (!stage) return stage.error();
     groups.infos.push_back(general_group(*stage));
   }

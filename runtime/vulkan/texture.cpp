@@ -2,6 +2,7 @@
 #include "runtime/vulkan/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "runtime/vulkan/image.h"
 #include "runtime/vulkan/memory.h"
 #include "runtime/vulkan/sampler.h"
+#include "runtime/vulkan/texture_format.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -24,8 +26,13 @@ const Image& image_of(const TextureCopyPlace& place) {
   return static_cast<const Image&>(*place.texture);
 }
 
-VkImageSubresourceLayers layers(uint32_t mip, uint32_t first, uint32_t count = 1) {
-  return {VK_IMAGE_ASPECT_COLOR_BIT, mip, first, count};
+VkImageSubresourceLayers layers(const TextureCopyPlace& place) {
+  return {image_of(place).aspects(), place.mip, place.array_element, 1};
+}
+
+// Vulkan copies depth and stencil apart.
+bool has_both(const Image& image) {
+  return (image.aspects() & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
 }
 
 VkOffset3D offset_of(const TextureCopyPlace& place) {
@@ -97,7 +104,7 @@ VkBufferImageCopy region_of(const CopyTextureCommand& command, const TextureCopy
   region.bufferOffset = buffer_offset;
   region.bufferRowLength = command.extent[0] * side;
   region.bufferImageHeight = command.extent[1] * side;
-  region.imageSubresource = layers(texture.mip, texture.array_element);
+  region.imageSubresource = layers(texture);
   region.imageOffset = offset_of(texture);
   region.imageExtent = extent_of(command, texture);
   return region;
@@ -113,6 +120,50 @@ VkBufferImageCopy region_of(const CopyTextureCommand& command, const TextureCopy
   region.bufferImageHeight =
       static_cast<uint32_t>(buffer.slice_pitch / buffer.row_pitch) * image.block_side();
   return region;
+}
+
+// Depth and stencil of the copied texels, each without gaps.
+struct DepthAndStencil {
+  Staging depth;    // 4 bytes each
+  Staging stencil;  // 1 byte each
+};
+
+rtapi::Result<DepthAndStencil> stage_both(Gpu& gpu, const CopyTextureCommand& command) {
+  auto depth = stage(gpu, element_count(command), 4);
+  if (!depth) return depth.error();
+  auto stencil = stage(gpu, element_count(command), 1);
+  if (!stencil) return stencil.error();
+  return DepthAndStencil{*depth, *stencil};
+}
+
+std::array<VkBufferImageCopy, 2> regions_of_both(const CopyTextureCommand& command,
+                                                 const TextureCopyPlace& texture,
+                                                 const DepthAndStencil& staged) {
+  std::array<VkBufferImageCopy, 2> regions = {region_of(command, texture, staged.depth.offset),
+                                              region_of(command, texture, staged.stencil.offset)};
+  regions[0].imageSubresource.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
+  regions[1].imageSubresource.aspectMask = VK_IMAGE_ASPECT_STENCIL_BIT;
+  return regions;
+}
+
+// Calls visit(element, depth, stencil) with pointers to the bytes of every texel. An element has 24
+// bits of depth and 8 of stencil, or a float, 8 bits of stencil and 24 that are not used.
+template <class Visit>
+void each_of_both(const CopyTextureCommand& command, const TextureCopyPlace& buffer,
+                  uint32_t element_bytes, const DepthAndStencil& staged, const Visit& visit) {
+  uint8_t* depth = staged.depth.host;
+  uint8_t* stencil = staged.stencil.host;
+  uint8_t* const first = buffer.buffer->host() + first_byte(buffer, element_bytes);
+  for (uint32_t z = 0; z < command.extent[2]; ++z) {
+    for (uint32_t y = 0; y < command.extent[1]; ++y) {
+      uint8_t* element = first + z * buffer.slice_pitch + uint64_t{y} * buffer.row_pitch;
+      for (uint32_t x = 0; x < command.extent[0]; ++x, element += element_bytes) {
+        visit(element, depth, stencil);
+        depth += 4;
+        stencil += 1;
+      }
+    }
+  }
 }
 
 class Textures final : public TextureStore {
@@ -138,6 +189,8 @@ class Textures final : public TextureStore {
   bool supports_format(rtapi::Format format, bool unordered_access) const override {
     const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(format));
     if (rtapi::GetFormatInfo(format).block_side != 1) return !unordered_access;
+    const bool of_depth = (texture_format(format).aspects & VK_IMAGE_ASPECT_COLOR_BIT) == 0;
+    if (of_depth) return !unordered_access;
     return codec.bytes != 0 && (!unordered_access || codec.encode != nullptr);
   }
   rtapi::Status copy(CommandStream& stream, const CopyTextureCommand& command) override;
@@ -148,6 +201,8 @@ class Textures final : public TextureStore {
   rtapi::Status copy_through(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status upload(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status download(CommandStream& stream, const CopyTextureCommand& command);
+  rtapi::Status upload_both(CommandStream& stream, const CopyTextureCommand& command);
+  rtapi::Status download_both(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status clear_buffer(CommandStream& stream, const runtime::ClearUavCommand& command);
   rtapi::Status clear_texture(CommandStream& stream, const Image& image,
                               const runtime::TextureViewDesc& view,
@@ -171,16 +226,17 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
   const VkExtent3D extent = extent_of(command, command.source);
   const VkExtent3D at_dest = extent_of(command, command.dest);
   if (dest.type() != source.type() || dest.block_side() != source.block_side() ||
-      extent.width != at_dest.width || extent.height != at_dest.height) {
+      dest.aspects() != source.aspects() || extent.width != at_dest.width ||
+      extent.height != at_dest.height) {
     return copy_through(stream, command);
   }
   stream.everything();
   auto commands = stream.record("CopyTextureRegion");
   if (!commands) return commands.error();
   VkImageCopy region = {};
-  region.srcSubresource = layers(command.source.mip, command.source.array_element);
+  region.srcSubresource = layers(command.source);
   region.srcOffset = offset_of(command.source);
-  region.dstSubresource = layers(command.dest.mip, command.dest.array_element);
+  region.dstSubresource = layers(command.dest);
   region.dstOffset = offset_of(command.dest);
   region.extent = extent;
   gpu_->vk().vkCmdCopyImage(*commands, source.handle(), VK_IMAGE_LAYOUT_GENERAL, dest.handle(),
@@ -214,6 +270,7 @@ rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCom
 
 rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.dest);
+  if (has_both(image)) return upload_both(stream, command);
   const TextureCopyPlace& source = command.source;
   const uint32_t element = image.element_bytes();
   VkBufferImageCopy region = {};
@@ -249,6 +306,7 @@ rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& 
 
 rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.source);
+  if (has_both(image)) return download_both(stream, command);
   const TextureCopyPlace& dest = command.dest;
   const uint32_t element = image.element_bytes();
   VkBufferImageCopy region = {};
@@ -282,6 +340,58 @@ rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand
       std::memcpy(out + z * dest.slice_pitch + uint64_t{y} * dest.row_pitch, in, row_bytes);
     }
   }
+  return {};
+}
+
+rtapi::Status Textures::upload_both(CommandStream& stream, const CopyTextureCommand& command) {
+  const Image& image = image_of(command.dest);
+  if (auto s = stream.flush(); !s) return s;
+  auto staged = stage_both(*gpu_, command);
+  if (!staged) return staged.error();
+  const uint32_t stencil_at = image.element_bytes() == 4 ? 3 : 4;
+  each_of_both(command, command.source, image.element_bytes(), *staged,
+               [&](const uint8_t* element, uint8_t* depth, uint8_t* stencil) {
+                 std::memcpy(depth, element, 4);
+                 if (stencil_at == 3) depth[3] = 0;
+                 *stencil = element[stencil_at];
+               });
+  auto commands = stream.record("CopyTextureRegion to a texture");
+  if (!commands) return commands.error();
+  const auto regions = regions_of_both(command, command.dest, *staged);
+  const VkBuffer buffers[] = {staged->depth.buffer->handle(), staged->stencil.buffer->handle()};
+  for (size_t i = 0; i < regions.size(); ++i) {
+    gpu_->vk().vkCmdCopyBufferToImage(*commands, buffers[i], image.handle(),
+                                      VK_IMAGE_LAYOUT_GENERAL, 1, &regions[i]);
+  }
+  stream.keep(command.dest.texture);
+  stream.keep(staged->depth.buffer);
+  stream.keep(staged->stencil.buffer);
+  return {};
+}
+
+rtapi::Status Textures::download_both(CommandStream& stream, const CopyTextureCommand& command) {
+  const Image& image = image_of(command.source);
+  auto staged = stage_both(*gpu_, command);
+  if (!staged) return staged.error();
+  stream.everything();
+  auto commands = stream.record("CopyTextureRegion to a buffer");
+  if (!commands) return commands.error();
+  const auto regions = regions_of_both(command, command.source, *staged);
+  const VkBuffer buffers[] = {staged->depth.buffer->handle(), staged->stencil.buffer->handle()};
+  for (size_t i = 0; i < regions.size(); ++i) {
+    gpu_->vk().vkCmdCopyImageToBuffer(*commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL,
+                                      buffers[i], 1, &regions[i]);
+  }
+  stream.keep(command.source.texture);
+  if (auto s = stream.flush(); !s) return s;
+  const uint32_t element_bytes = image.element_bytes();
+  const uint32_t stencil_at = element_bytes == 4 ? 3 : 4;
+  each_of_both(command, command.dest, element_bytes, *staged,
+               [&](uint8_t* element, const uint8_t* depth, const uint8_t* stencil) {
+                 std::memset(element, 0, element_bytes);
+                 std::memcpy(element, depth, stencil_at);
+                 element[stencil_at] = *stencil;
+               });
   return {};
 }
 
@@ -332,7 +442,7 @@ rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
       VkBufferImageCopy& region = regions.emplace_back();
       region = {};
       region.bufferOffset = pattern->offset;
-      region.imageSubresource = layers(view.first_mip, volume ? 0 : slice);
+      region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, view.first_mip, volume ? 0 : slice, 1};
       region.imageOffset = {0, static_cast<int32_t>(y), volume ? static_cast<int32_t>(slice) : 0};
       region.imageExtent = {extent.width, std::min(rows, extent.height - y), 1};
     }

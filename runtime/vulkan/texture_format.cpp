@@ -155,8 +155,46 @@ VkFormat vulkan_format(F format) {
       return VK_FORMAT_BC7_UNORM_BLOCK;
     case F::kBC7UnormSrgb:
       return VK_FORMAT_BC7_SRGB_BLOCK;
+    case F::kD16Unorm:
+      return VK_FORMAT_D16_UNORM;
+    case F::kD32Float:
+      return VK_FORMAT_D32_SFLOAT;
+    case F::kR24G8Typeless:
+    case F::kD24UnormS8Uint:
+    case F::kR24UnormX8Typeless:
+    case F::kX24TypelessG8Uint:
+      return VK_FORMAT_D24_UNORM_S8_UINT;
+    case F::kR32G8X24Typeless:
+    case F::kD32FloatS8X24Uint:
+    case F::kR32FloatX8X24Typeless:
+    case F::kX32TypelessG8X24Uint:
+      return VK_FORMAT_D32_SFLOAT_S8_UINT;
     default:
       return VK_FORMAT_UNDEFINED;
+  }
+}
+
+constexpr VkComponentMapping kOnlyRed = {VK_COMPONENT_SWIZZLE_R, VK_COMPONENT_SWIZZLE_ZERO,
+                                         VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_ONE};
+// Vulkan gives stencil as red, D3D as green.
+constexpr VkComponentMapping kRedAsGreen = {VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_R,
+                                            VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_ONE};
+
+TextureFormat one_of_depth(VkFormat format, VkImageAspectFlags aspect) {
+  const bool stencil = aspect == VK_IMAGE_ASPECT_STENCIL_BIT;
+  return {format, stencil ? kRedAsGreen : kOnlyRed, false, aspect};
+}
+
+VkImageAspectFlags aspects_of(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_D32_SFLOAT:
+      return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+      return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    default:
+      return VK_IMAGE_ASPECT_COLOR_BIT;
   }
 }
 
@@ -165,14 +203,56 @@ VkFormat vulkan_format(F format) {
 TextureFormat texture_format(F format) {
   TextureFormat result;
   result.format = vulkan_format(format);
-  if (format == F::kA8Unorm) {
-    result.channels = {VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_ZERO,
-                       VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_R};
-    result.plain = false;
-  } else if (format == F::kB8G8R8X8Unorm || format == F::kB8G8R8X8UnormSrgb) {
-    result.channels.a = VK_COMPONENT_SWIZZLE_ONE;  // no read returns what stores put there
+  result.aspects = aspects_of(result.format);
+  switch (format) {
+    case F::kR24UnormX8Typeless:
+    case F::kR32FloatX8X24Typeless:
+      return one_of_depth(result.format, VK_IMAGE_ASPECT_DEPTH_BIT);
+    case F::kX24TypelessG8Uint:
+    case F::kX32TypelessG8X24Uint:
+      return one_of_depth(result.format, VK_IMAGE_ASPECT_STENCIL_BIT);
+    case F::kA8Unorm:
+      result.channels = {VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_ZERO,
+                         VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_R};
+      result.plain = false;
+      break;
+    case F::kB8G8R8X8Unorm:
+    case F::kB8G8R8X8UnormSrgb:
+      result.channels.a = VK_COMPONENT_SWIZZLE_ONE;  // no read returns what stores put there
+      break;
+    default:
+      break;
   }
   return result;
+}
+
+TextureFormat depth_view_format(F format) {
+  if (format == F::kR32Float) {
+    return one_of_depth(VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT);
+  }
+  if (format == F::kR16Unorm) return one_of_depth(VK_FORMAT_D16_UNORM, VK_IMAGE_ASPECT_DEPTH_BIT);
+  const TextureFormat result = texture_format(format);
+  return (result.aspects & VK_IMAGE_ASPECT_COLOR_BIT) == 0 ? result : TextureFormat();
+}
+
+TextureFormat image_format(const rtapi::TextureDesc& desc) {
+  const bool depth = rtapi::HasAny(desc.Flags, rtapi::ResourceFlags::kAllowDepthStencil);
+  return texture_format(depth ? rtapi::GetDepthFormat(desc.Format) : desc.Format);
+}
+
+VkFormatFeatureFlags2 format_features(VkPhysicalDevice device, VkFormat format) {
+  VkFormatProperties3 properties3 = {VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3};
+  VkFormatProperties2 properties = {VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2};
+  properties.pNext = &properties3;
+  vkGetPhysicalDeviceFormatProperties2(device, format, &properties);
+  return properties3.optimalTilingFeatures;
+}
+
+bool can_be_storage(VkPhysicalDevice device, VkFormat format) {
+  constexpr VkFormatFeatureFlags2 kNeeded = VK_FORMAT_FEATURE_2_STORAGE_IMAGE_BIT |
+                                            VK_FORMAT_FEATURE_2_STORAGE_READ_WITHOUT_FORMAT_BIT |
+                                            VK_FORMAT_FEATURE_2_STORAGE_WRITE_WITHOUT_FORMAT_BIT;
+  return (format_features(device, format) & kNeeded) == kNeeded;
 }
 
 }  // namespace kaamos::vulkan

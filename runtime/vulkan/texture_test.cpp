@@ -425,11 +425,9 @@ TEST(VulkanTexture, BuffersAreCleared) {
 TEST(VulkanTexture, WhatTheDeviceLacksIsAnError) {
   KAAMOS_NEED_GPU(gpu);
   Harness h(gpu);
-  for (const Format format : {Format::kD32Float, Format::kUnknown}) {
-    const auto texture = h.textures->create_texture(desc_of(4, 4, 1, 1, format));
-    ASSERT_FALSE(texture);
-    EXPECT_EQ(texture.error().id.text(), "KA0960");
-  }
+  const auto none = h.textures->create_texture(desc_of(4, 4, 1, 1, Format::kUnknown));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().id.text(), "KA0960");
   const auto large = h.textures->create_texture(desc_of(1u << 20, 1, 1, 1, Format::kR8Unorm));
   ASSERT_FALSE(large);
   EXPECT_EQ(large.error().id.text(), "KA0960");

@@ -42,6 +42,14 @@ constexpr WorkaroundInfo kTable[] = {
      "large payloads of deeply nested traces overflow the stack of a driver's thread"},
     {Workaround::kReserveCallables, "CALLABLES", kLavapipe, kFirst, kOpen, true, 0,
      "callables nested deeper than 31 run over their memory, whatever the stack size is"},
+    {Workaround::kKeepMemoryWrites, "RASUAV", kLavapipe, kFirst, kOpen, true, 0,
+     "a triangle that covers a tile takes away what pixel shaders there wrote to memory before"},
+    {Workaround::kHalveDepthBias, "BIAS2", kLavapipe, kFirst, kOpen, true, 0,
+     "the constant depth bias is doubled on D16 and D24"},
+    {Workaround::kRoundTenBits, "RT10", kLavapipe, kFirst, kOpen, true, 0,
+     "colours in R10G10B10A2 are truncated"},
+    {Workaround::kRefuseSnormBlend, "SNORMB", kLavapipe, kFirst, kOpen, true, 0,
+     "SNORM targets are blended wrongly"},
 };
 
 bool lists_workaround(std::string_view list, std::string_view name) {

@@ -27,6 +27,10 @@ enum class Workaround : uint32_t {
   kFilterInFloats,         // FILTER
   kBoundPayloads,          // PAYLOAD
   kReserveCallables,       // CALLABLES
+  kKeepMemoryWrites,       // RASUAV
+  kHalveDepthBias,         // BIAS2
+  kRoundTenBits,           // RT10
+  kRefuseSnormBlend,       // SNORMB
 };
 
 // Driver versions as one number: major * 1000 + minor.

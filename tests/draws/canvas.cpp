@@ -10,10 +10,10 @@ namespace kaamos::draws {
 
 using namespace rtapi;
 
-Canvas::Canvas(Format format, uint32_t max_threads)
+Canvas::Canvas(const std::string& backend, Format format, uint32_t max_threads)
     : format_(format), texel_bytes_(GetFormatInfo(format).bytes) {
   DeviceDesc desc;
-  desc.Backend = "embree";
+  desc.Backend = backend;
   desc.Threads = max_threads;
   desc.OnMessage = [](const Message& m) { ADD_FAILURE() << m.Text; };
   device = CreateDevice(desc).value();

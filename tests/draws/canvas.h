@@ -22,7 +22,8 @@ struct Tint {
 
 class Canvas {
  public:
-  explicit Canvas(rtapi::Format format = rtapi::Format::kR32G32B32A32Float,
+  explicit Canvas(const std::string& backend,
+                  rtapi::Format format = rtapi::Format::kR32G32B32A32Float,
                   uint32_t max_threads = 0);
 
   // One target of the canvas's format, D32_FLOAT, no culling.
