@@ -195,6 +195,7 @@ std::vector<RuleTest> ras_quad_tests();
 std::vector<RuleTest> ras_lod_tests();
 std::vector<RuleTest> ras_order_tests();
 std::vector<RuleTest> ras_output_tests();
+std::vector<RuleTest> ras_blend_tests();
 std::vector<RuleTest> ras_clear_tests();
 std::vector<RuleTest> ras_draw_tests();
 

@@ -66,3 +66,16 @@ ColorAndDepth OwnDepth() {
   result.depth = tint.x;
   return result;
 }
+
+struct TwoColors {
+  float4 first : SV_Target0;
+  float4 second : SV_Target1;
+};
+
+[shader("pixel")]
+TwoColors Both() {
+  TwoColors result;
+  result.first = tint;
+  result.second = tint;
+  return result;
+}

@@ -125,7 +125,11 @@ std::vector<Section> all_sections() {
           {"ras_attribute", ras_attribute_tests()},
           {"ras_quad", ras_quad_tests()},
           {"ras_lod", ras_lod_tests()},
-          {"ras_order", ras_order_tests()}};
+          {"ras_order", ras_order_tests()},
+          {"ras_output", ras_output_tests()},
+          {"ras_blend", ras_blend_tests()},
+          {"ras_clear", ras_clear_tests()},
+          {"ras_draw", ras_draw_tests()}};
 }
 
 std::vector<RuleTest> all_tests() {

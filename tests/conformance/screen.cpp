@@ -61,13 +61,19 @@ Screen::Screen(Context& t, std::vector<Format> color_formats, Format depth, uint
   TextureDesc desc = {.Width = size, .Height = size, .DepthOrArraySize = slices};
   for (uint32_t i = 0; i < formats_.size(); ++i) {
     colors.emplace_back();
-    if (formats_[i] == Format::kUnknown) continue;
+    if (formats_[i] == Format::kUnknown) {
+      const RenderTargetViewDesc null_view = {.Format = Format::kR8G8B8A8Unorm,
+                                              .ViewDimension = RtvDimension::kTexture2D};
+      device.CreateRenderTargetView(Texture(), null_view, rtv(i)).value();
+      continue;
+    }
     desc.Format = formats_[i];
     desc.Flags = ResourceFlags::kAllowRenderTarget;
     desc.InitialState = ResourceStates::kRenderTarget;
     desc.Name = "target " + std::to_string(i);
     colors.back() = device.CreateTexture(desc).value();
-    device.CreateRenderTargetView(colors[i], rtv(i)).value();
+    const bool typeless = GetFormatInfo(formats_[i]).type == FormatClass::kTypeless;
+    if (!typeless) device.CreateRenderTargetView(colors[i], rtv(i)).value();
   }
   if (depth == Format::kUnknown) return;
   desc.Format = typeless_of_depth(depth);

@@ -54,8 +54,7 @@ struct Fact {
 
 class Screen {
  public:
-  // Targets of size x size pixels; a depth format kUnknown: none. A target's format may be
-  // typeless, with a typed one for its view.
+  // Targets of size x size pixels. A format kUnknown: no such target. Typeless ones have no view.
   explicit Screen(Context& t,
                   std::vector<rtapi::Format> colors = {rtapi::Format::kR32G32B32A32Float},
                   rtapi::Format depth = rtapi::Format::kUnknown, uint32_t size = 256,

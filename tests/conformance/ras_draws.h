@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+//
+// The tests of ras_draw_tests that are about indirect draws.
+#pragma once
+
+#include <rtapi/upload.h>
+
+#include "tests/conformance/screen.h"
+
+namespace kaamos::conformance {
+
+std::vector<RuleTest> ras_indirect_tests();
+
+}  // namespace kaamos::conformance
