@@ -185,6 +185,7 @@ std::vector<RuleTest> pay_qualifier_tests();
 std::vector<RuleTest> rq_tests();
 std::vector<RuleTest> err_tests();
 std::vector<RuleTest> ras_assembler_tests();
+std::vector<RuleTest> ras_element_tests();
 std::vector<RuleTest> ras_link_tests();
 std::vector<RuleTest> ras_clip_tests();
 std::vector<RuleTest> ras_viewport_tests();
@@ -198,5 +199,6 @@ std::vector<RuleTest> ras_output_tests();
 std::vector<RuleTest> ras_blend_tests();
 std::vector<RuleTest> ras_clear_tests();
 std::vector<RuleTest> ras_draw_tests();
+std::vector<RuleTest> ras_random_tests();
 
 }  // namespace kaamos::conformance

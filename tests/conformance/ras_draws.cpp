@@ -208,6 +208,37 @@ void threads_do_not_matter(Context& t) {
   }
 }
 
+void timestamps(Context& t) {
+  Screen screen(t, {Format::kR32Float});
+  const PipelineState pipeline = screen.make("Whole", "Tint");
+  QueryHeapDesc desc;
+  desc.Count = 4;
+  const QueryHeap heap = t.device().CreateQueryHeap(desc).value();
+  const Buffer result = t.zeros(64);
+  screen.run([&](CommandList& list) {
+    list.EndQuery(heap, QueryType::kTimestamp, 1);
+    Screen::use(list, pipeline);
+    list.DrawInstanced(3, 100, 0, 0);
+    list.EndQuery(heap, QueryType::kTimestamp, 2);
+    list.EndQuery(heap, QueryType::kTimestamp, 3);
+    list.ResourceBarrier(ResourceBarrier::Transition(result, ResourceStates::kUnorderedAccess,
+                                                     ResourceStates::kCopyDest));
+    list.ResolveQueryData(heap, QueryType::kTimestamp, 1, 3, result, 8);
+    list.ResourceBarrier(ResourceBarrier::Transition(result, ResourceStates::kCopyDest,
+                                                     ResourceStates::kUnorderedAccess));
+  });
+  const std::vector<uint32_t> words = t.read(result);
+  uint64_t times[8];
+  std::memcpy(times, words.data(), sizeof times);
+  t.holds("time passes in a draw of 6.5 million pixels", times[2] > times[1]);
+  t.holds("time does not go back", times[3] >= times[2]);
+  t.equal("nothing else is written", times[0] + times[4], 0u);
+  const uint64_t frequency = t.queue().GetTimestampFrequency().value();
+  t.holds("ticks of a second: " + std::to_string(frequency), frequency >= 1000);
+  const double seconds = static_cast<double>(times[2] - times[1]) / static_cast<double>(frequency);
+  t.holds("seconds: " + std::to_string(seconds), seconds > 1e-6 && seconds < 60);
+}
+
 }  // namespace
 
 std::vector<RuleTest> ras_draw_tests() {
@@ -219,6 +250,7 @@ std::vector<RuleTest> ras_draw_tests() {
   const std::vector<RuleTest> indirect = ras_indirect_tests();
   tests.insert(tests.end(), indirect.begin(), indirect.end());
   tests.push_back({"RAS-149", threads_do_not_matter});
+  tests.push_back({"RAS-150", timestamps});
   return tests;
 }
 

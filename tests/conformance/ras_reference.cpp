@@ -96,26 +96,33 @@ long double ExactTriangle::value(uint32_t x, uint32_t y, bool perspective) const
   return sum / weight;
 }
 
-long double ExactTriangle::slope() const {
+long double ExactTriangle::slope_of(const long double values[3]) const {
   const auto area = static_cast<long double>(area_);
-  const long double dz1 = z_[1] - z_[0], dz2 = z_[2] - z_[0];
+  const long double d1 = values[1] - values[0], d2 = values[2] - values[0];
   const auto dx1 = static_cast<long double>(x_[1] - x_[0]);
   const auto dx2 = static_cast<long double>(x_[2] - x_[0]);
   const auto dy1 = static_cast<long double>(y_[1] - y_[0]);
   const auto dy2 = static_cast<long double>(y_[2] - y_[0]);
-  const long double x = (dz1 * dy2 - dz2 * dy1) / area;
-  const long double y = (dz2 * dx1 - dz1 * dx2) / area;
+  const long double x = (d1 * dy2 - d2 * dy1) / area;
+  const long double y = (d2 * dx1 - d1 * dx2) / area;
   return (std::abs(x) + std::abs(y)) * 256;
 }
 
-long double ExactTriangle::thinness() const {
-  long double longest = 0;
+ExactTriangle::Bounds ExactTriangle::bounds(uint32_t x, uint32_t y, bool vulkan) const {
+  if (!vulkan) return {std::abs(depth(x, y)) * 0x1p-24L + 0x1p-25L, 0x1p-20L, 0x1p-20L};
+  // Planes are through corners that were not rounded, so they are moved by up to 1/256 pixel.
+  long double over_w[3], inv_w[3], b[3];
+  weights(x, y, b);
+  long double one_over_w = 0;
   for (int i = 0; i < 3; ++i) {
-    const auto dx = static_cast<long double>(x_[(i + 1) % 3] - x_[i]);
-    const auto dy = static_cast<long double>(y_[(i + 1) % 3] - y_[i]);
-    longest = std::max(longest, dx * dx + dy * dy);
+    over_w[i] = value_[i] / w_[i];
+    inv_w[i] = 1 / w_[i];
+    one_over_w += b[i] * inv_w[i];
   }
-  return longest / static_cast<long double>(std::abs(area_));
+  constexpr long double kMoved = 1.0L / 256;
+  const long double moved =
+      (slope_of(over_w) + value(x, y, true) * slope_of(inv_w)) / one_over_w * kMoved;
+  return {slope_of(z_) * kMoved + 0x1p-20L, moved + 0x1p-12L, slope_of(value_) * kMoved + 0x1p-12L};
 }
 
 std::vector<Corner> grid_triangles(const Screen& screen, GridKind kind, uint32_t count,
@@ -161,6 +168,98 @@ std::vector<Corner> grid_triangles(const Screen& screen, GridKind kind, uint32_t
       const auto value = static_cast<float>(random() % 65537) / 65536;
       out.push_back(screen.at(on_grid(px), on_grid(py), z, w, {value, 0, 0, 1}));
     }
+  }
+  return out;
+}
+
+double ProjectedTriangle::Plane::slope() const {
+  return std::sqrt(a * a + b * b);
+}
+
+ProjectedTriangle::Plane ProjectedTriangle::combine(const double factors[3]) const {
+  Plane out = {};
+  for (int i = 0; i < 3; ++i) {
+    out.a += weights_[i].a * factors[i];
+    out.b += weights_[i].b * factors[i];
+    out.c += weights_[i].c * factors[i];
+  }
+  return out;
+}
+
+// A point of the triangle, sum of b[i] * corner[i], is seen at (x / w, y / w). So b[i] / w are the
+// solution of sum of b[i] / w * (x, y, w)[i] = (X, Y, 1), which is linear in X and Y.
+ProjectedTriangle::ProjectedTriangle(uint32_t size, const Corner* corners) {
+  double p[3][3], z[3], value[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto& position = corners[i].position;
+    p[i][0] = static_cast<double>(position[0]);
+    p[i][1] = static_cast<double>(position[1]);
+    p[i][2] = static_cast<double>(position[3]);
+    z[i] = static_cast<double>(position[2]);
+    value[i] = static_cast<double>(corners[i].value[0]);
+  }
+  const auto cross = [&](int i, int k) {
+    return std::array<double, 3>{p[i][1] * p[k][2] - p[i][2] * p[k][1],
+                                 p[i][2] * p[k][0] - p[i][0] * p[k][2],
+                                 p[i][0] * p[k][1] - p[i][1] * p[k][0]};
+  };
+  const auto first = cross(1, 2);
+  const double det = p[0][0] * first[0] + p[0][1] * first[1] + p[0][2] * first[2];
+  has_area_ = det != 0;
+  if (!has_area_) return;
+  // X = (x + 0.5) / half - 1, Y = 1 - (y + 0.5) / half.
+  const double half = size / 2.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto normal = cross((i + 1) % 3, (i + 2) % 3);
+    weights_[i] = {normal[0] / det / half, -normal[1] / det / half,
+                   (normal[0] * (0.5 / half - 1) + normal[1] * (1 - 0.5 / half) + normal[2]) / det};
+  }
+  constexpr double kOnes[3] = {1, 1, 1};
+  inv_w_ = combine(kOnes);
+  depth_ = combine(z);
+  value_over_w_ = combine(value);
+}
+
+ProjectedTriangle::Pixel ProjectedTriangle::at(uint32_t px, uint32_t py) const {
+  Pixel out;
+  if (!has_area_) return out;
+  const double x = px, y = py;
+  out.inside = true;
+  // Borders: the edges, near, far. Rounding moves them by 1/256 pixel and a little.
+  constexpr double kNear = 1.0 / 64;
+  bool outside = false;
+  const auto border = [&](double distance, double slope) {
+    out.inside = out.inside && distance > 0;
+    outside = outside || distance < -slope * kNear;
+    out.near_border = out.near_border || std::abs(distance) <= slope * kNear;
+  };
+  for (const Plane& weight : weights_) border(weight.at(x, y), weight.slope());
+  out.depth = depth_.at(x, y);
+  border(out.depth, depth_.slope());
+  border(1 - out.depth, depth_.slope());
+  out.near_border = out.near_border && !outside;
+  const double w = 1 / inv_w_.at(x, y);
+  out.value = value_over_w_.at(x, y) * w;
+  out.depth_bound = depth_.slope() / 256 + 0x1p-20;
+  out.value_bound =
+      std::abs(w) * (value_over_w_.slope() + std::abs(out.value) * inv_w_.slope()) / 256 + 0x1p-14;
+  return out;
+}
+
+std::vector<Corner> eye_triangles(uint32_t count, std::mt19937& random) {
+  const auto number = [&] {
+    return static_cast<float>(static_cast<int>(random() % 4097) - 2048) / 256;
+  };
+  std::vector<Corner> out;
+  while (out.size() < size_t{count} * 3) {
+    Corner corners[3];
+    bool before = false;
+    for (Corner& corner : corners) {
+      corner.position = {number(), number(), number(), number()};
+      corner.value[0] = static_cast<float>(random() % 257) / 256;
+      before = before || corner.position[3] > 0;
+    }
+    if (before) out.insert(out.end(), corners, corners + 3);
   }
   return out;
 }

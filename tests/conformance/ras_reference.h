@@ -24,14 +24,17 @@ class ExactTriangle {
   long double depth(uint32_t x, uint32_t y) const;
   // The first of value: linear or, without perspective, linear on the screen.
   long double value(uint32_t x, uint32_t y, bool perspective) const;
-  // Steepness of depth: |dz/dx| + |dz/dy| of a pixel.
-  long double slope() const;
-  // Of the longest side to the height above it: 1 and more.
-  long double thinness() const;
+  // How far a backend may be from these at a pixel. [RAS-70, RAS-73]
+  struct Bounds {
+    long double depth, value, on_screen;
+  };
+  Bounds bounds(uint32_t x, uint32_t y, bool vulkan) const;
 
  private:
   int64_t edge(int from, int64_t x, int64_t y) const;
   void weights(uint32_t x, uint32_t y, long double out[3]) const;
+  // |df/dx| + |df/dy| of a pixel, of what is linear on the screen.
+  long double slope_of(const long double values[3]) const;
 
   uint32_t size_;
   int64_t x_[3], y_[3];  // in 1/256 pixels
@@ -51,5 +54,36 @@ enum class GridKind {
 // order of operations gives the same place on the screen. z and value[0] are from 0 to 1.
 std::vector<Corner> grid_triangles(const Screen& screen, GridKind kind, uint32_t count,
                                    std::mt19937& random);
+
+// A triangle of which parts may be behind the eye, without rounding of corners.
+class ProjectedTriangle {
+ public:
+  // Corners are multiples of 1/256 from -8 to 8.
+  ProjectedTriangle(uint32_t size, const Corner* corners);
+
+  struct Pixel {
+    bool inside = false;
+    bool near_border = false;  // so near that rounding of corners may decide
+    double depth = 0, value = 0;
+    double depth_bound = 0, value_bound = 0;
+  };
+  Pixel at(uint32_t x, uint32_t y) const;
+
+ private:
+  // a x + b y + c at pixel centres.
+  struct Plane {
+    double a, b, c;
+    double at(double x, double y) const { return a * x + b * y + c; }
+    double slope() const;
+  };
+  Plane combine(const double factors[3]) const;
+
+  bool has_area_ = false;
+  Plane weights_[3] = {};  // barycentrics over w
+  Plane inv_w_ = {}, depth_ = {}, value_over_w_ = {};
+};
+
+// Random triangles with x, y, z and w from -8 to 8, at least one w above 0.
+std::vector<Corner> eye_triangles(uint32_t count, std::mt19937& random);
 
 }  // namespace kaamos::conformance

@@ -117,6 +117,7 @@ std::vector<Section> all_sections() {
           {"as_copy", as_copy_tests()},
           {"err", err_tests()},
           {"ras_assembler", ras_assembler_tests()},
+          {"ras_element", ras_element_tests()},
           {"ras_link", ras_link_tests()},
           {"ras_clip", ras_clip_tests()},
           {"ras_viewport", ras_viewport_tests()},
@@ -129,7 +130,8 @@ std::vector<Section> all_sections() {
           {"ras_output", ras_output_tests()},
           {"ras_blend", ras_blend_tests()},
           {"ras_clear", ras_clear_tests()},
-          {"ras_draw", ras_draw_tests()}};
+          {"ras_draw", ras_draw_tests()},
+          {"ras_random", ras_random_tests()}};
 }
 
 std::vector<RuleTest> all_tests() {
