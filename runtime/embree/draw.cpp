@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/draw.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/embree/texture.h"
+#include "runtime/raster/clear.h"
 
 namespace kaamos::embree {
 namespace {
@@ -54,6 +56,7 @@ CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::st
     outcome = flush();
     if (!outcome.status) return outcome;
   }
+  if (running_.empty()) begin_pass(command.state->targets);
   RunningDraw& running = running_.emplace_back();
   running.command = command;
   running.label = label;
@@ -62,15 +65,45 @@ CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::st
   return outcome;
 }
 
+CountedOutcome DrawPass::clear(const runtime::ClearTargetCommand& command) {
+  CountedOutcome outcome;
+  if (!running_.empty()) outcome = flush();
+  const auto same_texture = [&](const auto& other) {
+    return other.view.texture == command.view.texture;
+  };
+  if (std::any_of(clears_.begin(), clears_.end(), same_texture)) clear_now();
+  clears_.push_back(command);
+  return outcome;
+}
+
+void DrawPass::clear_now() {
+  for (const auto& command : clears_) raster::clear(surface_of(command.view), command);
+  clears_.clear();
+}
+
+void DrawPass::begin_pass(const runtime::DrawTargets& views) {
+  targets_ = {};
+  for (uint32_t i = 0; i < views.color_count; ++i) targets_.color[i] = surface_of(views.color[i]);
+  targets_.depth = surface_of(views.depth);
+  const auto take = [&](const runtime::ClearTargetCommand& command) {
+    if (command.depth_stencil) {
+      return command.view == views.depth && raster::set_cleared(targets_.depth, command);
+    }
+    for (uint32_t i = 0; i < views.color_count; ++i) {
+      if (command.view == views.color[i]) return raster::set_cleared(targets_.color[i], command);
+    }
+    return false;
+  };
+  std::erase_if(clears_, take);
+  clear_now();
+}
+
 CountedOutcome DrawPass::flush() {
   CountedOutcome outcome;
+  clear_now();
   if (running_.empty()) return outcome;
-  const runtime::DrawTargets& views = running_.front().command.state->targets;
-  raster::Targets targets;
-  for (uint32_t i = 0; i < views.color_count; ++i) targets.color[i] = surface_of(views.color[i]);
-  targets.depth = surface_of(views.depth);
   DrawWorkers workers(environment_, running_);
-  rasterizer_.draw(targets, draws_, workers);
+  rasterizer_.draw(targets_, draws_, workers);
   for (RunningDraw& draw : running_) {
     CountedOutcome one = end_dispatch(draw.dispatch);
     outcome.counters.add(one.counters);

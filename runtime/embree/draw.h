@@ -22,6 +22,9 @@ class DrawPass {
   // Takes a draw into the pass, after a flush if its targets are others. `label` names it in
   // messages.
   CountedOutcome draw(const runtime::DrawCommand& command, const std::string& label);
+  // Clears when the pass before has run: at once, or as part of the next pass if it draws to the
+  // same view.
+  CountedOutcome clear(const runtime::ClearTargetCommand& command);
   // Runs what waits. An error removes the device: KA0892, KA0893, KA0897.
   CountedOutcome flush();
 
@@ -29,10 +32,15 @@ class DrawPass {
   // More would hold too much state for too little.
   static constexpr size_t kMostDraws = 4096;
 
+  void clear_now();
+  void begin_pass(const runtime::DrawTargets& views);
+
   DispatchEnvironment environment_;
   raster::Rasterizer& rasterizer_;
   std::deque<RunningDraw> running_;
   std::vector<raster::Draw> draws_;
+  raster::Targets targets_;                          // of the draws
+  std::vector<runtime::ClearTargetCommand> clears_;  // that wait for a pass
 };
 
 // Texels of a target's view.

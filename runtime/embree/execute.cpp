@@ -13,7 +13,6 @@
 #include "runtime/embree/draw.h"
 #include "runtime/embree/texture.h"
 #include "runtime/embree/timestamps.h"
-#include "runtime/raster/clear.h"
 
 namespace kaamos::embree {
 namespace {
@@ -41,9 +40,7 @@ class Target final : public runtime::CommandTarget {
     return reported(pass_.draw(command, label));
   }
   rtapi::Status clear_target(const runtime::ClearTargetCommand& command) override {
-    if (auto s = finish(); !s) return s;
-    raster::clear(surface_of(command.view), command);
-    return {};
+    return reported(pass_.clear(command));
   }
   rtapi::Status build(const runtime::BuildCommand& command) override {
     if (auto s = finish(); !s) return s;

@@ -38,10 +38,11 @@ void Bins::add_large(const Triangle& triangle, uint32_t left, uint32_t right, ui
   }
 }
 
-void Bins::finish(Batch& batch) {
+void Bins::finish(const Triangle* triangles, bool wants_numbers, Batch& batch) {
   std::sort(touched_.begin(), touched_.end());
   batch.runs.resize(touched_.size());
-  batch.order.resize(entries_.size());
+  batch.triangles.resize(entries_.size());
+  if (wants_numbers) batch.numbers.resize(entries_.size());
   uint32_t first = 0;
   for (size_t i = 0; i < touched_.size(); ++i) {
     const uint32_t tile = touched_[i];
@@ -50,7 +51,11 @@ void Bins::finish(Batch& batch) {
     counts_[tile] = first;  // where its next triangle goes
     first += count;
   }
-  for (const Entry& entry : entries_) batch.order[counts_[entry.tile]++] = entry.triangle;
+  for (const Entry& entry : entries_) {
+    const uint32_t at = counts_[entry.tile]++;
+    batch.triangles[at] = triangles[entry.triangle];
+    if (wants_numbers) batch.numbers[at] = entry.triangle;
+  }
   for (const uint32_t tile : touched_) counts_[tile] = 0;
   touched_.clear();
 }

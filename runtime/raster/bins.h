@@ -37,8 +37,9 @@ class Bins {
       add_large(triangle, left, right, top, bottom, first, number);
     }
   }
-  // Fills in `runs` and `order`.
-  void finish(Batch& batch);
+  // Fills in `runs`, `triangles` and, if wanted, `numbers`. The triangles are copied, so that a
+  // tile finds its own side by side.
+  void finish(const Triangle* triangles, bool wants_numbers, Batch& batch);
 
  private:
   struct Entry {

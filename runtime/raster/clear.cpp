@@ -91,6 +91,10 @@ Fill depth_fill(rtapi::Format format, const runtime::ClearTargetCommand& command
   return fill;
 }
 
+Fill fill_of(rtapi::Format format, const runtime::ClearTargetCommand& command) {
+  return command.depth_stencil ? depth_fill(format, command) : color_fill(format, command.color);
+}
+
 void fill_row(uint8_t* texels, uint32_t count, const Fill& fill) {
   if (count == 0) return;
   if (fill.all_bits) {
@@ -112,8 +116,7 @@ void fill_row(uint8_t* texels, uint32_t count, const Fill& fill) {
 
 void clear(const Surface& surface, const runtime::ClearTargetCommand& command) {
   if (surface.texels == nullptr) return;
-  const Fill fill = command.depth_stencil ? depth_fill(surface.format, command)
-                                          : color_fill(surface.format, command.color);
+  const Fill fill = fill_of(surface.format, command);
   const rtapi::Rect whole = {0, 0, static_cast<int32_t>(surface.width),
                              static_cast<int32_t>(surface.height)};
   const std::span<const rtapi::Rect> rects =
@@ -126,6 +129,31 @@ void clear(const Surface& surface, const runtime::ClearTargetCommand& command) {
         fill_row(row + static_cast<uint64_t>(rect.left) * fill.bytes,
                  static_cast<uint32_t>(rect.right - rect.left), fill);
       }
+    }
+  }
+}
+
+bool set_cleared(Surface& surface, const runtime::ClearTargetCommand& command) {
+  if (surface.texels == nullptr || !command.whole || surface.read_only) return false;
+  // A tile has no stencil.
+  if (command.depth_stencil && rtapi::HasStencil(surface.format)) return false;
+  const Fill fill = fill_of(surface.format, command);
+  if (!fill.all_bits) return false;
+  surface.cleared = true;
+  surface.value = {};
+  std::memcpy(surface.value.data(), fill.value, fill.bytes);
+  return true;
+}
+
+void write_cleared(Surface& surface) {
+  surface.cleared = false;
+  Fill fill;
+  fill.bytes = rtapi::GetFormatInfo(surface.format).bytes;
+  std::memcpy(fill.value, surface.value.data(), fill.bytes);
+  for (uint32_t slice = 0; slice < surface.slices; ++slice) {
+    for (uint32_t y = 0; y < surface.height; ++y) {
+      fill_row(surface.texels + slice * surface.slice_pitch + y * surface.row_pitch, surface.width,
+               fill);
     }
   }
 }

@@ -12,4 +12,10 @@ namespace kaamos::raster {
 // surface: everywhere or in the command's rectangles.
 void clear(const Surface& surface, const runtime::ClearTargetCommand& command);
 
+// Leaves the clear to a pass that draws to the surface: Surface::cleared. False if it cannot be
+// left to one, and nothing has happened.
+bool set_cleared(Surface& surface, const runtime::ClearTargetCommand& command);
+// Writes what set_cleared() left out.
+void write_cleared(Surface& surface);
+
 }  // namespace kaamos::raster

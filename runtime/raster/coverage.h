@@ -26,15 +26,17 @@ class Coverage {
     last_block_y_ = (box.bottom < y + kTileSize ? box.bottom - 1 - y : kTileSize - 1) >> 1;
     masked_ = (triangle.flags & kMasked) != 0;
     if (masked_) rect_ = {rect.left - x, rect.top - y, rect.right - x, rect.bottom - y};
+    if ((triangle.flags & kSmall) != 0) {
+      begin_small(triangle, x, y);
+      return true;
+    }
     for (int i = 0; i < 3; ++i) {
       const Edge edge = edge_of(triangle, i);
       const int64_t corner = edge.at(x, y);
-      if ((triangle.flags & kSmall) == 0) {
-        if (corner + edge.most(kTileSize) < 0) return false;
-        if (corner + edge.least(kTileSize) >= 0) {
-          a_[i] = b_[i] = e_[i] = 0;
-          continue;
-        }
+      if (corner + edge.most(kTileSize) < 0) return false;
+      if (corner + edge.least(kTileSize) >= 0) {
+        a_[i] = b_[i] = e_[i] = 0;
+        continue;
       }
       a_[i] = edge.a;
       b_[i] = edge.b;
@@ -75,18 +77,39 @@ class Coverage {
   }
 
  private:
+  // edge_of() of all three edges, and their values at the tile's first pixel. The fourth lane is
+  // of no use.
+  KAAMOS_INLINE void begin_small(const Triangle& t, int32_t x, int32_t y) {
+    const auto next = [](IntQuarter v) { return __builtin_shufflevector(v, v, 1, 2, 0, 0); };
+    const IntQuarter vx = {t.x[0], t.x[1], t.x[2], t.x[0]};
+    const IntQuarter vy = {t.y[0], t.y[1], t.y[2], t.y[0]};
+    const IntQuarter a = vy - next(vy);
+    const IntQuarter b = next(vx) - vx;
+    const IntQuarter from_x = IntQuarter{} + (x * kSubpixels + kPixelCenter) - vx;
+    const IntQuarter from_y = IntQuarter{} + (y * kSubpixels + kPixelCenter) - vy;
+    const IntQuarter top_left = (a > 0) | ((a == 0) & (b > 0));
+    const IntQuarter e = (a * from_x + b * from_y - 1 - top_left) >> kSubpixelBits;
+    __builtin_memcpy(a_, &a, sizeof(a_));
+    __builtin_memcpy(b_, &b, sizeof(b_));
+    __builtin_memcpy(e_, &e, sizeof(e_));
+  }
+
   template <class Sink>
   KAAMOS_INLINE void rows(int32_t left, int32_t right, int32_t top, int32_t bottom,
                           const Ints8 in_block[3], Sink& sink) const {
+    Ints8 row[3], to_right[3], down[3];
+    for (int i = 0; i < 3; ++i) {
+      row[i] = splat(e_[i] + a_[i] * left * 4 + b_[i] * top * 2) + in_block[i];
+      to_right[i] = splat(a_[i] * 4);
+      down[i] = splat(b_[i] * 2);
+    }
     for (int32_t y = top; y <= bottom; ++y) {
-      int32_t e[3];
-      for (int i = 0; i < 3; ++i) e[i] = e_[i] + a_[i] * left * 4 + b_[i] * y * 2;
+      Ints8 e[3] = {row[0], row[1], row[2]};
+      for (int i = 0; i < 3; ++i) row[i] = row[i] + down[i];
       sink.row(y);
       for (int32_t x = left; x <= right; ++x) {
-        const Ints8 signs =
-            (splat(e[0]) + in_block[0]) | (splat(e[1]) + in_block[1]) | (splat(e[2]) + in_block[2]);
-        for (int i = 0; i < 3; ++i) e[i] += a_[i] * 4;
-        lanes covered = not_negative(signs);
+        lanes covered = not_negative(e[0] | e[1] | e[2]);
+        for (int i = 0; i < 3; ++i) e[i] = e[i] + to_right[i];
         if (masked_) covered = covered & lanes_of(rect_bits(x, y));
         if (shader::any_lane(covered)) sink.block(x, y, covered);
       }
@@ -110,7 +133,7 @@ class Coverage {
     return columns & rows;
   }
 
-  int32_t a_[3], b_[3], e_[3];
+  int32_t a_[4], b_[4], e_[4];  // of three edges
   int32_t first_block_x_, last_block_x_, first_block_y_, last_block_y_;
   PixelRect rect_;  // in the tile
   bool masked_;

@@ -22,6 +22,9 @@ struct Surface {
   uint32_t slices = 1;
   rtapi::Format format = rtapi::Format::kUnknown;  // of the view
   bool read_only = false;                          // depth: tested but never written
+  // The texels count as `value`, whatever they hold, and the pass writes all of them.
+  bool cleared = false;
+  std::array<uint32_t, 4> value = {};  // words of a texel, as of TargetCodec
 };
 
 struct Targets {

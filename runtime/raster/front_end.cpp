@@ -56,9 +56,11 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
   collect_vertices();
   shade_vertices(thread);
   bins_.begin(grid);
-  batch.triangles.reserve(range.count);
+  triangles_.clear();
+  triangles_.reserve(range.count);
+  if (plan.has_pixel) batch.shading.reserve(range.count);
   add_triangles();
-  bins_.finish(batch);
+  bins_.finish(triangles_.data(), plan.has_pixel, batch);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -222,12 +224,13 @@ void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
     add_clipped(primitive_id, vertex, screen, any);
     return;
   }
-  Triangle* added = emit(screen, primitive_id);
-  if (added == nullptr) return;
+  const Triangle* added = emit(screen);
+  if (added == nullptr || !plan_->has_pixel) return;
+  TriangleShading& shading = add_shading(screen, primitive_id);
   const bool swapped = (added->flags & kSwapped) != 0;
-  added->vertex[0] = vertex[0];
-  added->vertex[1] = vertex[swapped ? 2 : 1];
-  added->vertex[2] = vertex[swapped ? 1 : 2];
+  shading.vertex[0] = vertex[0];
+  shading.vertex[1] = vertex[swapped ? 2 : 1];
+  shading.vertex[2] = vertex[swapped ? 1 : 2];
 }
 
 // Where each triangle may choose its viewport, vertices are transformed here.
@@ -258,19 +261,27 @@ void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t
   }
 }
 
-// Null if it need not be drawn.
-Triangle* FrontEnd::emit(const ScreenVertex screen[3], uint32_t primitive_id) {
-  Storage<Triangle>& triangles = batch_->triangles;
-  const size_t number = triangles.size();
-  Triangle& triangle = triangles.resize(number + 1)[number];
+Triangle* FrontEnd::emit(const ScreenVertex screen[3]) {
+  const size_t number = triangles_.size();
+  Triangle& triangle = triangles_.resize(number + 1)[number];
   if (!set_up_triangle(*plan_, viewport_->rect, screen, triangle)) {
-    triangles.resize(number);
+    triangles_.resize(number);
     return nullptr;
   }
   triangle.flags |= viewport_flags_;
-  triangle.primitive_id = primitive_id;
   bins_.add(triangle, slice_, static_cast<uint32_t>(number));
   return &triangle;
+}
+
+TriangleShading& FrontEnd::add_shading(const ScreenVertex screen[3], uint32_t primitive_id) {
+  const size_t number = triangles_.size() - 1;
+  const bool swapped = (triangles_[number].flags & kSwapped) != 0;
+  TriangleShading& shading = batch_->shading.resize(number + 1)[number];
+  shading.primitive_id = primitive_id;
+  shading.inv_w[0] = screen[0].inv_w;
+  shading.inv_w[1] = screen[swapped ? 2 : 1].inv_w;
+  shading.inv_w[2] = screen[swapped ? 1 : 2].inv_w;
+  return shading;
 }
 
 // The cut polygon as a fan.
@@ -307,11 +318,13 @@ void FrontEnd::add_clipped(uint32_t primitive_id, const uint32_t vertex[3],
   for (int i = 1; i + 1 < count; ++i) {
     const int part[3] = {first, (first + i) % count, (first + i + 1) % count};
     const ScreenVertex part_corners[3] = {screen[part[0]], screen[part[1]], screen[part[2]]};
-    Triangle* added = emit(part_corners, primitive_id);
+    Triangle* added = emit(part_corners);
     if (added == nullptr) continue;
     added->flags |= kClipped;
-    added->clip = static_cast<uint32_t>(batch_->clips.size());
-    for (int k = 0; k < 3; ++k) added->vertex[k] = vertex[k];
+    if (!plan_->has_pixel) continue;
+    TriangleShading& shading = add_shading(part_corners, primitive_id);
+    shading.clip = static_cast<uint32_t>(batch_->clips.size());
+    for (int k = 0; k < 3; ++k) shading.vertex[k] = vertex[k];
     const bool swapped = (added->flags & kSwapped) != 0;
     const int order[3] = {part[0], part[swapped ? 2 : 1], part[swapped ? 1 : 2]};
     ClipWeights weights;

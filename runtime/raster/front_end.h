@@ -34,7 +34,10 @@ class FrontEnd {
   void gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const;
   void add_clipped(uint32_t primitive_id, const uint32_t vertex[3], const ScreenVertex corners[3],
                    uint32_t codes);
-  Triangle* emit(const ScreenVertex screen[3], uint32_t primitive_id);
+  // Adds a triangle; null if it need not be drawn.
+  Triangle* emit(const ScreenVertex screen[3]);
+  // Of the triangle that was added last; `vertex` and `clip` are left to the caller.
+  TriangleShading& add_shading(const ScreenVertex screen[3], uint32_t primitive_id);
 
   const TriangleRange* range_ = nullptr;
   const Draw* draw_ = nullptr;
@@ -50,6 +53,7 @@ class FrontEnd {
   // By corner of a triangle: the number of its vertex in the batch.
   Storage<uint32_t> corners_;
   Storage<uint32_t> table_;  // from an index to its vertex
+  Storage<Triangle> triangles_;
   // By vertex.
   Storage<uint32_t> ids_;  // SV_VertexID
   Storage<Vertices> clip_;

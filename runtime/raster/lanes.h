@@ -91,6 +91,10 @@ KAAMOS_INLINE lanes less(const wide<T>& a, const wide<T>& b) {
   return by_register<bool>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x < y; }, a, b);
 }
 template <class T>
+KAAMOS_INLINE lanes less_or_equal(const wide<T>& a, const wide<T>& b) {
+  return by_register<bool>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x <= y; }, a, b);
+}
+template <class T>
 KAAMOS_INLINE lanes equal(const wide<T>& a, const wide<T>& b) {
   return by_register<bool>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x == y; }, a, b);
 }

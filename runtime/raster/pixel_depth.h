@@ -9,6 +9,17 @@
 
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
 
+// Corners of blocks in a tile, in subpixels.
+inline constexpr int kBlockColumns = kTileSize / 4;
+inline constexpr int kBlockRows = kTileSize / 2;
+struct BlockCorners {
+  double x[kBlockColumns], y[kBlockRows];
+  constexpr BlockCorners() : x(), y() {
+    for (int i = 0; i < kBlockColumns; ++i) x[i] = 4 * kSubpixels * i;
+    for (int i = 0; i < kBlockRows; ++i) y[i] = 2 * kSubpixels * i;
+  }
+};
+inline constexpr BlockCorners kBlockCorners;
 // Coordinates of a block's pixels in subpixels, from the first pixel's corner.
 inline constexpr double kBlockCenterX[8] = {128, 384, 128, 384, 640, 896, 640, 896};
 inline constexpr double kBlockCenterY[8] = {128, 128, 384, 384, 128, 128, 384, 384};
@@ -18,8 +29,8 @@ inline constexpr double kBlockCenterY[8] = {128, 128, 384, 384, 128, 128, 384, 3
 class DepthPlane {
  public:
   KAAMOS_INLINE void begin(const Triangle& t, int32_t x, int32_t y) {
-    x_ = x * kSubpixels - t.x[0];
-    y_ = y * kSubpixels - t.y[0];
+    x_ = static_cast<double>(x * kSubpixels - t.x[0]);
+    y_ = static_cast<double>(y * kSubpixels - t.y[0]);
     z_ = static_cast<double>(t.z[0]);
     dz_dx_ = t.dz_dx;
     dz_dy_ = t.dz_dy;
@@ -32,16 +43,14 @@ class DepthPlane {
     return doubles(z_) + doubles(dz_dy_) * row_y(block_y);
   }
   KAAMOS_INLINE Floats8 at_block(const Doubles8& row, int32_t block_x, int32_t block_y) const {
-    const Doubles8 x =
-        doubles(static_cast<double>(x_ + block_x * 4 * kSubpixels)) + load_doubles(kBlockCenterX);
+    const Doubles8 x = doubles(x_ + kBlockCorners.x[block_x]) + load_doubles(kBlockCenterX);
     if (sliver_) return at_sliver(x, row_y(block_y));
     return to_floats(row + doubles(dz_dx_) * x);
   }
 
  private:
   KAAMOS_INLINE Doubles8 row_y(int32_t block_y) const {
-    return doubles(static_cast<double>(y_ + block_y * 2 * kSubpixels)) +
-           load_doubles(kBlockCenterY);
+    return doubles(y_ + kBlockCorners.y[block_y]) + load_doubles(kBlockCenterY);
   }
   // From the exact values of two edges instead.
   void begin_sliver(const Triangle& t) {
@@ -61,22 +70,26 @@ class DepthPlane {
     return to_floats(doubles(z_) + first * doubles(weight_[0]) + second * doubles(weight_[1]));
   }
 
-  int32_t x_, y_;
+  double x_, y_;  // of the tile's corner, from vertex 0
   double z_, dz_dx_, dz_dy_;
   bool sliver_;
   double edge_[2][2];
   double weight_[2];
 };
 
-// Tests and writes words of a tile's depth. Bits of `func` as in DrawPlan::depth_func.
-template <DepthKind kKind>
+// Bits of DrawPlan::depth_func.
+inline constexpr uint32_t kPassLess = 1, kPassEqual = 2, kPassGreater = 4;
+inline constexpr uint32_t kAnyFunc = ~0u;  // the constructor's
+
+// Tests and writes words of a tile's depth.
+template <DepthKind kKind, uint32_t kFunc = kAnyFunc>
 class DepthTest {
  public:
   KAAMOS_INLINE DepthTest(uint32_t func, float low, float high)
-      : less_(every_lane_if((func & 1) != 0)),
-        equal_(every_lane_if((func & 2) != 0)),
-        greater_(every_lane_if((func & 4) != 0)),
-        unequal_(every_lane_if((func & 5) == 5)),
+      : less_(every_lane_if((func & kPassLess) != 0)),
+        equal_(every_lane_if((func & kPassEqual) != 0)),
+        greater_(every_lane_if((func & kPassGreater) != 0)),
+        unequal_(every_lane_if((func & kPassLess) != 0 && (func & kPassGreater) != 0)),
         low_(splat(low)),
         high_(splat(high)) {}
 
@@ -124,6 +137,10 @@ class DepthTest {
   // Where either is NaN, only what passes for both less and greater passes.
   template <class T>
   KAAMOS_INLINE lanes compare(const wide<T>& z, const wide<T>& stored) const {
+    if constexpr (kFunc == kPassLess) return less(z, stored);
+    if constexpr (kFunc == kPassGreater) return less(stored, z);
+    if constexpr (kFunc == (kPassLess | kPassEqual)) return less_or_equal(z, stored);
+    if constexpr (kFunc == (kPassGreater | kPassEqual)) return less_or_equal(stored, z);
     const lanes same = equal(z, stored);
     return (less(z, stored) & less_) | (less(stored, z) & greater_) | (same & equal_) |
            (~same & unequal_);

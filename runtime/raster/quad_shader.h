@@ -37,8 +37,9 @@ class QuadShader {
     linear_words_ = plan.linear.size() + plan.screen_linear.size();
     scratch_.attributes.resize(3 * linear_words_);
   }
-  void begin_triangle(const Triangle& triangle) {
+  void begin_triangle(const Triangle& triangle, const TriangleShading& shading) {
     triangle_ = &triangle;
+    shading_ = &shading;
     is_set_up_ = false;
   }
   // Runs what waits in the queue.
@@ -73,6 +74,7 @@ class QuadShader {
   const Batch* batch_ = nullptr;
   const DrawPlan* plan_ = nullptr;
   const Triangle* triangle_ = nullptr;
+  const TriangleShading* shading_ = nullptr;
   const ClipWeights* clip_ = nullptr;  // null: not clipped
   shader::Column* inputs_ = nullptr;
   shader::Column* outputs_ = nullptr;
@@ -106,13 +108,14 @@ inline void QuadShader::set_up() {
                     splat(edge_[i][1]) * load<int32_t>(kQuadCenterY);
     }
   }
-  const float largest = std::max({t.inv_w[0], t.inv_w[1], t.inv_w[2]});
+  const float* inv_w = shading_->inv_w;
+  const float largest = std::max({inv_w[0], inv_w[1], inv_w[2]});
   // A power of 2: nothing rounds.
   const uint32_t exponent = std::bit_cast<uint32_t>(largest) & 0x7F800000u;
   inv_w_scale_ = std::bit_cast<float>(0x7F000000u - exponent);
-  for (int i = 0; i < 3; ++i) inv_w_[i] = t.inv_w[i] * inv_w_scale_;
-  affine_ = t.inv_w[0] == t.inv_w[1] && t.inv_w[0] == t.inv_w[2];
-  clip_ = (t.flags & kClipped) != 0 ? &batch_->clips[t.clip] : nullptr;
+  for (int i = 0; i < 3; ++i) inv_w_[i] = inv_w[i] * inv_w_scale_;
+  affine_ = inv_w[0] == inv_w[1] && inv_w[0] == inv_w[2];
+  clip_ = (t.flags & kClipped) != 0 ? &batch_->clips[shading_->clip] : nullptr;
   set_up_attributes();
 }
 
@@ -120,7 +123,7 @@ inline void QuadShader::set_up_attributes() {
   const Triangle& t = *triangle_;
   const size_t words = plan_->row_columns.size();
   const uint32_t* rows[3];
-  for (int i = 0; i < 3; ++i) rows[i] = batch_->rows.data() + t.vertex[i] * words;
+  for (int i = 0; i < 3; ++i) rows[i] = batch_->rows.data() + shading_->vertex[i] * words;
   float* base = scratch_.attributes.data();
   float* first = base + linear_words_;
   float* second = first + linear_words_;
@@ -135,7 +138,7 @@ inline void QuadShader::set_up_attributes() {
   }
   const runtime::PixelSystemColumns& columns = plan_->linked->pixel_columns;
   if (columns.primitive_id != runtime::kNoColumn) {
-    store(inputs_[columns.primitive_id], splat(static_cast<int32_t>(t.primitive_id)));
+    store(inputs_[columns.primitive_id], splat(static_cast<int32_t>(shading_->primitive_id)));
   }
   if (columns.is_front_face != runtime::kNoColumn) {
     store(inputs_[columns.is_front_face], splat((t.flags & kFrontFacing) != 0 ? 1 : 0));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kaamos/shader/cpu_level.h"
+#include "runtime/raster/clear.h"
 #include "runtime/raster/front_end.h"
 #include "runtime/raster/tile.h"
 
@@ -82,7 +83,7 @@ struct Rasterizer::Memory {
 
 struct Rasterizer::Pass {
   Memory& memory;
-  const Targets& targets;
+  Targets targets;
   std::span<const Draw> draws;
   Workers& workers;
   Extent extent;
@@ -92,6 +93,7 @@ struct Rasterizer::Pass {
   std::vector<TriangleRange> ranges = {};  // a batch each
   std::vector<TileJob::Run> runs = {};
   std::vector<TileJob> jobs = {};
+  bool clears = false;  // the tiles that are drawn next
 
   void make_plans() {
     for (const Draw& draw : draws) {
@@ -111,7 +113,8 @@ struct Rasterizer::Pass {
       RangeCursor cursor(draws[number], number, memory.options.batch_triangles);
       TriangleRange range;
       while (cursor.next(range)) {
-        constexpr uint64_t kBytesOfTriangle = sizeof(Triangle) + 3 * sizeof(TileRun);
+        constexpr uint64_t kBytesOfTriangle =
+            sizeof(Triangle) + sizeof(TriangleShading) + 3 * sizeof(TileRun);
         const uint64_t bytes =
             range.count * (kBytesOfTriangle + plan.row_columns.size() * sizeof(uint32_t));
         if (!ranges.empty() && waiting + bytes > memory.options.batch_bytes) {
@@ -123,16 +126,41 @@ struct Rasterizer::Pass {
       }
     }
     flush();
+    // What no tile has written.
+    each_cleared([](Surface& surface) { write_cleared(surface); });
+  }
+
+  template <class F>
+  void each_cleared(const F& f) {
+    for (Surface& surface : targets.color) {
+      if (surface.cleared) f(surface);
+    }
+    if (targets.depth.cleared) f(targets.depth);
+  }
+
+  // Tiles write the clears of what they cover wholly.
+  void prepare_clears() {
+    clears = false;
+    each_cleared([&](Surface& surface) {
+      if (surface.width == extent.width && surface.height == extent.height &&
+          surface.slices == extent.slices) {
+        clears = true;
+      } else {
+        write_cleared(surface);
+      }
+    });
   }
 
   void flush() {
     if (ranges.empty()) return;
+    prepare_clears();
     while (memory.batches.size() < ranges.size()) {
       memory.batches.push_back(std::make_unique<Batch>());
     }
     make_batches();
     make_jobs();
     draw_tiles();
+    each_cleared([](Surface& surface) { surface.cleared = false; });
     ranges.clear();
   }
 
@@ -177,7 +205,7 @@ struct Rasterizer::Pass {
     std::vector<uint32_t> used;
     uint32_t count = 0;
     for (uint32_t tile = 0; tile < tiles.size(); ++tile) {
-      if (tiles[tile].runs == 0) continue;
+      if (tiles[tile].runs == 0 && !clears) continue;
       used.push_back(tile);
       tiles[tile].first = count;
       count += tiles[tile].runs;

@@ -4,6 +4,7 @@
 // in the order of pixel shaders.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "runtime/raster/draw_plan.h"
@@ -21,6 +22,7 @@ inline constexpr uint32_t kQuadsPerRow = kTileSize / 2;
 struct alignas(64) TileDepth {
   uint32_t words[kTilePixels];
 
+  void fill(uint32_t word) { std::fill(words, words + kTilePixels, word); }
   // From and to a slice of the target, whose pixel (x, y) is the tile's first. What is beyond the
   // target is left alone.
   void load(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice);

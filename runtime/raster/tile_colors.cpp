@@ -130,6 +130,20 @@ void TileColors::begin(const Targets& targets, uint32_t x, uint32_t y, uint32_t 
     words += words_of(target_codec(surface.format), kTilePixels);
   }
   words_.resize(words);
+  for (uint32_t i = 0; i < targets.color.size(); ++i) {
+    if (targets.color[i].cleared) fill(i);
+  }
+}
+
+void TileColors::fill(uint32_t target) {
+  constexpr uint32_t kBands = kTileSize / kBandRows;
+  bands_[target] = (1u << kBands) - 1;
+  const Surface& surface = targets_->color[target];
+  const uint32_t words = target_codec(surface.format).words;
+  uint32_t* out = this->words(target);
+  for (uint32_t i = 0; i < kTilePixels / 4; ++i) {
+    for (uint32_t w = 0; w < words; ++w, out += 4) put(out, Four{} + surface.value[w]);
+  }
 }
 
 void TileColors::load_new(uint32_t target, uint32_t bands) {

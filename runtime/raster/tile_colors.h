@@ -17,7 +17,7 @@ class TileColors {
   // Rows of the tile that are fetched together: bit i stands for the i-th eight.
   static constexpr uint32_t kBandRows = 8;
 
-  // The tile of a slice of the targets whose first pixel is (x, y).
+  // The tile of a slice of the targets whose first pixel is (x, y). What is cleared is there.
   void begin(const Targets& targets, uint32_t x, uint32_t y, uint32_t slice);
   // Fetches bands of a target, except those that are there.
   void load(uint32_t target, uint32_t bands) {
@@ -30,6 +30,7 @@ class TileColors {
   void store() const;
 
  private:
+  void fill(uint32_t target);  // of a target that is cleared
   void load_new(uint32_t target, uint32_t bands);
 
   const Targets* targets_ = nullptr;

@@ -16,19 +16,22 @@ class TileDrawing {
   void run() {
     scratch_.queue.count = 0;
     scratch_.colors.begin(*job_.targets, job_.x, job_.y, job_.slice);
-    bool loaded = false;
-    bool written = false;
+    const Surface& depth = job_.targets->depth;
+    bool loaded = depth.cleared;
+    bool written = depth.cleared;
+    if (depth.cleared) scratch_.depth.fill(depth.value[0]);
     for (uint32_t i = 0; i < job_.run_count; ++i) {
       const TileJob::Run& run = job_.runs[i];
+      if (i + 1 < job_.run_count) prefetch(job_.runs[i + 1], 0, kAhead);
       const DrawPlan& plan = job_.plans[run.batch->plan];
       if (plan.depth != DepthKind::kNone && !loaded) {
-        scratch_.depth.load(job_.targets->depth, job_.x, job_.y, job_.slice);
+        scratch_.depth.load(depth, job_.x, job_.y, job_.slice);
         loaded = true;
       }
       written = written || plan.early_write || plan.late_write;
       draw(run, plan);
     }
-    if (written) scratch_.depth.store(job_.targets->depth, job_.x, job_.y, job_.slice);
+    if (written) scratch_.depth.store(depth, job_.x, job_.y, job_.slice);
     scratch_.colors.store();
   }
 
@@ -37,7 +40,7 @@ class TileDrawing {
     if (plan.has_pixel) quads_.begin_batch(*run.batch, plan);
     switch (plan.early_test ? plan.depth : DepthKind::kNone) {
       case DepthKind::kFloat32:
-        return draw_as<DepthKind::kFloat32>(run, plan);
+        return draw_float32(run, plan);
       case DepthKind::kUnorm16:
         return draw_as<DepthKind::kUnorm16>(run, plan);
       case DepthKind::kUnorm24:
@@ -47,21 +50,38 @@ class TileDrawing {
     }
   }
 
-  template <DepthKind kKind>
+  // The usual comparisons in versions of their own.
+  void draw_float32(const TileJob::Run& run, const DrawPlan& plan) {
+    constexpr DepthKind kKind = DepthKind::kFloat32;
+    switch (plan.depth_func) {
+      case kPassLess:
+        return draw_as<kKind, kPassLess>(run, plan);
+      case kPassLess | kPassEqual:
+        return draw_as<kKind, kPassLess | kPassEqual>(run, plan);
+      case kPassGreater:
+        return draw_as<kKind, kPassGreater>(run, plan);
+      case kPassGreater | kPassEqual:
+        return draw_as<kKind, kPassGreater | kPassEqual>(run, plan);
+      default:
+        return draw_as<kKind>(run, plan);
+    }
+  }
+
+  template <DepthKind kKind, uint32_t kFunc = kAnyFunc>
   void draw_as(const TileJob::Run& run, const DrawPlan& plan) {
     if (plan.has_pixel) {
-      draw_triangles<kKind, true>(run, plan);
+      draw_triangles<kKind, kFunc, true>(run, plan);
     } else {
-      draw_triangles<kKind, false>(run, plan);
+      draw_triangles<kKind, kFunc, false>(run, plan);
     }
   }
 
   // What happens to the blocks of one triangle.
-  template <DepthKind kKind, bool kShades>
+  template <DepthKind kKind, uint32_t kFunc, bool kShades>
   struct Blocks {
     TileDrawing& tile;
     const DrawPlan& plan;
-    const DepthTest<kKind>& test;
+    const DepthTest<kKind, kFunc>& test;
     DepthPlane plane;
     Doubles8 z_of_row;
     const bool needs_z = kKind != DepthKind::kNone || (kShades && plan.needs_z);
@@ -82,41 +102,57 @@ class TileDrawing {
     }
   };
 
-  template <DepthKind kKind, bool kShades>
+  template <DepthKind kKind, uint32_t kFunc, bool kShades>
   void draw_triangles(const TileJob::Run& run, const DrawPlan& plan) {
-    const uint32_t* order = run.batch->order.data() + run.first;
-    const Triangle* triangles = run.batch->triangles.data();
+    const Triangle* triangles = run.batch->triangles.data() + run.first;
     const auto x = static_cast<int32_t>(job_.x);
     const auto y = static_cast<int32_t>(job_.y);
     uint32_t number = 0;  // of the viewport
     const auto test_of = [&] {
       const ViewportState& viewport = plan.viewports[number];
-      return DepthTest<kKind>(plan.depth_func, viewport.depth_low, viewport.depth_high);
+      return DepthTest<kKind, kFunc>(plan.depth_func, viewport.depth_low, viewport.depth_high);
     };
-    DepthTest<kKind> test = test_of();
+    DepthTest<kKind, kFunc> test = test_of();
     for (uint32_t i = 0; i < run.count; ++i) {
-      // A batch's triangles of a tile lie apart.
-      constexpr uint32_t kAhead = 6;
-      if (i + kAhead < run.count) {
-        const Triangle* later = triangles + order[i + kAhead];
-        __builtin_prefetch(later);
-        __builtin_prefetch(reinterpret_cast<const char*>(later + 1) - 1);
-      }
-      const Triangle& triangle = triangles[order[i]];
+      const Triangle& triangle = triangles[i];
+      prefetch(run, i + kAhead, i + kAhead + 1);
+      if constexpr (kShades) prefetch_rows(run, i + kAhead / 2, plan);
       if (triangle.flags >> kViewportShift != number) {
         number = triangle.flags >> kViewportShift;
         test = test_of();
       }
       Coverage coverage;
       if (!coverage.begin(triangle, plan.viewports[number].rect, x, y)) continue;
-      Blocks<kKind, kShades> blocks{*this, plan, test, {}, {}};
+      Blocks<kKind, kFunc, kShades> blocks{*this, plan, test, {}, {}};
       if (blocks.needs_z) blocks.plane.begin(triangle, x, y);
       if constexpr (kShades) {
         reach(triangle, plan);
-        quads_.begin_triangle(triangle);
+        quads_.begin_triangle(triangle, run.batch->shading[run.batch->numbers[run.first + i]]);
       }
       coverage.each_block(blocks);
       if constexpr (kShades) quads_.flush();
+    }
+  }
+
+  // Triangles come from far away: batches wrote them for all tiles.
+  static constexpr uint32_t kAhead = 8;
+  KAAMOS_INLINE static void prefetch(const TileJob::Run& run, uint32_t first, uint32_t end) {
+    if (end > run.count) end = run.count;
+    const Batch& batch = *run.batch;
+    for (uint32_t i = first; i < end; ++i) {
+      __builtin_prefetch(&batch.triangles[run.first + i]);
+      if (batch.numbers.size() == 0) continue;
+      __builtin_prefetch(&batch.shading[batch.numbers[run.first + i]]);
+    }
+  }
+  KAAMOS_INLINE static void prefetch_rows(const TileJob::Run& run, uint32_t i,
+                                          const DrawPlan& plan) {
+    if (i >= run.count) return;
+    const Batch& batch = *run.batch;
+    const TriangleShading& shading = batch.shading[batch.numbers[run.first + i]];
+    const size_t words = plan.row_columns.size();
+    for (const uint32_t vertex : shading.vertex) {
+      __builtin_prefetch(batch.rows.data() + vertex * words);
     }
   }
 

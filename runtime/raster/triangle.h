@@ -32,8 +32,9 @@ struct PixelBox {
   int16_t left, top, right, bottom;
 };
 
-// Its vertices are clockwise, y down. Vertex 0 is the leading one unless it is clipped.
-struct Triangle {
+// What covering pixels and their depth take, in one line of the cache. Its vertices are clockwise,
+// y down. Vertex 0 is the leading one unless it is clipped.
+struct alignas(64) Triangle {
   int32_t x[3];
   int32_t y[3];
   float z[3];      // with the depth bias
@@ -41,10 +42,15 @@ struct Triangle {
   PixelBox box;    // what it reaches of what may be drawn
   double dz_dx;    // by subpixel
   double dz_dy;
+};
+static_assert(sizeof(Triangle) == 64);
+
+// What else its pixels take.
+struct TriangleShading {
   uint32_t vertex[3];  // of the batch; if it is clipped those of the primitive, in its order
   uint32_t primitive_id;
-  float inv_w[3];
-  uint32_t clip;  // number of its ClipWeights
+  float inv_w[3];  // in the order of Triangle::x
+  uint32_t clip;   // number of its ClipWeights
 };
 
 // What a clipped triangle's vertices are made of: weights of the primitive's vertices, by vertex.
@@ -56,7 +62,7 @@ struct ClipWeights {
 // Triangles of a batch in one tile.
 struct TileRun {
   uint32_t tile;
-  uint32_t first;  // in Batch::order
+  uint32_t first;  // in Batch::triangles
   uint32_t count;
 };
 
@@ -64,21 +70,24 @@ struct TileRun {
 struct Batch {
   uint32_t draw = 0;
   uint32_t plan = 0;
-  Storage<uint32_t> rows;  // what pixels need of each vertex, by DrawPlan
-  Storage<Triangle> triangles;
+  Storage<uint32_t> rows;            // what pixels need of each vertex, by DrawPlan
+  Storage<Triangle> triangles;       // of all runs, in the order of drawing in each
+  Storage<uint32_t> numbers;         // theirs in the batch, if there is a pixel shader
+  Storage<TriangleShading> shading;  // by number in the batch
   Storage<ClipWeights> clips;
-  Storage<uint32_t> order;  // triangles of all runs, in the order of drawing in each
   Storage<TileRun> runs;
 
   void clear() {
     rows.clear();
     triangles.clear();
+    numbers.clear();
+    shading.clear();
     clips.clear();
-    order.clear();
     runs.clear();
   }
   size_t bytes() const {
-    return rows.bytes() + triangles.bytes() + clips.bytes() + order.bytes() + runs.bytes();
+    return rows.bytes() + triangles.bytes() + numbers.bytes() + shading.bytes() + clips.bytes() +
+           runs.bytes();
   }
 };
 

@@ -81,7 +81,6 @@ bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVe
     out.x[i] = v[order[i]].x;
     out.y[i] = v[order[i]].y;
     out.z[i] = v[order[i]].z;
-    out.inv_w[i] = v[order[i]].inv_w;
   }
   const auto magnitude = static_cast<double>(swap ? -area : area);
   set_plane(out, magnitude);

@@ -343,5 +343,73 @@ TEST(DrawThreads, RAS_149_ResultsDoNotDependOnThreads) {
   }
 }
 
+// Clears in front of a pass: of a target that is written, of one that is only bound and is smaller,
+// and of depth; and again in front of a pass without the smaller one.
+TEST_P(Draws, ClearsReachWhatDrawsDoNot) {
+  constexpr uint32_t kWidth = 200, kHeight = 150;
+  const auto texture = [&](uint32_t width, uint32_t height, Format format, bool depth) {
+    return canvas_->device
+        .CreateTexture(
+            {.Width = width,
+             .Height = height,
+             .Format = format,
+             .Flags = depth ? ResourceFlags::kAllowDepthStencil : ResourceFlags::kAllowRenderTarget,
+             .InitialState = depth ? ResourceStates::kDepthWrite : ResourceStates::kRenderTarget})
+        .value();
+  };
+  const Texture written = texture(kWidth, kHeight, Format::kR32G32B32A32Float, false);
+  const Texture bound = texture(130, 70, Format::kR32G32B32A32Float, false);
+  const Texture depth = texture(kWidth, kHeight, Format::kR32Typeless, true);
+  const auto heap = [&](DescriptorHeapType type, uint32_t count) {
+    return canvas_->device.CreateDescriptorHeap({.Type = type, .NumDescriptors = count}).value();
+  };
+  const DescriptorHeap rtvs = heap(DescriptorHeapType::kRtv, 2);
+  const DescriptorHeap dsvs = heap(DescriptorHeapType::kDsv, 1);
+  const CpuDescriptorHandle targets[2] = {rtvs.GetCPUDescriptorHandle(0),
+                                          rtvs.GetCPUDescriptorHandle(1)};
+  const CpuDescriptorHandle dsv = dsvs.GetCPUDescriptorHandle(0);
+  canvas_->device.CreateRenderTargetView(written, targets[0]).value();
+  canvas_->device.CreateRenderTargetView(bound, targets[1]).value();
+  canvas_->device.CreateDepthStencilView(depth, dsv).value();
+
+  GraphicsPipelineStateDesc desc = canvas_->desc("WholeTarget", "Constant");
+  const PipelineState pipeline = canvas_->make(desc);
+  for (const uint32_t count : {2u, 1u}) {
+    const float color = static_cast<float>(count);
+    canvas_->run([&](CommandList& list) {
+      for (uint32_t i = 0; i < count; ++i) {
+        const float clear[4] = {color, 0, 0, static_cast<float>(i)};
+        list.ClearRenderTargetView(targets[i], clear);
+      }
+      list.ClearDepthStencilView(dsv, ClearFlags::kDepth, 0.25f * color, 0);
+      list.OMSetRenderTargets(count, targets, false, &dsv);
+      list.RSSetViewports(Viewport{10, 20, 5, 4, 0, 1});
+      Canvas::use(list, pipeline, {9, 9, 9, 0.125f});
+      list.DrawInstanced(3, 1, 0, 0);
+    });
+    const auto texels = [&](const Texture& of) {
+      return ReadbackTexture(canvas_->device, canvas_->queue, of, 0).value();
+    };
+    const auto float_at = [](const std::vector<std::byte>& bytes, size_t number) {
+      float value;
+      std::memcpy(&value, bytes.data() + number * sizeof value, sizeof value);
+      return value;
+    };
+    const auto of_written = texels(written);
+    const auto of_depth = texels(depth);
+    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+      const uint32_t x = i % kWidth, y = i / kWidth;
+      const bool drawn = x >= 10 && x < 15 && y >= 20 && y < 24;
+      ASSERT_EQ(float_at(of_written, size_t{4} * i), drawn ? 9 : color) << x << ' ' << y;
+      ASSERT_EQ(float_at(of_depth, i), drawn ? 0.125f : 0.25f * color) << x << ' ' << y;
+    }
+    const auto of_bound = texels(bound);
+    for (size_t i = 0; i < size_t{130} * 70; ++i) {
+      ASSERT_EQ(float_at(of_bound, 4 * i), 2) << i;
+      ASSERT_EQ(float_at(of_bound, 4 * i + 3), 1) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kaamos::draws
