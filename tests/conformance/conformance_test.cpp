@@ -26,9 +26,6 @@ const bool kRegistered = [] {
     std::replace(suite.begin(), suite.end(), '/', '_');
     for (const Section& section : all_sections()) {
       if (std::string_view(section.name) == "ras_random") continue;  // in ras_random_test.cpp
-      // Vulkan has no graphics pipelines.
-      if (target.backend == "vulkan" && std::string_view(section.name).starts_with("ras_"))
-        continue;
       testing::RegisterTest(suite.c_str(), section.name, nullptr, nullptr, __FILE__, __LINE__,
                             [=]() -> RulesHold* { return new RulesHold(section, target); });
     }

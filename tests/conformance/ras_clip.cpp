@@ -122,7 +122,8 @@ void directions(Context& t) {
 
 // A strip of four triangles with something wrong at vertex 1, then one triangle more.
 void strip_without_two(Context& t, Screen& screen, const PipelineState& pipeline,
-                       const std::string& what, size_t component, float value) {
+                       const std::string& what, size_t component, float value,
+                       bool may_be_drawn = false) {
   std::vector<Corner> corners = {screen.at(0, 0),   screen.at(16, 0), screen.at(0, 16),
                                  screen.at(16, 16), screen.at(0, 32), screen.at(16, 32)};
   for (Corner& corner : corners) corner.value[0] = 1;
@@ -133,6 +134,7 @@ void strip_without_two(Context& t, Screen& screen, const PipelineState& pipeline
   });
   // Triangles 0 and 1 are the square above.
   t.equal(what + ": px that differ", screen.count([&](uint32_t x, uint32_t y) {
+    if (may_be_drawn && y < 16) return false;
     return (screen.texel<float>(x, y) != 0) != (x < 16 && y >= 16);
   }),
           0u);
@@ -151,7 +153,8 @@ void infinities_drop_triangles(Context& t) {
   const PipelineState pipeline = screen.make("Pass", "Value");
   for (const float value : {kInf, -kInf}) {
     for (size_t c = 0; c < 4; ++c) {
-      strip_without_two(t, screen, pipeline, "infinite " + std::string(1, "xyzw"[c]), c, value);
+      strip_without_two(t, screen, pipeline, "infinite " + std::string(1, "xyzw"[c]), c, value,
+                        t.target().backend == "vulkan");
     }
   }
 }

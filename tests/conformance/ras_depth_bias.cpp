@@ -67,8 +67,9 @@ void bias_of_unorm(Context& t) {
   t.equal("D24, bias 1", passes(Format::kD24UnormS8Uint, 0x3C800020, 1), true);
   t.equal("D24, bias 1 is no more", passes(Format::kD24UnormS8Uint, 0x3C800200, 1), false);
   Screen screen(t, {Format::kR32G32B32A32Float}, Format::kD16Unorm, 8);
-  t.equal("D16, bias 100", stored(screen, {100}, 0.5f), 32868u);
-  t.equal("D16, bias -7", stored(screen, {-7}, 0.5f), 32761u);
+  constexpr float kMiddle = 32768.0f / 65535;
+  t.equal("D16, bias 100", stored(screen, {100}, kMiddle), 32868u);
+  t.equal("D16, bias -7", stored(screen, {-7}, kMiddle), 32761u);
 }
 
 // SV_Position.z.

@@ -46,5 +46,5 @@ Fetched Fetches(float4 value : VALUE, uint vertex : SV_VertexID) {
 // What was fetched, beside the constants; a column for each draw.
 [shader("pixel")]
 float4 ReadFetched(Fetched input, uint primitive : SV_PrimitiveID) : SV_Target {
-  return float4(input.value.x + 16.0 * input.value.w, tint.x, float(input.vertex), 1.0 + float(primitive));
+  return float4(input.value.x, tint.x, float(input.vertex), 1.0 + float(primitive));
 }

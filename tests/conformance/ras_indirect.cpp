@@ -123,8 +123,7 @@ void arguments_are_reset(Context& t) {
     list.RSSetScissorRects(Rect{4, 0, 8, 8});
     list.DrawInstanced(3, 1, 0, 0);
   });
-  // (x, y, 0, 1) of the buffer; w tells whether one was bound.
-  t.equal("value in the command", screen.texel<float>(1, 1, 0), 5.0f + 16);
+  t.equal("value in the command", screen.texel<float>(1, 1, 0), 5.0f);
   t.equal("constant in the command", screen.texel<float>(1, 1, 1), 7.0f);
   t.equal("value afterwards: unbound", screen.texel<float>(6, 1, 0), 0.0f);
   t.equal("constant afterwards", screen.texel<float>(6, 1, 1), 0.0f);

@@ -3,6 +3,8 @@
 // Rules of order, early and late tests, unordered access views.
 #include <shaders/ras_order.h>
 
+#include <algorithm>
+
 #include "tests/conformance/ras_reference.h"
 #include "tests/conformance/screen.h"
 
@@ -21,13 +23,19 @@ Screen order_screen(Context& t, Format color = Format::kR32G32B32A32Float,
 
 void triangles_in_order(Context& t) {
   Screen screen = order_screen(t, Format::kR32Float, Format::kUnknown, 64);
-  GraphicsPipelineStateDesc desc = screen.desc("Pass", "Value");
+  GraphicsPipelineStateDesc desc = screen.desc("Pass", "HalfOfElement");
   desc.BlendState.RenderTarget[0].BlendEnable = true;
   desc.BlendState.RenderTarget[0].SrcBlend = Blend::kSrcAlpha;
   desc.BlendState.RenderTarget[0].DestBlend = Blend::kInvSrcAlpha;
   const PipelineState pipeline = screen.make(desc);
   std::mt19937 random(98);
   std::vector<Corner> corners = grid_triangles(screen, GridKind::kMedium, 10000, random);
+  // Drivers that cut triangles at the target's border round new corners, so none reaches beyond.
+  for (Corner& corner : corners) {
+    const float w = corner.position[3];
+    corner.position[0] = std::clamp(corner.position[0], -w, w);
+    corner.position[1] = std::clamp(corner.position[1], -w, w);
+  }
   // Halves and small numbers: blending is exact for a while, then rounds alike.
   for (size_t i = 0; i < corners.size(); i += 3) {
     const auto shade = static_cast<float>(random() % 1024);
@@ -57,7 +65,7 @@ void triangles_in_order(Context& t) {
     device.Threads = threads;
     Context other(device, t.target());
     Screen again = order_screen(other, Format::kR32Float, Format::kUnknown, 64);
-    GraphicsPipelineStateDesc same = again.desc("Pass", "Value");
+    GraphicsPipelineStateDesc same = again.desc("Pass", "HalfOfElement");
     same.BlendState = desc.BlendState;
     again.draw(again.make(same), corners);
     t.equal(std::to_string(threads) + " threads: px that differ",

@@ -6,6 +6,12 @@ RWByteAddressBuffer words : register(u0);
 RasterizerOrderedTexture2D<uint> ordered : register(u1);
 RaytracingAccelerationStructure scene : register(t0);
 
+// The same for the whole triangle, to be blended by half.
+[shader("pixel")]
+float4 HalfOfElement(float4 position : SV_Position, nointerpolation uint element : ELEMENT) : SV_Target {
+  return float4(element, 0.0, 0.0, 0.5);
+}
+
 // No attribute: tests come after the shader, as it writes memory.
 [shader("pixel")]
 float4 CountsLate() : SV_Target {

@@ -13,8 +13,6 @@ const bool kRandomRegistered = [] {
   Target vulkan;
   vulkan.backend = "vulkan";
   for (const Target& target : {Target(), vulkan}) {
-    // Vulkan has no graphics pipelines.
-    if (target.backend == "vulkan") continue;
     const std::string suite = "RandomTriangles_" + target.backend;
     testing::RegisterTest(suite.c_str(), "all", nullptr, nullptr, __FILE__, __LINE__,
                           [=]() -> RulesHold* {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kaamos::conformance {
 
@@ -52,6 +53,35 @@ bool ExactTriangle::covers(uint32_t px, uint32_t py) const {
     if (!(dy < 0 || (dy == 0 && dx > 0))) return false;
   }
   return true;
+}
+
+bool ExactTriangle::is_in_target() const {
+  const auto inside = [&](int64_t subpixels) {
+    return subpixels >= 0 && subpixels <= int64_t{size_} * 256;
+  };
+  return std::all_of(x_, x_ + 3, inside) && std::all_of(y_, y_ + 3, inside);
+}
+
+long double ExactTriangle::distance_to_edges(uint32_t px, uint32_t py) const {
+  long double nearest = std::numeric_limits<long double>::infinity();
+  for (int from = 0; from < 3; ++from) {
+    const int to = (from + 1) % 3;
+    const long double length = std::hypot(static_cast<long double>(x_[to] - x_[from]),
+                                          static_cast<long double>(y_[to] - y_[from]));
+    const int64_t value = edge(from, int64_t{px} * 256 + 128, int64_t{py} * 256 + 128);
+    nearest = std::min(nearest, static_cast<long double>(std::abs(value)) / length / 256);
+  }
+  return nearest;
+}
+
+std::string ExactTriangle::text() const {
+  std::string out;
+  for (int i = 0; i < 3; ++i) {
+    out += (i == 0 ? "(" : ", (") + std::to_string(static_cast<double>(x_[i]) / 256) + " " +
+           std::to_string(static_cast<double>(y_[i]) / 256) + " z " + std::to_string(z_[i]) +
+           " w " + std::to_string(w_[i]) + " value " + std::to_string(value_[i]) + ")";
+  }
+  return out;
 }
 
 void ExactTriangle::each_pixel(const std::function<void(uint32_t x, uint32_t y)>& visit) const {

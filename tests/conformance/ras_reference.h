@@ -17,13 +17,16 @@ class ExactTriangle {
   // Three corners whose places on the screen are exact floats. Covers only pixels of the screen.
   ExactTriangle(const Screen& screen, const Corner* corners);
 
-  bool has_area() const { return area_ != 0; }
+  bool is_in_target() const;
   bool covers(uint32_t x, uint32_t y) const;
   void each_pixel(const std::function<void(uint32_t x, uint32_t y)>& visit) const;
   // At the centre of a pixel, from the rounded corners.
   long double depth(uint32_t x, uint32_t y) const;
   // The first of value: linear or, without perspective, linear on the screen.
   long double value(uint32_t x, uint32_t y, bool perspective) const;
+  // In pixels, from the centre of one to the nearest line through two corners.
+  long double distance_to_edges(uint32_t x, uint32_t y) const;
+  std::string text() const;  // its corners
   // How far a backend may be from these at a pixel. [RAS-70, RAS-73]
   struct Bounds {
     long double depth, value, on_screen;

@@ -11,7 +11,9 @@ float k_target(float value, uint bits) {
   if (bits == 0u) return value;
   float most = float((1u << bits) - 1u);
   float inside = value > 0.0 ? min(value, 1.0) : 0.0;  // not a number: 0
-  return floor(inside * most + 0.5) / most + exp2(-float(bits) - 2.0);
+  // The middle of what drivers turn into this step, be it that they round value * most or truncate
+  // value * (most + 1).
+  return (floor(inside * most + 0.5) + 0.5) / (most + 1.0);
 }
 uint k_target(uint value, uint bits) {
   return bits == 0u || bits > 31u ? value : min(value, (1u << bits) - 1u);
