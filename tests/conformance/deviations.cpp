@@ -24,9 +24,7 @@ constexpr char kNullVertices[] =
     "NULLVB: fault of Mesa 25.0's vertex fetch: an unbound slot gives (0, 0, 0, 1) for formats "
     "without alpha";
 constexpr char kHuge[] =
-    "HUGE: fault of Mesa 25.0's rasterizer: positions beyond 1e4 pixels lose coverage, those "
-    "beyond "
-    "1e12 all of it";
+    "HUGE: fault of Mesa 25.0's rasterizer: triangles that reach beyond 1e7 pixels lose coverage";
 constexpr char kCutOnScreen[] =
     "NOPERSP: fault of Mesa 25.0's clipping: noperspective values are wrong or NaN on triangles "
     "that "
