@@ -29,7 +29,9 @@ class Reporter;  // runtime/checks/report.h
 namespace kaamos::runtime {
 
 struct AccelerationStructure;
-struct LinkedGraphics;  // linked_graphics.h
+struct LinkedGraphics;   // linked_graphics.h
+struct DrawCounts;       // draw_observation.h
+struct DrawObservation;  // draw_observation.h
 
 // Linear memory, zero at first; freed with the object.
 class BackendBuffer {
@@ -126,6 +128,13 @@ class BackendDevice {
     return nullptr;
   }
 
+  // From now on draws are noted in `observation`, which must stay until the call with null. False:
+  // this backend cannot. Not to be called while a list executes.
+  virtual bool observe_draws(DrawObservation* observation) {
+    (void)observation;
+    return false;
+  }
+
   virtual rtapi::RaytracingStatistics statistics() const { return {}; }
   virtual void reset_statistics() {}
 };
@@ -163,6 +172,12 @@ class CommandObserver {
   virtual void missed(const Command& command, const MissingRecords& records) {
     (void)command;
     (void)records;
+  }
+  // Called between before() and after() with what became of a draw, if the backend rasterizes by
+  // itself and the draw has run by then.
+  virtual void drawn(const DrawCommand& command, const DrawCounts& counts) {
+    (void)command;
+    (void)counts;
   }
   // Whether before() or after() reads GPU memory for this command.
   virtual bool needs_memory(const Command& command) const = 0;

@@ -57,6 +57,10 @@ class Device final : public runtime::BackendDevice {
       uint64_t address) const override {
     return memory_->find(address);
   }
+  bool observe_draws(runtime::DrawObservation* observation) override {
+    observation_ = observation;
+    return true;
+  }
   rtapi::RaytracingStatistics statistics() const override;
   void reset_statistics() override;
 
@@ -73,6 +77,7 @@ class Device final : public runtime::BackendDevice {
   tbb::task_arena& arena() { return arena_; }
   // One pass at a time: its memory stays from list to list.
   raster::Rasterizer& rasterizer() { return rasterizer_; }
+  runtime::DrawObservation* observation() const { return observation_; }
   void add_counters(const Counters& counters);
 
  private:
@@ -93,6 +98,7 @@ class Device final : public runtime::BackendDevice {
   std::atomic<int64_t> embree_bytes_ = 0;
   std::shared_ptr<ViewPool> views_ = std::make_shared<ViewPool>();
   raster::Rasterizer rasterizer_;
+  runtime::DrawObservation* observation_ = nullptr;
   std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();
   mutable std::mutex statistics_mutex_;
   Counters counters_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/backend/backend.h"
 #include "runtime/embree/texture.h"
 #include "runtime/raster/clear.h"
 
@@ -60,6 +61,7 @@ CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::st
   RunningDraw& running = running_.emplace_back();
   running.command = command;
   running.label = label;
+  if (observation_ != nullptr) running.number = observation_->next_draw++;
   begin_draw(environment_, running);
   draws_.push_back(resolve(running.command));
   return outcome;
@@ -98,12 +100,58 @@ void DrawPass::begin_pass(const runtime::DrawTargets& views) {
   clear_now();
 }
 
+void DrawPass::begin_observation(raster::Observation& noted) {
+  noted.draws = std::vector<raster::Observation::OfDraw>(running_.size());
+  if (observation_ == nullptr) return;
+  runtime::DrawObservation& all = *observation_;
+  uint32_t width = 0;
+  uint32_t height = 0;
+  const auto take = [&](const runtime::TargetView& view) {
+    if (view.texture == nullptr) return;
+    width = width == 0 ? view.width : std::min(width, view.width);
+    height = height == 0 ? view.height : std::min(height, view.height);
+  };
+  const runtime::DrawTargets& views = running_.front().command.state->targets;
+  for (uint32_t i = 0; i < views.color_count; ++i) take(views.color[i]);
+  take(views.depth);
+  for (size_t i = 0; i < running_.size(); ++i) {
+    const uint32_t number = running_[i].number;
+    noted.draws[i].number = number;
+    if (number < all.first_draw || number - all.first_draw >= all.draw_count) continue;
+    if (all.width == 0 && width != 0) {
+      all.width = width;
+      all.height = height;
+      all.map.width = width;
+      all.map.height = height;
+      if (all.counts_pixels) all.map.pixels.resize(size_t{width} * height);
+    }
+    noted.draws[i].noted = width != 0 && width == all.width && height == all.height;
+    ++(noted.draws[i].noted ? all.noted : all.left_out);
+    if (noted.draws[i].noted && all.logs_pixel) {
+      all.logged[number] = {running_[i].command.linked, running_[i].label};
+    }
+  }
+  if (all.counts_pixels) noted.map = &all.map;
+  if (all.logs_pixel) noted.log = &all.log;
+}
+
+void DrawPass::end_observation(const raster::Observation& noted) const {
+  if (environment_.context->observer == nullptr) return;
+  for (size_t i = 0; i < running_.size(); ++i) {
+    environment_.context->observer->drawn(running_[i].command, noted.draws[i].counts);
+  }
+}
+
 CountedOutcome DrawPass::flush() {
   CountedOutcome outcome;
   clear_now();
   if (running_.empty()) return outcome;
   DrawWorkers workers(environment_, running_);
-  rasterizer_.draw(targets_, draws_, workers);
+  raster::Observation noted;
+  const bool observed = observation_ != nullptr || environment_.context->observer != nullptr;
+  if (observed) begin_observation(noted);
+  rasterizer_.draw(targets_, draws_, workers, observed ? &noted : nullptr);
+  if (observed) end_observation(noted);
   for (RunningDraw& draw : running_) {
     CountedOutcome one = end_dispatch(draw.dispatch);
     outcome.counters.add(one.counters);

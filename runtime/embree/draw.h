@@ -10,14 +10,17 @@
 
 #include "runtime/backend/draw_commands.h"
 #include "runtime/embree/draw_shaders.h"
+#include "runtime/raster/observer.h"
 #include "runtime/raster/rasterizer.h"
 
 namespace kaamos::embree {
 
 class DrawPass {
  public:
-  DrawPass(const DispatchEnvironment& environment, raster::Rasterizer& rasterizer)
-      : environment_(environment), rasterizer_(rasterizer) {}
+  // `observation` is null if nobody asks for it.
+  DrawPass(const DispatchEnvironment& environment, raster::Rasterizer& rasterizer,
+           runtime::DrawObservation* observation)
+      : environment_(environment), rasterizer_(rasterizer), observation_(observation) {}
 
   // Takes a draw into the pass, after a flush if its targets are others. `label` names it in
   // messages.
@@ -34,9 +37,13 @@ class DrawPass {
 
   void clear_now();
   void begin_pass(const runtime::DrawTargets& views);
+  // Tells raster::Observation what to note, and others what was.
+  void begin_observation(raster::Observation& noted);
+  void end_observation(const raster::Observation& noted) const;
 
   DispatchEnvironment environment_;
   raster::Rasterizer& rasterizer_;
+  runtime::DrawObservation* observation_;
   std::deque<RunningDraw> running_;
   std::vector<raster::Draw> draws_;
   raster::Targets targets_;                          // of the draws

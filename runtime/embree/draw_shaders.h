@@ -20,6 +20,7 @@ struct RunningDraw {
       dispatch;  // what a draw shares with a dispatch: arguments, heaps, what went wrong
   runtime::DrawCommand command;  // keeps what it refers to
   std::string label;             // "DrawInstanced, command 3"
+  uint32_t number = 0;           // of a runtime::DrawObservation
   const GraphicsPipeline& pipeline() const {
     return static_cast<const GraphicsPipeline&>(*command.pipeline);
   }

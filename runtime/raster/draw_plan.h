@@ -40,6 +40,9 @@ struct DrawPlan {
   const runtime::LinkedGraphics* linked = nullptr;
   const runtime::DrawState* state = nullptr;
   bool draws_nothing = false;
+  bool observed = false;      // counts what becomes of vertices and triangles
+  bool has_shading = false;   // triangles come with their TriangleShading
+  bool keeps_culled = false;  // for a log of a pixel: triangles go on, marked kCulled
 
   // Vertices. Column row_columns[i] of the vertex shader's outputs becomes word i of the row:
   // first what is linear, then what is linear on the screen, then what is flat.

@@ -53,14 +53,21 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
   batch_ = &batch;
   batch.clear();
   batch.draw = range.draw;
+  batch.instance = range.instance;
+  counts_ = nullptr;
+  if (plan.observed) {
+    batch.counts = {};
+    batch.counts.triangles = range.count;
+    counts_ = &batch.counts;
+  }
   collect_vertices();
   shade_vertices(thread);
   bins_.begin(grid);
   triangles_.clear();
   triangles_.reserve(range.count);
-  if (plan.has_pixel) batch.shading.reserve(range.count);
+  if (plan.has_shading) batch.shading.reserve(range.count);
   add_triangles();
-  bins_.finish(triangles_.data(), plan.has_pixel, batch);
+  bins_.finish(triangles_.data(), plan.has_shading, batch);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -152,6 +159,7 @@ void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column
   Screen& screen = screen_[first / kGroup];
   std::memcpy(&clip, outputs[columns.position], sizeof(clip));
   clip_outcodes(clip, plan_->depth_clip, screen.outcode);
+  if (counts_ != nullptr) count_vertices(first, count);
   for (uint32_t c = 0; c < plan_->clip_count; ++c) {
     for (uint32_t i = 0; i < count; ++i) {
       const auto distance = std::bit_cast<float>(outputs[columns.clip_distances[c]][i]);
@@ -182,6 +190,19 @@ void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column
   }
 }
 
+void FrontEnd::count_vertices(uint32_t first, uint32_t count) {
+  const Vertices& clip = clip_[first / kGroup];
+  constexpr float kFar = 1e7f;
+  counts_->vertices += count;
+  for (uint32_t i = 0; i < count; ++i) {
+    if ((screen_[first / kGroup].outcode[i] & kNotFinite) != 0) {
+      if (counts_->not_finite++ == 0) counts_->first_not_finite = ids_[first + i];
+    } else if (std::max(std::fabs(clip.x[i]), std::fabs(clip.y[i])) > kFar * std::fabs(clip.w[i])) {
+      if (counts_->far_away++ == 0) counts_->first_far_away = ids_[first + i];
+    }
+  }
+}
+
 // ---------------------------------------------------------------------------------------------
 // Triangles
 
@@ -209,11 +230,18 @@ void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
     all &= code;
     any |= code;
   }
-  if ((all & kOutside) != 0 || (any & kNotFinite) != 0) return;
+  if ((all & kOutside) != 0 || (any & kNotFinite) != 0) {
+    if (counts_ != nullptr)
+      ++((any & kNotFinite) != 0 ? counts_->not_a_triangle : counts_->outside);
+    return;
+  }
   uint32_t number = plan_->picks_viewport ? viewports_[vertex[0]] : 0;
   if (number >= rtapi::kViewportAndScissorRectCount) number = 0;
   viewport_ = &plan_->viewports[number];
-  if (viewport_->rect.empty()) return;
+  if (viewport_->rect.empty()) {
+    if (counts_ != nullptr) ++counts_->no_pixel;
+    return;
+  }
   viewport_flags_ = number << kViewportShift;
   slice_ = plan_->picks_slice ? slices_[vertex[0]] : 0;
   if (slice_ >= plan_->slices) slice_ = 0;
@@ -225,7 +253,7 @@ void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
     return;
   }
   const Triangle* added = emit(screen);
-  if (added == nullptr || !plan_->has_pixel) return;
+  if (added == nullptr || !plan_->has_shading) return;
   TriangleShading& shading = add_shading(screen, primitive_id);
   const bool swapped = (added->flags & kSwapped) != 0;
   shading.vertex[0] = vertex[0];
@@ -264,8 +292,14 @@ void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t
 Triangle* FrontEnd::emit(const ScreenVertex screen[3]) {
   const size_t number = triangles_.size();
   Triangle& triangle = triangles_.resize(number + 1)[number];
-  if (!set_up_triangle(*plan_, viewport_->rect, screen, triangle)) {
+  const SetUp set_up = set_up_triangle(*plan_, viewport_->rect, screen, triangle);
+  if (set_up != SetUp::kDone) {
     triangles_.resize(number);
+    if (counts_ != nullptr) {
+      ++(set_up == SetUp::kZeroArea ? counts_->zero_area
+         : set_up == SetUp::kCulled ? counts_->culled
+                                    : counts_->no_pixel);
+    }
     return nullptr;
   }
   triangle.flags |= viewport_flags_;
@@ -305,7 +339,10 @@ void FrontEnd::add_clipped(uint32_t primitive_id, const uint32_t vertex[3],
   for (int i = 0; i < 3; ++i) original_w[i] = static_cast<float>(polygon[i].w);
   const int count =
       clip({plan_->depth_clip, plan_->clip_count, codes / kOutClip & 0xFF}, *viewport_, polygon);
-  if (count == 0) return;
+  if (count == 0) {
+    if (counts_ != nullptr) ++counts_->outside;
+    return;
+  }
 
   ScreenVertex screen[kMaxClippedVertices];
   for (int i = 0; i < count; ++i) {
@@ -321,7 +358,7 @@ void FrontEnd::add_clipped(uint32_t primitive_id, const uint32_t vertex[3],
     Triangle* added = emit(part_corners);
     if (added == nullptr) continue;
     added->flags |= kClipped;
-    if (!plan_->has_pixel) continue;
+    if (!plan_->has_shading) continue;
     TriangleShading& shading = add_shading(part_corners, primitive_id);
     shading.clip = static_cast<uint32_t>(batch_->clips.size());
     for (int k = 0; k < 3; ++k) shading.vertex[k] = vertex[k];

@@ -38,11 +38,13 @@ class FrontEnd {
   Triangle* emit(const ScreenVertex screen[3]);
   // Of the triangle that was added last; `vertex` and `clip` are left to the caller.
   TriangleShading& add_shading(const ScreenVertex screen[3], uint32_t primitive_id);
+  void count_vertices(uint32_t first, uint32_t count);
 
   const TriangleRange* range_ = nullptr;
   const Draw* draw_ = nullptr;
   const DrawPlan* plan_ = nullptr;
   Batch* batch_ = nullptr;
+  runtime::DrawCounts* counts_ = nullptr;  // null: nothing is counted
   // Where the triangle that is being added is drawn to.
   const ViewportState* viewport_ = nullptr;
   uint32_t viewport_flags_ = 0;

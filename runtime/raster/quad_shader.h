@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "runtime/raster/observer.h"
 #include "runtime/raster/output_merger.h"
 #include "runtime/raster/pixel_depth.h"
 #include "runtime/raster/tile.h"
@@ -64,6 +65,7 @@ class QuadShader {
   KAAMOS_INLINE void interpolate(const std::vector<RowAttribute>& attributes, size_t first,
                                  const Weights8& weights);
   KAAMOS_INLINE void set_barycentrics(const Weights8& weights);
+  void finish_observed(uint32_t first, bool pair, const QuadPlaces& places, uint32_t live);
   uint32_t test_late(uint32_t first, bool pair, uint32_t live);
   template <DepthKind kKind>
   uint32_t test_late_as(uint32_t* quads[2], const Floats8& z, uint32_t live) const;
@@ -161,6 +163,9 @@ inline void QuadShader::shade(uint32_t first, bool pair) {
   shader::PixelLanes pixel_lanes{inputs_, outputs_, pair ? 0xFFu : 0xFu, covered};
   thread_.pixels(batch_->draw, pixel_lanes);
   uint32_t live = pixel_lanes.live & covered;
+  if (scratch_.observer != nullptr) [[unlikely]] {
+    return finish_observed(first, pair, places, live);
+  }
   if (live != 0 && (plan_->late_test || plan_->late_write)) live = test_late(first, pair, live);
   if (live != 0) write_targets(*plan_, scratch_.colors, places, outputs_, live);
 }
@@ -197,6 +202,28 @@ inline QuadShader::Edges8 QuadShader::edges_at(const int32_t x[2], const int32_t
   const Doubles8 second = edge(1);
   return {to_floats(first), to_floats(second),
           to_floats(doubles(static_cast<double>(area_)) - first - second)};
+}
+
+// What shade() does after the pixel shader, told to the observer.
+inline void QuadShader::finish_observed(uint32_t first, bool pair, const QuadPlaces& places,
+                                        uint32_t live) {
+  const QuadQueue& queue = scratch_.queue;
+  const uint32_t covered =
+      queue.covered[first] | (pair ? static_cast<uint32_t>(queue.covered[first + 1]) << 4 : 0u);
+  const bool late = plan_->late_test || plan_->late_write;
+  uint32_t stored[8] = {};
+  if (late) {
+    for (uint32_t i = 0; i < (pair ? 2u : 1u); ++i) {
+      __builtin_memcpy(stored + 4 * i, scratch_.depth.words + queue.quad[first + i] * 4, 16);
+    }
+  }
+  uint32_t written = live;
+  if (live != 0 && late) written = test_late(first, pair, live);
+  TileObserver& observer = *scratch_.observer;
+  observer.before_write(queue.quad + first, pair);
+  if (written != 0) write_targets(*plan_, scratch_.colors, places, outputs_, written);
+  observer.shaded(*triangle_, {queue.quad + first, pair, covered, live, written, outputs_,
+                               late ? stored : nullptr});
 }
 
 inline void QuadShader::set_attributes(const QuadPlaces& places) {

@@ -6,6 +6,7 @@
 #include "kaamos/shader/cpu_level.h"
 #include "runtime/raster/clear.h"
 #include "runtime/raster/front_end.h"
+#include "runtime/raster/observer.h"
 #include "runtime/raster/tile.h"
 
 namespace kaamos::raster {
@@ -79,6 +80,7 @@ struct Rasterizer::Memory {
   std::vector<std::unique_ptr<Batch>> batches;
   Pool<FrontEnd> front_ends;
   Pool<TileScratch> tiles;
+  Pool<TileObserver> observers;
 };
 
 struct Rasterizer::Pass {
@@ -88,6 +90,7 @@ struct Rasterizer::Pass {
   Workers& workers;
   Extent extent;
   TileGrid grid;
+  Observation* observation;
   std::vector<DrawPlan> plans = {};
   std::vector<uint32_t> plan_of_draw = {};
   std::vector<TriangleRange> ranges = {};  // a batch each
@@ -99,6 +102,9 @@ struct Rasterizer::Pass {
     for (const Draw& draw : draws) {
       if (plans.empty() || plans.back().linked != draw.linked || plans.back().state != draw.state) {
         plans.push_back(plan_draw(draw, targets, extent.width, extent.height, extent.slices));
+        plans.back().observed = observation != nullptr;
+        plans.back().has_shading = plans.back().has_pixel || observation != nullptr;
+        plans.back().keeps_culled = observation != nullptr && observation->log != nullptr;
       }
       plan_of_draw.push_back(static_cast<uint32_t>(plans.size() - 1));
     }
@@ -187,6 +193,11 @@ struct Rasterizer::Pass {
       }
       memory.front_ends.give_back(front_end);
     });
+    if (observation == nullptr) return;
+    for (size_t i = 0; i < ranges.size(); ++i) {
+      const Batch& batch = *memory.batches[i];
+      observation->draws[batch.draw].counts.add(batch.counts);
+    }
   }
 
   void make_jobs() {
@@ -235,6 +246,7 @@ struct Rasterizer::Pass {
       job.slice = tile / (grid.columns * grid.rows);
       job.width = extent.width;
       job.height = extent.height;
+      job.observation = observation;
       jobs.push_back(job);
     }
   }
@@ -242,7 +254,14 @@ struct Rasterizer::Pass {
   void draw_tiles() {
     workers.run(static_cast<uint32_t>(jobs.size()), [&](uint32_t task, ShaderThread& thread) {
       TileScratch* scratch = memory.tiles.take();
-      memory.draw_tile(jobs[task], *scratch, thread);
+      if (observation == nullptr) {
+        memory.draw_tile(jobs[task], *scratch, thread);
+      } else {
+        scratch->observer = memory.observers.take();
+        draw_tile_observed(jobs[task], *scratch, thread);
+        memory.observers.give_back(scratch->observer);
+        scratch->observer = nullptr;
+      }
       memory.tiles.give_back(scratch);
     });
   }
@@ -254,15 +273,18 @@ Rasterizer::Rasterizer(const RasterizerOptions& options) : memory_(std::make_uni
 }
 Rasterizer::~Rasterizer() = default;
 
-void Rasterizer::draw(const Targets& targets, std::span<const Draw> draws, Workers& workers) {
+void Rasterizer::draw(const Targets& targets, std::span<const Draw> draws, Workers& workers,
+                      Observation* observation) {
   const Extent extent = common_extent(targets);
   memory_->front_ends.give_back_all();
   memory_->tiles.give_back_all();
+  memory_->observers.give_back_all();
   const auto tiles = [](uint32_t size) {
     return (size + uint32_t{kTileSize} - 1) / uint32_t{kTileSize};
   };
-  Pass pass{*memory_, targets, draws,
-            workers,  extent,  {tiles(extent.width), tiles(extent.height), extent.slices}};
+  Pass pass{*memory_,   targets, draws,
+            workers,    extent,  {tiles(extent.width), tiles(extent.height), extent.slices},
+            observation};
   pass.make_plans();
   pass.run();
 }

@@ -14,6 +14,8 @@
 
 namespace kaamos::raster {
 
+struct Observation;  // observer.h
+
 // Results depend on none of them.
 struct RasterizerOptions {
   uint32_t batch_triangles = 2048;
@@ -29,8 +31,10 @@ class Rasterizer {
   Rasterizer(const Rasterizer&) = delete;
   Rasterizer& operator=(const Rasterizer&) = delete;
 
-  // One pass at a time. Memory is kept for the next one.
-  void draw(const Targets& targets, std::span<const Draw> draws, Workers& workers);
+  // One pass at a time. Memory is kept for the next one. `observation` is null or has an element
+  // for each draw.
+  void draw(const Targets& targets, std::span<const Draw> draws, Workers& workers,
+            Observation* observation = nullptr);
 
  private:
   struct Pass;

@@ -38,13 +38,17 @@ struct QuadQueue {
   alignas(32) float z[kCapacity * 4];
 };
 
+class TileObserver;
+struct Observation;
+
 // Memory of one thread.
 struct TileScratch {
   TileDepth depth;
   TileColors colors;
   QuadQueue queue;
-  Storage<uint32_t> columns;  // inputs and outputs of the pixel shader
-  Storage<float> attributes;  // at vertex 0 and the differences to the others
+  Storage<uint32_t> columns;         // inputs and outputs of the pixel shader
+  Storage<float> attributes;         // at vertex 0 and the differences to the others
+  TileObserver* observer = nullptr;  // only for draw_tile_observed
 };
 
 // Runs of triangles of one tile, in the order of drawing.
@@ -63,11 +67,14 @@ struct TileJob {
   uint32_t slice = 0;
   uint32_t width = 0;  // of what all targets have in common
   uint32_t height = 0;
+  Observation* observation = nullptr;  // null: nothing is noted
 };
 
 using DrawTile = void (*)(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
 // For any processor, and for those with AVX2: the same results.
 void draw_tile_baseline(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
 void draw_tile_avx2(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
+// The same again; tells TileScratch::observer what happens.
+void draw_tile_observed(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
 
 }  // namespace kaamos::raster

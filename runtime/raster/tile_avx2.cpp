@@ -8,7 +8,7 @@
 namespace kaamos::raster {
 
 void draw_tile_avx2(const TileJob& job, TileScratch& scratch, ShaderThread& thread) {
-  KAAMOS_RASTER_LEVEL::TileDrawing(job, scratch, thread).run();
+  KAAMOS_RASTER_LEVEL::TileDrawing<false>(job, scratch, thread).run();
 }
 
 }  // namespace kaamos::raster

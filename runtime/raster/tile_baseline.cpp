@@ -4,7 +4,7 @@
 namespace kaamos::raster {
 
 void draw_tile_baseline(const TileJob& job, TileScratch& scratch, ShaderThread& thread) {
-  KAAMOS_RASTER_LEVEL::TileDrawing(job, scratch, thread).run();
+  KAAMOS_RASTER_LEVEL::TileDrawing<false>(job, scratch, thread).run();
 }
 
 }  // namespace kaamos::raster

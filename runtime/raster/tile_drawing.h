@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Draws a tile: the triangles of its runs, one after another.
+// Draws a tile: the triangles of its runs, one after another. kObserved: tells the observer of
+// TileScratch.
 #pragma once
 
 #include "runtime/raster/quad_shader.h"
@@ -8,6 +9,7 @@
 
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
 
+template <bool kObserved>
 class TileDrawing {
  public:
   TileDrawing(const TileJob& job, TileScratch& scratch, ShaderThread& thread)
@@ -16,6 +18,7 @@ class TileDrawing {
   void run() {
     scratch_.queue.count = 0;
     scratch_.colors.begin(*job_.targets, job_.x, job_.y, job_.slice);
+    if constexpr (kObserved) scratch_.observer->begin_tile(job_, scratch_.colors);
     const Surface& depth = job_.targets->depth;
     bool loaded = depth.cleared;
     bool written = depth.cleared;
@@ -33,11 +36,13 @@ class TileDrawing {
     }
     if (written) scratch_.depth.store(depth, job_.x, job_.y, job_.slice);
     scratch_.colors.store();
+    if constexpr (kObserved) scratch_.observer->end_tile();
   }
 
  private:
   void draw(const TileJob::Run& run, const DrawPlan& plan) {
     if (plan.has_pixel) quads_.begin_batch(*run.batch, plan);
+    if constexpr (kObserved) scratch_.observer->begin_batch(*run.batch, plan);
     switch (plan.early_test ? plan.depth : DepthKind::kNone) {
       case DepthKind::kFloat32:
         return draw_float32(run, plan);
@@ -82,6 +87,7 @@ class TileDrawing {
     TileDrawing& tile;
     const DrawPlan& plan;
     const DepthTest<kKind, kFunc>& test;
+    const Triangle& triangle;
     DepthPlane plane;
     Doubles8 z_of_row;
     const bool needs_z = kKind != DepthKind::kNone || (kShades && plan.needs_z);
@@ -95,10 +101,32 @@ class TileDrawing {
       lanes pass = covered;
       Floats8 z{};
       if (needs_z) z = plane.at_block(z_of_row, block_x, block_y);
+      uint32_t stored[8];
+      if constexpr (kObserved) __builtin_memcpy(stored, tile.scratch_.depth.words + quad * 4, 32);
       if constexpr (kKind != DepthKind::kNone) {
         pass = test.run(tile.scratch_.depth.words + quad * 4, z, covered, plan.early_write);
       }
+      if constexpr (kObserved) {
+        float values[8];
+        store(values, z);
+        tile.scratch_.observer->block(
+            triangle, {quad, bits_of(covered), bits_of(pass), needs_z ? values : nullptr,
+                       kKind != DepthKind::kNone ? stored : nullptr});
+      }
       if constexpr (kShades) tile.put(quad, bits_of(pass), z, plan.needs_z);
+    }
+  };
+
+  // Blocks of a triangle that is only logged.
+  struct CulledBlocks {
+    TileObserver& observer;
+    const Triangle& triangle;
+
+    void row(int32_t) {}
+    void block(int32_t block_x, int32_t block_y, const lanes& covered) {
+      const auto quad =
+          static_cast<uint32_t>(block_y) * kQuadsPerRow + static_cast<uint32_t>(block_x) * 2;
+      observer.block(triangle, {quad, bits_of(covered), 0, nullptr, nullptr});
     }
   };
 
@@ -123,7 +151,15 @@ class TileDrawing {
       }
       Coverage coverage;
       if (!coverage.begin(triangle, plan.viewports[number].rect, x, y)) continue;
-      Blocks<kKind, kFunc, kShades> blocks{*this, plan, test, {}, {}};
+      if constexpr (kObserved) {
+        scratch_.observer->begin_triangle(run.batch->shading[run.batch->numbers[run.first + i]]);
+        if ((triangle.flags & kCulled) != 0) {
+          CulledBlocks culled{*scratch_.observer, triangle};
+          coverage.each_block(culled);
+          continue;
+        }
+      }
+      Blocks<kKind, kFunc, kShades> blocks{*this, plan, test, triangle, {}, {}};
       if (blocks.needs_z) blocks.plane.begin(triangle, x, y);
       if constexpr (kShades) {
         reach(triangle, plan);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "runtime/backend/draw_observation.h"
 #include "runtime/raster/storage.h"
 
 namespace kaamos::raster {
@@ -24,6 +25,7 @@ enum TriangleFlags : uint32_t {
   kSliver = 8,   // so long and thin that its plane of depth is not exact enough
   kSmall = 16,   // edges fit in 32 bits without regard to tiles
   kMasked = 32,  // blocks that it reaches hold pixels that may not be drawn
+  kCulled = 64,  // by facing; only where DrawPlan::keeps_culled
   kViewportShift = 8,
 };
 
@@ -70,9 +72,11 @@ struct TileRun {
 struct Batch {
   uint32_t draw = 0;
   uint32_t plan = 0;
+  uint32_t instance = 0;
+  runtime::DrawCounts counts;        // of its vertices and triangles, where DrawPlan::observed
   Storage<uint32_t> rows;            // what pixels need of each vertex, by DrawPlan
   Storage<Triangle> triangles;       // of all runs, in the order of drawing in each
-  Storage<uint32_t> numbers;         // theirs in the batch, if there is a pixel shader
+  Storage<uint32_t> numbers;         // theirs in the batch, where DrawPlan::has_shading
   Storage<TriangleShading> shading;  // by number in the batch
   Storage<ClipWeights> clips;
   Storage<TileRun> runs;

@@ -55,14 +55,15 @@ bool needs_masks(const PixelRect& box, const PixelRect& rect) {
 
 }  // namespace
 
-bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex v[3],
-                     Triangle& out) {
+SetUp set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex v[3],
+                      Triangle& out) {
   const int64_t dx1 = v[1].x - v[0].x, dy1 = v[1].y - v[0].y;
   const int64_t dx2 = v[2].x - v[0].x, dy2 = v[2].y - v[0].y;
   const int64_t area = dx1 * dy2 - dx2 * dy1;  // positive: clockwise, as y points down
-  if (area == 0) return false;
+  if (area == 0) return SetUp::kZeroArea;
   const bool front = (area > 0) == plan.front_is_clockwise;
-  if (front ? plan.cull_front : plan.cull_back) return false;
+  const bool culled = front ? plan.cull_front : plan.cull_back;
+  if (culled && !plan.keeps_culled) return SetUp::kCulled;
   const int32_t left = std::min({v[0].x, v[1].x, v[2].x});
   const int32_t right = std::max({v[0].x, v[1].x, v[2].x});
   const int32_t top = std::min({v[0].y, v[1].y, v[2].y});
@@ -72,7 +73,7 @@ bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVe
                       std::max(rect.top, (top + kUp) >> kSubpixelBits),
                       std::min(rect.right, ((right - kPixelCenter) >> kSubpixelBits) + 1),
                       std::min(rect.bottom, ((bottom - kPixelCenter) >> kSubpixelBits) + 1)};
-  if (box.empty()) return false;
+  if (box.empty()) return SetUp::kNoPixel;
   out.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
              static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
   const bool swap = area < 0;
@@ -95,8 +96,8 @@ bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVe
   constexpr double kThin = 0x1p24;
   out.flags = (front ? kFrontFacing : 0u) | (swap ? kSwapped : 0u) |
               (square > kThin * magnitude ? kSliver : 0u) | (length <= kSmallSize ? kSmall : 0u) |
-              (needs_masks(box, rect) ? kMasked : 0u);
-  return true;
+              (needs_masks(box, rect) ? kMasked : 0u) | (culled ? kCulled : 0u);
+  return SetUp::kDone;
 }
 
 }  // namespace kaamos::raster

@@ -9,9 +9,11 @@
 
 namespace kaamos::raster {
 
-// False if the triangle has no area, is culled, or holds no centre of a pixel of `rect`; else fills
-// in the position, the depth and the flags but kClipped and the viewport's number.
-bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex vertices[3],
-                     Triangle& out);
+enum class SetUp : uint8_t { kDone, kZeroArea, kCulled, kNoPixel };
+
+// kNoPixel if the triangle holds no centre of a pixel of `rect`. kDone: the position, the depth and
+// the flags but kClipped and the viewport's number are filled in.
+SetUp set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex vertices[3],
+                      Triangle& out);
 
 }  // namespace kaamos::raster

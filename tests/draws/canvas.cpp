@@ -82,6 +82,17 @@ void Canvas::use(CommandList& list, const PipelineState& pipeline, Tint tint) {
 }
 
 void Canvas::run(const std::function<void(CommandList&)>& record, float clear_depth) {
+  CommandList commands = list(record, clear_depth);
+  queue.ExecuteAndWait(commands).value();
+  read_back();
+}
+
+void Canvas::read_back() {
+  color_ = ReadbackTexture(device, queue, target, 0).value();
+  depth_ = ReadbackTexture(device, queue, depth_buffer, 0).value();
+}
+
+CommandList Canvas::list(const std::function<void(CommandList&)>& record, float clear_depth) {
   CommandList list = device.CreateCommandList().value();
   const CpuDescriptorHandle rtv = rtvs.GetCPUDescriptorHandle(0);
   const CpuDescriptorHandle dsv = dsvs.GetCPUDescriptorHandle(0);
@@ -98,9 +109,7 @@ void Canvas::run(const std::function<void(CommandList&)>& record, float clear_de
   list.OMSetRenderTargets(1, &rtv, false, &dsv);
   record(list);
   list.Close().value();
-  queue.ExecuteAndWait(list).value();
-  color_ = ReadbackTexture(device, queue, target, 0).value();
-  depth_ = ReadbackTexture(device, queue, depth_buffer, 0).value();
+  return list;
 }
 
 float Canvas::depth(uint32_t x, uint32_t y) const {

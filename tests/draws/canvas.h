@@ -32,6 +32,10 @@ class Canvas {
 
   // Clears, sets everything but a pipeline and vertex buffers, and records; the list then runs.
   void run(const std::function<void(rtapi::CommandList&)>& record, float clear_depth = 1);
+  // The same in two parts: the closed list, and what texel() and depth() read.
+  rtapi::CommandList list(const std::function<void(rtapi::CommandList&)>& record,
+                          float clear_depth = 1);
+  void read_back();
   // Sets a pipeline and the tint.
   static void use(rtapi::CommandList& list, const rtapi::PipelineState& pipeline, Tint tint = {});
 

@@ -2,7 +2,7 @@
 /// @file
 /// All of the API, but for what few programs need: runtime compilation of HLSL,
 /// `<rtapi/shader_compiler.h>`, and what shows tables and pixels to people,
-/// `<rtapi/table_description.h>` and `<rtapi/explain.h>`.
+/// `<rtapi/table_description.h>`, `<rtapi/explain.h>` and `<rtapi/explain_draw.h>`.
 #pragma once
 
 #include <rtapi/command_list.h>       // IWYU pragma: export
