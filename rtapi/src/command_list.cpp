@@ -42,6 +42,8 @@ runtime::RootBindings CommandListImpl::Snapshot(const char* call, const RootStat
   if (view_heap) state.view_heap = view_heap.impl()->memory;
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
   state.root_signature = root.signature;
+  state.set_parameters = root.set_parameters;
+  state.forgotten_parameters = root.forgotten_parameters;
   return state;
 }
 

@@ -78,7 +78,10 @@ void CommandQueueImpl::Run(const Operation& operation) {
   const auto held = HoldAll(*execute->uses);
   if (!held) return device->Remove(held.error());
   std::lock_guard lock(device->execute_mutex);
-  if (device->checks) device->checks->begin_list();
+  if (device->checks) {
+    kaamos::checks::compare_uploads(device->addresses, *device->reporter, execute->uploads);
+    device->checks->begin_list();
+  }
   if (Status s = device->backend->execute(*execute->commands); !s.ok()) device->Remove(s.error());
 }
 
@@ -148,7 +151,12 @@ Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) {
     if (const auto held = HoldAll(*list.impl()->uses); !held) return held.error();
   }
   for (const CommandList& list : lists) {
-    impl_->Submit(CommandQueueImpl::Execute{list.impl()->commands, list.impl()->uses});
+    CommandQueueImpl::Execute execute{list.impl()->commands, list.impl()->uses};
+    if (impl_->device->checks) {
+      execute.uploads =
+          kaamos::checks::read_uploads(impl_->device->addresses, *list.impl()->commands);
+    }
+    impl_->Submit(std::move(execute));
   }
   return impl_->device->removed();
 }

@@ -11,6 +11,7 @@
 #include <rtapi/command_queue.h>
 
 #include "rtapi/src/command_list_impl.h"
+#include "runtime/checks/uploads.h"
 
 namespace rtapi::detail {
 
@@ -36,6 +37,7 @@ struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
   struct Execute {
     std::shared_ptr<const CommandVector> commands;
     std::shared_ptr<const MemoryUses> uses;
+    std::vector<kaamos::checks::UploadRange> uploads = {};  // on a checked device: as submitted
   };
   struct SignalFence {
     std::shared_ptr<FenceImpl> fence;

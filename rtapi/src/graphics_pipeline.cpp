@@ -274,6 +274,7 @@ Result<PipelineState> Device::CreateGraphicsPipelineState(
   if (Status s = TakeTargets(*impl_, desc, *linked); !s.ok()) return s.error();
   if (Status s = LinkShaders(*impl_, desc, *linked); !s.ok()) return s.error();
   WarnOfSampleMask(*impl_, *linked);
+  if (impl_->checks) impl_->checks->created(*linked);
   auto pipeline = impl_->backend->create_graphics_pipeline(linked);
   if (!pipeline.ok()) return pipeline.error();
   auto impl = std::make_shared<PipelineStateImpl>();

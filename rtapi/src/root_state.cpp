@@ -57,8 +57,10 @@ void RootSetter::SetSignature(const RootSignature& signature) {
                                "arguments belong in shader records"));
   }
   if (root.signature && SameDefinition(root.signature, signature)) return;
+  const uint64_t forgotten = root.set_parameters | root.forgotten_parameters;
   root = RootState();
   root.signature = signature;
+  root.forgotten_parameters = forgotten;
 }
 
 void RootSetter::SetConstants(uint32_t parameter, uint32_t count, const void* values,
@@ -76,6 +78,7 @@ void RootSetter::SetConstants(uint32_t parameter, uint32_t count, const void* va
                                ": the pointer to the values of parameter ", parameter, " is null"));
   }
   if (count == 0) return;
+  root.NoteSet(parameter);
   root.Write(root.signature.GetArgumentOffset(parameter) + dest_offset * 4, values,
              size_t{count} * 4);
 }
@@ -89,6 +92,7 @@ void RootSetter::SetView(uint32_t index, RootParameterType type, GpuVirtualAddre
                                list.device->DescribeAddress(address),
                                "; it must lie in a live buffer, at a multiple of ", alignment));
   }
+  root.NoteSet(index);
   root.Write(root.signature.GetArgumentOffset(index), &address, sizeof address);
   root.views.erase(index);
   if (address != 0) {
@@ -112,6 +116,7 @@ void RootSetter::SetTable(uint32_t parameter, GpuDescriptorHandle base) {
                                samplers ? "sampler" : "CBV/SRV/UAV", " heap that is set",
                                heap ? "" : "; call SetDescriptorHeaps first"));
   }
+  root.NoteSet(parameter);
   root.Write(root.signature.GetArgumentOffset(parameter), &base.ptr, sizeof base.ptr);
 }
 

@@ -21,9 +21,15 @@ struct RootState {
   // Shared with recorded commands, which read no later changes.
   std::shared_ptr<runtime::RootArguments> arguments = std::make_shared<runtime::RootArguments>();
   std::map<uint32_t, MemoryUse> views;  // by root parameter: what they refer to
+  // As in runtime::RootBindings.
+  uint64_t set_parameters = 0;
+  uint64_t forgotten_parameters = 0;
 
   void Write(uint32_t offset_bytes, const void* value, size_t bytes);
   void Clear(uint32_t offset_bytes, uint32_t size_bytes);
+  void NoteSet(uint32_t parameter) {
+    if (parameter < 64) set_parameters |= uint64_t{1} << parameter;
+  }
 };
 
 // The calls that set them. `call` is the name of the CommandList's member; errors are kept by the

@@ -80,6 +80,8 @@ rtapi::Result<RootBindings> Reader::state(uint32_t index) const {
     if (uint64_t{argument.dest_offset} + argument.size_bytes > kRootArgumentBytes) continue;
     uint8_t* dest = values->bytes.data() + argument.dest_offset;
     std::memcpy(dest, arguments(index) + argument.source_offset, argument.size_bytes);
+    if (argument.root_parameter < 64)
+      state.set_parameters |= uint64_t{1} << argument.root_parameter;
     if (argument.view_alignment == 0) continue;
     uint64_t address;
     std::memcpy(&address, dest, sizeof(address));

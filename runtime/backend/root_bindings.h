@@ -29,6 +29,10 @@ struct RootBindings {
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
   rtapi::RootSignature root_signature;  // the one that was set; may be empty
+  // Bits of root parameters that were set since; and of those that were set before, under another
+  // signature. For checked mode.
+  uint64_t set_parameters = 0;
+  uint64_t forgotten_parameters = 0;
 };
 
 }  // namespace kaamos::runtime

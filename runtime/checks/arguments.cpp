@@ -288,7 +288,8 @@ void collect_uses(const runtime::LinkedShader& shader, const Arguments& argument
                     ? ResourceStates::kVertexAndConstantBuffer
                 : binding.register_class == RegisterClass::kUnorderedAccess
                     ? ResourceStates::kUnorderedAccess
-                    : ResourceStates::kNonPixelShaderResource;
+                : shader.stage == shader::Stage::kPixel ? ResourceStates::kPixelShaderResource
+                                                        : ResourceStates::kNonPixelShaderResource;
     uint64_t value = 0;
     if (slot.source == SlotSource::kRootDescriptor && read_argument(slot, arguments, value)) {
       use.address = value;

@@ -255,9 +255,11 @@ std::string where(const CodePlace& place, const CheckReport& r) {
   } else {
     out = "a shader";
   }
+  const bool draws = shader != nullptr && (shader->stage == shader::Stage::kVertex ||
+                                           shader->stage == shader::Stage::kPixel);
   if (place.tables != nullptr) {
     out += " at " + pixel_name(place.index, place.dimensions[2]);
-  } else {
+  } else if (!draws) {
     out += " in thread group (" + text_of(place.index[0]) + "," + text_of(place.index[1]) + "," +
            text_of(place.index[2]) + ")";
   }

@@ -12,15 +12,21 @@ namespace {
 using rtapi::HasAny;
 using rtapi::ResourceStates;
 
-constexpr ResourceStates kWritable = ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest;
+constexpr ResourceStates kWritable = ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest |
+                                     ResourceStates::kRenderTarget | ResourceStates::kDepthWrite;
 
 }  // namespace
 
 std::string state_name(ResourceStates state) {
   static constexpr std::pair<ResourceStates, const char*> kNames[] = {
       {ResourceStates::kVertexAndConstantBuffer, "kVertexAndConstantBuffer"},
+      {ResourceStates::kIndexBuffer, "kIndexBuffer"},
+      {ResourceStates::kRenderTarget, "kRenderTarget"},
       {ResourceStates::kUnorderedAccess, "kUnorderedAccess"},
+      {ResourceStates::kDepthWrite, "kDepthWrite"},
+      {ResourceStates::kDepthRead, "kDepthRead"},
       {ResourceStates::kNonPixelShaderResource, "kNonPixelShaderResource"},
+      {ResourceStates::kPixelShaderResource, "kPixelShaderResource"},
       {ResourceStates::kIndirectArgument, "kIndirectArgument"},
       {ResourceStates::kCopyDest, "kCopyDest"},
       {ResourceStates::kCopySource, "kCopySource"},

@@ -104,7 +104,11 @@ void Layer::before(const runtime::Command& command, const std::string& label) {
   std::visit([this](const auto& c) { check(c); }, command);
   const bool dispatches = std::holds_alternative<runtime::DispatchRaysCommand>(command) ||
                           std::holds_alternative<runtime::DispatchCommand>(command);
-  if (dispatches) addresses_.set_wrong_views(textures_.before_dispatch());
+  const bool draws = std::holds_alternative<runtime::DrawCommand>(command);
+  if (dispatches || draws) {
+    addresses_.set_wrong_views(textures_.before_dispatch(
+        dispatches ? ResourceStates::kNonPixelShaderResource : ResourceStates::kAllShaderResource));
+  }
 }
 
 void Layer::after(const runtime::Command& command, bool succeeded) {
@@ -125,7 +129,8 @@ bool Layer::needs_memory(const runtime::Command& command) const {
 
 bool Layer::needs_memory_after(const runtime::Command& command) const {
   return std::holds_alternative<runtime::DispatchRaysCommand>(command) ||
-         std::holds_alternative<runtime::ExecuteIndirectCommand>(command);
+         std::holds_alternative<runtime::ExecuteIndirectCommand>(command) ||
+         std::holds_alternative<runtime::DrawCommand>(command);
 }
 
 void Layer::keep_tables(const rtapi::DispatchRaysDesc& desc) {
@@ -162,6 +167,7 @@ void Layer::check(const runtime::ExecuteIndirectCommand& command) {
   if (command.count != nullptr) {
     hazards_.use(command.count->address(), ResourceStates::kIndirectArgument, "the count");
   }
+  draws_.check(command);
   // What is wrong with the arguments is reported when they are used.
   (void)runtime::execute_indirect(
       addresses_, command, label(), [&](const runtime::Command& dispatch, uint32_t) {
@@ -270,6 +276,9 @@ void Layer::check_uses(const std::vector<ShaderUse>& uses) {
   std::set<uint64_t> levels;
   for (const ShaderUse& use : uses) {
     if (use.texture) {
+      if (use.state == ResourceStates::kUnorderedAccess) {
+        draws_.targets().written(textures_.texture_of(use.address));
+      }
       textures_.use_view(use.address, use.state, use.what, label());
       continue;
     }
@@ -440,13 +449,17 @@ void Layer::note(const runtime::CopyBufferCommand& command) {
 }
 
 void Layer::note(const runtime::CopyTextureCommand& command) {
+  draws_.targets().written(command.dest.texture);
   if (command.dest.buffer == nullptr) return;
   structures_.written(command.dest.buffer->address() + command.dest.offset,
                       command.dest.buffer->size_bytes() - command.dest.offset);
 }
 
 void Layer::note(const runtime::ClearUavCommand& command) {
-  if (command.view.kind == shader::DescriptorKind::kTexture) return;
+  if (command.view.kind == shader::DescriptorKind::kTexture) {
+    draws_.targets().written(textures_.texture_of(shader::view_key(command.view.address, true)));
+    return;
+  }
   structures_.written(command.view.address, command.view.size_bytes);
 }
 

@@ -11,6 +11,7 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/checks/build_checks.h"
+#include "runtime/checks/draws.h"
 #include "runtime/checks/hazards.h"
 #include "runtime/checks/identifiers.h"
 #include "runtime/checks/report.h"
@@ -28,16 +29,19 @@ class Layer : public runtime::CommandObserver {
         same_definition_(same_definition),
         structures_(addresses),
         hazards_(addresses, reporter),
-        textures_(reporter) {}
+        textures_(reporter),
+        draws_(addresses, reporter, textures_) {}
 
   // Called when a state object is made.
   void created(const runtime::LinkedPipeline& pipeline);
+  void created(const runtime::LinkedGraphics& pipeline) { draws_.created(pipeline); }
   TextureStates& textures() { return textures_; }
 
   // The commands that follow belong to another list.
   void begin_list() {
     hazards_.begin_list();
     textures_.begin_list();
+    draws_.begin_list();
   }
 
   void before(const runtime::Command& command, const std::string& label) override;
@@ -47,6 +51,9 @@ class Layer : public runtime::CommandObserver {
   void reached(const runtime::Command& command,
                std::span<const runtime::ReachedFrom> calls) override;
   void missed(const runtime::Command& command, const runtime::MissingRecords& records) override;
+  void drawn(const runtime::DrawCommand& command, const runtime::DrawCounts& counts) override {
+    draws_.drawn(command, counts);
+  }
 
  private:
   void check(const runtime::DispatchRaysCommand& command);
@@ -58,6 +65,10 @@ class Layer : public runtime::CommandObserver {
   void check(const runtime::CopyBufferCommand& command);
   void check(const runtime::CopyTextureCommand& command);
   void check(const runtime::ClearUavCommand& command);
+  void check(const runtime::DrawCommand& command);
+  void check(const runtime::ClearTargetCommand& command) {
+    draws_.targets().check(command, label());
+  }
   void check(const runtime::BarrierCommand& command) {
     hazards_.barrier(command);
     textures_.barrier(command, label());
@@ -70,6 +81,8 @@ class Layer : public runtime::CommandObserver {
   void note(const runtime::CopyBufferCommand& command);
   void note(const runtime::CopyTextureCommand& command);
   void note(const runtime::ClearUavCommand& command);
+  void note(const runtime::DrawCommand& command) { draws_.targets().note(command); }
+  void note(const runtime::ClearTargetCommand& command) { draws_.targets().note(command); }
   void note(const runtime::DispatchRaysCommand&) { hold_tables(); }
   void note(const runtime::ExecuteIndirectCommand&) { hold_tables(); }
   template <class T>
@@ -79,6 +92,8 @@ class Layer : public runtime::CommandObserver {
   void take(ProofResults results, uint64_t key);
   // Checks order and states of what shaders use.
   void check_uses(const std::vector<ShaderUse>& uses);
+  // Takes out what the shaders of a draw read although it is a target, and reports it.
+  void check_feedback(const runtime::DrawCommand& command, std::vector<ShaderUse>& uses);
   uint64_t bytes_at(uint64_t address) const;  // of the structure there
 
   // Tables must not change while they are used.
@@ -98,6 +113,7 @@ class Layer : public runtime::CommandObserver {
   Structures structures_;
   Hazards hazards_;
   TextureStates textures_;
+  Draws draws_;
   Identifiers identifiers_;
   std::vector<GeometryContents> contents_;                // of the build under way
   std::vector<rtapi::RaytracingInstanceDesc> instances_;  // of the build under way

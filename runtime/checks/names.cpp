@@ -168,4 +168,54 @@ std::string pixel_name(const uint32_t index[3], uint32_t depth) {
   return text + ")";
 }
 
+std::string format_name(rtapi::Format format) {
+  using rtapi::Format;
+  static constexpr std::pair<Format, const char*> kNames[] = {
+      {Format::kUnknown, "UNKNOWN"},
+      {Format::kR32G32B32A32Float, "R32G32B32A32_FLOAT"},
+      {Format::kR32G32B32A32Uint, "R32G32B32A32_UINT"},
+      {Format::kR32G32B32A32Sint, "R32G32B32A32_SINT"},
+      {Format::kR16G16B16A16Float, "R16G16B16A16_FLOAT"},
+      {Format::kR16G16B16A16Unorm, "R16G16B16A16_UNORM"},
+      {Format::kR16G16B16A16Snorm, "R16G16B16A16_SNORM"},
+      {Format::kR16G16B16A16Uint, "R16G16B16A16_UINT"},
+      {Format::kR32G32Float, "R32G32_FLOAT"},
+      {Format::kR32G32Uint, "R32G32_UINT"},
+      {Format::kR10G10B10A2Unorm, "R10G10B10A2_UNORM"},
+      {Format::kR11G11B10Float, "R11G11B10_FLOAT"},
+      {Format::kR8G8B8A8Unorm, "R8G8B8A8_UNORM"},
+      {Format::kR8G8B8A8UnormSrgb, "R8G8B8A8_UNORM_SRGB"},
+      {Format::kR8G8B8A8Uint, "R8G8B8A8_UINT"},
+      {Format::kR8G8B8A8Snorm, "R8G8B8A8_SNORM"},
+      {Format::kB8G8R8A8Unorm, "B8G8R8A8_UNORM"},
+      {Format::kB8G8R8A8UnormSrgb, "B8G8R8A8_UNORM_SRGB"},
+      {Format::kR16G16Float, "R16G16_FLOAT"},
+      {Format::kR16G16Unorm, "R16G16_UNORM"},
+      {Format::kR16G16Snorm, "R16G16_SNORM"},
+      {Format::kR16G16Uint, "R16G16_UINT"},
+      {Format::kR32Float, "R32_FLOAT"},
+      {Format::kR32Uint, "R32_UINT"},
+      {Format::kR32Sint, "R32_SINT"},
+      {Format::kR16Float, "R16_FLOAT"},
+      {Format::kR16Unorm, "R16_UNORM"},
+      {Format::kR16Uint, "R16_UINT"},
+      {Format::kR8Unorm, "R8_UNORM"},
+      {Format::kR8Uint, "R8_UINT"},
+      {Format::kD16Unorm, "D16_UNORM"},
+      {Format::kD24UnormS8Uint, "D24_UNORM_S8_UINT"},
+      {Format::kD32Float, "D32_FLOAT"},
+      {Format::kD32FloatS8X24Uint, "D32_FLOAT_S8X24_UINT"},
+  };
+  for (const auto& [known, name] : kNames) {
+    if (known == format) return name;
+  }
+  return "DXGI format " + std::to_string(static_cast<uint32_t>(format));
+}
+
+std::string float_name(float value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
+  return text;
+}
+
 }  // namespace kaamos::checks

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include <rtapi/format.h>
 #include <rtapi/raytracing.h>
 
 #include "runtime/backend/address_map.h"
@@ -36,6 +37,9 @@ std::string argument_name(const runtime::LinkedShader& shader, bool local,
                           uint32_t argument_offset);
 // "Texture2DArray of uint", for shader::texture_shape().
 std::string texture_name(uint32_t shape);
+// "R8G8B8A8_UNORM"; "DXGI format 99" for formats that no draw writes to.
+std::string format_name(rtapi::Format format);
+std::string float_name(float value);  // "0.25"
 // "pixel (812,440)", with a third index only where the dispatch has a depth.
 std::string pixel_name(const uint32_t index[3], uint32_t depth);
 

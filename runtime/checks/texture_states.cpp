@@ -17,7 +17,8 @@ using rtapi::ResourceStates;
 namespace {
 
 bool is_read(ResourceStates state) {
-  return !HasAny(state, ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest);
+  return !HasAny(state, ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest |
+                            ResourceStates::kRenderTarget | ResourceStates::kDepthWrite);
 }
 
 }  // namespace
@@ -30,6 +31,7 @@ void TextureStates::add(const std::shared_ptr<runtime::BackendTexture>& texture,
                               desc.Name,
                               desc.MipLevels,
                               volume ? 1u : desc.DepthOrArraySize,
+                              desc.OptimizedClearValue,
                               {{desc.InitialState, false, {}}}};
 }
 
@@ -77,11 +79,14 @@ std::vector<uint32_t> TextureStates::split(Tracked& texture, const Subresources&
   return out;
 }
 
+std::string TextureStates::name(const Tracked& texture) {
+  return texture.name.empty() ? "an unnamed texture" : "texture " + quoted(texture.name);
+}
+
 std::string TextureStates::in_state(const Tracked& texture, uint32_t subresource) {
   const bool several = texture.states.size() > 1;
   const State& state = texture.states[several ? subresource : 0];
-  std::string text =
-      texture.name.empty() ? "an unnamed texture" : "texture " + quoted(texture.name);
+  std::string text = name(texture);
   if (several) {
     text = "subresource " + std::to_string(subresource) + " (mip " +
            std::to_string(subresource % texture.mips) + ", array element " +
@@ -133,7 +138,7 @@ std::string TextureStates::demand(const State& state, ResourceStates wanted) {
 bool TextureStates::allows(State& state, ResourceStates wanted, const std::string& label) {
   if (state.state != ResourceStates::kCommon && (state.state & wanted) == wanted) return true;
   const bool read = is_read(wanted);
-  if (state.state == ResourceStates::kCommon && wanted != ResourceStates::kUnorderedAccess) {
+  if (state.state == ResourceStates::kCommon && (read || wanted == ResourceStates::kCopyDest)) {
     state = {wanted, true, label};
     return true;
   }
@@ -145,7 +150,8 @@ bool TextureStates::allows(State& state, ResourceStates wanted, const std::strin
 }
 
 void TextureStates::use(const runtime::BackendTexture* used_texture, const Subresources& used,
-                        ResourceStates wanted, const std::string& what, const std::string& label) {
+                        ResourceStates wanted, const std::string& what, const std::string& label,
+                        Id id, const std::string& hint) {
   const std::lock_guard lock(mutex_);
   const auto it = textures_.find(used_texture);
   if (it == textures_.end()) return;
@@ -155,8 +161,8 @@ void TextureStates::use(const runtime::BackendTexture* used_texture, const Subre
     State& state = texture.states[index];
     if (allows(state, wanted, label)) continue;
     if (!std::exchange(told, true)) {
-      reporter_.report(Id::kResourceState,
-                       what + " is in " + in_state(texture, index) + demand(state, wanted));
+      reporter_.report(id,
+                       what + " is in " + in_state(texture, index) + demand(state, wanted) + hint);
     }
     // Report it once, not for each use that follows.
     state = {wanted, false, label};
@@ -177,7 +183,53 @@ void TextureStates::use_view(uint64_t key, ResourceStates wanted, const std::str
   if (texture != nullptr) use(texture.get(), seen, wanted, what, label);
 }
 
-std::map<uint64_t, std::string> TextureStates::before_dispatch() {
+bool TextureStates::is_in(const runtime::BackendTexture* used_texture, const Subresources& used,
+                          ResourceStates state) {
+  const std::lock_guard lock(mutex_);
+  const auto it = textures_.find(used_texture);
+  if (it == textures_.end()) return false;
+  for (const uint32_t index : split(it->second, used)) {
+    if (!HasAny(it->second.states[index].state, state)) return false;
+  }
+  return true;
+}
+
+std::string TextureStates::name_of(const runtime::BackendTexture* texture) {
+  const std::lock_guard lock(mutex_);
+  const auto it = textures_.find(texture);
+  return it == textures_.end() ? "a texture" : name(it->second);
+}
+
+std::optional<rtapi::ClearValue> TextureStates::optimized_clear(
+    const runtime::BackendTexture* texture) {
+  const std::lock_guard lock(mutex_);
+  const auto it = textures_.find(texture);
+  if (it == textures_.end() || it->second.clear.Format == rtapi::Format::kUnknown) {
+    return std::nullopt;
+  }
+  return it->second.clear;
+}
+
+bool TextureStates::shows(uint64_t key, const runtime::BackendTexture* texture,
+                          const Subresources& some) {
+  const std::lock_guard lock(mutex_);
+  const auto it = views_.find(key);
+  if (it == views_.end() || it->second.texture.lock().get() != texture) return false;
+  const auto overlap = [](uint32_t a, uint32_t a_count, uint32_t b, uint32_t b_count) {
+    return a < uint64_t{b} + b_count && b < uint64_t{a} + a_count;
+  };
+  const Subresources& seen = it->second.seen;
+  return overlap(seen.first_mip, seen.mip_count, some.first_mip, some.mip_count) &&
+         overlap(seen.first_layer, seen.layer_count, some.first_layer, some.layer_count);
+}
+
+std::shared_ptr<runtime::BackendTexture> TextureStates::texture_of(uint64_t key) {
+  const std::lock_guard lock(mutex_);
+  const auto it = views_.find(key);
+  return it == views_.end() ? nullptr : it->second.texture.lock();
+}
+
+std::map<uint64_t, std::string> TextureStates::before_dispatch(ResourceStates reads) {
   std::map<uint64_t, std::string> wrong;
   const std::lock_guard lock(mutex_);
   for (auto& [key, view] : views_) {
@@ -185,13 +237,12 @@ std::map<uint64_t, std::string> TextureStates::before_dispatch() {
     const auto it = textures_.find(texture.get());
     if (texture == nullptr || it == textures_.end()) continue;
     const bool writes = (key & shader::view_key(0, true)) != 0;
-    const ResourceStates wanted =
-        writes ? ResourceStates::kUnorderedAccess : ResourceStates::kNonPixelShaderResource;
+    const ResourceStates wanted = writes ? ResourceStates::kUnorderedAccess : reads;
     const bool alike = it->second.states.size() == 1;
     for (const uint32_t index : alike ? std::vector{0u} : split(it->second, view.seen)) {
       State& state = it->second.states[index];
       State promoted = state;
-      if (!allows(promoted, wanted, {})) {
+      if (!HasAny(state.state, wanted) && !allows(promoted, wanted, {})) {
         wrong.emplace(key, in_state(it->second, index) + demand(state, wanted));
         break;
       }

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,13 +41,26 @@ class TextureStates {
   void begin_list();
   // `label`: which command, "DispatchRays, command 3".
   void barrier(const runtime::BarrierCommand& command, const std::string& label);
+  // `id` and `hint` belong to the message if the state is another one.
   void use(const runtime::BackendTexture* texture, const Subresources& used,
-           rtapi::ResourceStates wanted, const std::string& what, const std::string& label);
+           rtapi::ResourceStates wanted, const std::string& what, const std::string& label,
+           Id id = Id::kResourceState, const std::string& hint = {});
+  // Whether all of it is in that state by now.
+  bool is_in(const runtime::BackendTexture* texture, const Subresources& used,
+             rtapi::ResourceStates state);
+  std::string name_of(const runtime::BackendTexture* texture);  // "texture \"depth\""
+  // Null if the texture was made without one.
+  std::optional<rtapi::ClearValue> optimized_clear(const runtime::BackendTexture* texture);
+  // Whether the view shows some of these subresources.
+  bool shows(uint64_t key, const runtime::BackendTexture* texture, const Subresources& some);
+  // The texture that it shows; null if it is gone.
+  std::shared_ptr<runtime::BackendTexture> texture_of(uint64_t key);
   void use_view(uint64_t key, rtapi::ResourceStates wanted, const std::string& what,
                 const std::string& label);
   // Only the shader knows what a dispatch takes out of arrays of descriptors and heaps. This
   // returns which views it must not touch, by key, and the words for reporting each.
-  std::map<uint64_t, std::string> before_dispatch();
+  // `reads`: the states of which any lets the shaders read.
+  std::map<uint64_t, std::string> before_dispatch(rtapi::ResourceStates reads);
 
  private:
   struct State {
@@ -60,6 +74,7 @@ class TextureStates {
     std::string name;
     uint32_t mips = 1;
     uint32_t layers = 1;
+    rtapi::ClearValue clear;  // of kUnknown: none
     // By subresource, or one for all of them.
     std::vector<State> states;
   };
@@ -70,6 +85,7 @@ class TextureStates {
 
   static std::vector<uint32_t> split(Tracked& texture, const Subresources& some);
   static bool allows(State& state, rtapi::ResourceStates wanted, const std::string& label);
+  static std::string name(const Tracked& texture);
   static std::string in_state(const Tracked& texture, uint32_t subresource);
   static std::string demand(const State& state, rtapi::ResourceStates wanted);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/draw_shaders.h"
 
+#include "runtime/backend/backend.h"
+#include "runtime/checks/names.h"
+#include "runtime/checks/report.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/fiber_group.h"
 #include "runtime/embree/parallel.h"
@@ -64,12 +67,23 @@ class DrawThread final : public raster::ShaderThread {
     group.body = run_quad_lane;
     group.context = &call;
     run_fibers(group, shader::kGraphicsLanes, 1, kQuadLanes);
+    if (group.split_quad && current_->dispatch.context != nullptr) report_split_quad();
     if (group.failed) remove_device(worker_, worker_.fault_reason);
   }
 
   Worker& worker() { return worker_; }
 
  private:
+  // [RAS-88]
+  void report_split_quad() const {
+    const std::string& name = current_->pipeline().linked().pixel.name;
+    current_->dispatch.context->reporter->report(
+        checks::Id::kDivergentDerivative,
+        "pixel shader " + checks::quoted(name) +
+            " takes a derivative, or samples with an implicit level, where not all pixels of a 2 "
+            "x 2 quad take part; D3D12 leaves the result undefined, here missing pixels count as "
+            "0. Do it before the branch or loop, or use SampleLevel or SampleGrad.");
+  }
   void begin(uint32_t draw) {
     RunningDraw* const next = &draws_[draw];
     if (next == current_) return;

@@ -83,6 +83,9 @@ void run_wave_threads(FiberGroup& run, std::span<FiberThread> threads, sigjmp_bu
     if (arrivals.empty()) return;
     if (run.failed) continue;
     const std::vector<WaveArrival> next = least_path(arrivals);
+    if (shader::is_derivative(next[0].call->op) && next.size() != threads.size()) {
+      run.split_quad = true;
+    }
     run_wave(next);
     for (FiberThread& thread : threads) {
       const auto goes_on = [&](const WaveArrival& arrival) { return arrival.call == thread.wave; };

@@ -42,6 +42,7 @@ struct FiberGroup {
   const void* context = nullptr;  // the body's
   FiberThread* current = nullptr;
   bool failed = false;
+  bool split_quad = false;  // out: not all lanes of a wave came to a derivative together
 };
 
 // Runs body for lanes 0, width, 2 * width, ... below `lane_count`, in waves of `group.wave_lanes`;

@@ -171,12 +171,12 @@ void TileObserver::read_texels(std::array<uint8_t, 16> runtime::TexelChange::*in
   for (const PlannedTarget& target : plan_->targets) {
     runtime::TexelChange& change = texels_[texel_count_++];
     change.slot = target.slot;
-    change.format = target.surface->format;
+    change.format = job_->targets->color[target.slot].format;
     const uint32_t words = target.codec->words;
     const uint32_t* from = colors_->words(target.slot) + log_quad_ * words * 4 + log_lane_;
-    for (uint32_t w = 0; w < words; ++w) {
-      std::memcpy((change.*into).data() + size_t{w} * 4, from + size_t{w} * 4, 4);
-    }
+    uint32_t texel[4] = {};
+    for (uint32_t w = 0; w < std::min(words, 4u); ++w) texel[w] = from[size_t{w} * 4];
+    std::memcpy((change.*into).data(), texel, sizeof texel);
   }
 }
 

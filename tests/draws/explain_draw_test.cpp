@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "canvas.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::draws {
 namespace {
@@ -41,7 +42,7 @@ class ExplainDraws : public ::testing::Test {
     });
   }
 
-  Canvas canvas_;
+  Canvas canvas_{"embree"};
 };
 
 TEST_F(ExplainDraws, TellsTheTrianglesOfAPixelInOrder) {
@@ -196,6 +197,17 @@ TEST_F(ExplainDraws, RefusesWhatIsNotThere) {
   const auto none = ExplainDrawPixel(canvas_.queue, list, {.Draws = {5}, .X = 4, .Y = 4});
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().message.find("the list has 5 draws"), std::string::npos);
+}
+
+// A GPU does not tell. [explain_draw.h]
+TEST(ExplainDrawsOnVulkan, IsRefused) {
+  KAAMOS_NEED_VULKAN();
+  Canvas canvas("vulkan");
+  CommandList list = canvas.list([](CommandList&) {});
+  const auto counts = CollectOverdraw(canvas.queue, list);
+  ASSERT_FALSE(counts.ok());
+  EXPECT_EQ(counts.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(counts.error().message.find("use the embree backend"), std::string::npos);
 }
 
 }  // namespace

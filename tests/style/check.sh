@@ -183,7 +183,7 @@ check_errors() {
   for wanted in $(seq -f 'ERR-%02g' 1 32); do
     grep -q "^| $wanted |" "$file" || echo "$file:1: has no row of $wanted"
   done
-  grep -nE '^\| (ERR-[0-9]+)? ?\|' "$file" | while IFS=: read -r line row; do
+  grep -nE '^\| ((ERR|DRW)-[0-9]+)? ?\|' "$file" | while IFS=: read -r line row; do
     IFS='|' read -r _ class _ id test _ <<<"$row"
     id=${id// /} test=${test# } test=${test% }
     [[ -n $id ]] || continue

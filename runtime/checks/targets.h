@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// Render targets and depth buffers of draws: their formats, states and sizes, what was cleared and
+// what was never written.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "runtime/backend/draw_commands.h"
+#include "runtime/checks/report.h"
+#include "runtime/checks/texture_states.h"
+
+namespace kaamos::checks {
+
+class Targets {
+ public:
+  Targets(Reporter& reporter, TextureStates& states) : reporter_(reporter), states_(states) {}
+
+  void begin_list() { bound_before_.clear(); }
+  // Before a draw. `who` begins the messages: "draw 3, pipeline \"gbuffer\"". `label` names the
+  // command.
+  void check(const runtime::DrawCommand& command, const std::string& who, const std::string& label);
+  void check(const runtime::ClearTargetCommand& command, const std::string& label);
+  // After it.
+  void note(const runtime::DrawCommand& command);
+  void note(const runtime::ClearTargetCommand& command);
+  // Something else wrote to the texture.
+  void written(const std::shared_ptr<runtime::BackendTexture>& texture);
+
+  // Whether check() said that nothing can pass the depth test of the last draw.
+  bool told_of_clear() const { return told_of_clear_; }
+  // "was cleared to 0 and not drawn to since"; empty if something was drawn to it.
+  std::string only_cleared(const runtime::TargetView& depth) const;
+
+ private:
+  struct Clear {
+    std::weak_ptr<runtime::BackendTexture> texture;
+    float depth = 0;
+    std::string by;
+  };
+  using Place = std::tuple<const runtime::BackendTexture*, uint32_t, uint32_t>;  // mip, slice
+
+  void check_formats(const runtime::DrawCommand& command, const std::string& who);
+  void check_sizes(const runtime::DrawCommand& command, const std::string& who);
+  void check_states(const runtime::DrawCommand& command, const std::string& who,
+                    const std::string& label);
+  void check_contents(const runtime::DrawCommand& command, const std::string& who);
+  void use(const runtime::TargetView& view, rtapi::ResourceStates wanted, const std::string& what,
+           const std::string& label);
+  bool was_written(const runtime::TargetView& view) const;
+
+  Reporter& reporter_;
+  TextureStates& states_;
+  std::map<const runtime::BackendTexture*, std::weak_ptr<runtime::BackendTexture>> written_;
+  std::map<Place, Clear> cleared_;  // depth buffers that nothing was drawn to since
+  bool told_of_clear_ = false;
+  std::set<const runtime::BackendTexture*> bound_before_;  // drawn to in this list
+};
+
+// Which depth test a draw has, if it has one.
+bool tests_depth(const runtime::DrawCommand& command);
+bool writes_depth(const runtime::DrawCommand& command);
+const char* comparison_name(rtapi::ComparisonFunc func);  // "LESS_EQUAL"
+
+}  // namespace kaamos::checks
