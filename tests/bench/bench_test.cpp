@@ -97,6 +97,22 @@ TEST(Bench, ThePrecisionTableHasWrongHitsInFastOnly) {
   EXPECT_GT(wrong_in_fast, 5) << table.out;
 }
 
+TEST(Bench, TheTableOfDrawsHasARowForEachSize) {
+  const Output table = run({"--raster-table", "--quick", "--threads", "2"});
+  EXPECT_EQ(table.status, 0);
+  EXPECT_EQ(table.errors, "");
+  int rows = 0;
+  for (const std::string& line : split(table.out, '\n')) {
+    const auto cells = split(line, '|');  // before the first bar: nothing
+    if (cells.size() < 4 || cells[1].find(' ', 1) == std::string::npos) continue;
+    if (cells[2] == " ms ") continue;  // a head
+    ++rows;
+    EXPECT_GT(std::stod(cells[2]), 0) << line;
+    EXPECT_GT(std::stod(cells[3]), 0) << line;
+  }
+  EXPECT_EQ(rows, 6 + 3 + 2 * 2) << table.out;
+}
+
 TEST(Bench, ALineHasSixFields) {
   EXPECT_EQ(format_line({"build/x", 1.25, 0.5, 0.4, "ms", false}),
             "build/x\t1.25\t0.5\t0.4\tms\tlower");

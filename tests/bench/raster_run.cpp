@@ -12,9 +12,12 @@ namespace {
 
 using namespace rtapi;
 
-constexpr Format kTargetFormats[kGBufferTargets] = {Format::kR8G8B8A8UnormSrgb,
-                                              Format::kR16G16B16A16Float, Format::kR8G8B8A8Unorm,
-                                              Format::kR16G16Float, Format::kR32Uint};
+std::vector<Format> formats_of(RasterPass pass) {
+  if (pass == RasterPass::kShadow) return {};
+  if (pass == RasterPass::kIds) return {Format::kR32Uint};
+  return {Format::kR8G8B8A8UnormSrgb, Format::kR16G16B16A16Float, Format::kR8G8B8A8Unorm,
+          Format::kR16G16Float, Format::kR32Uint};
+}
 
 Device open_device(const std::string& backend, uint32_t threads) {
   DeviceDesc desc;
@@ -49,14 +52,14 @@ void RasterRun::create_targets() {
       device_.CreateDescriptorHeap({.Type = DescriptorHeapType::kDsv, .NumDescriptors = 1}).value();
   device_.CreateDepthStencilView(depth_, dsvs_.GetCPUDescriptorHandle(0)).value();
   if (scene_.pass == RasterPass::kShadow) return;
-  rtvs_ = device_
-              .CreateDescriptorHeap(
-                  {.Type = DescriptorHeapType::kRtv, .NumDescriptors = kGBufferTargets})
+  const std::vector<Format> formats = formats_of(scene_.pass);
+  const auto count = static_cast<uint32_t>(formats.size());
+  rtvs_ = device_.CreateDescriptorHeap({.Type = DescriptorHeapType::kRtv, .NumDescriptors = count})
               .value();
   desc.Flags = ResourceFlags::kAllowRenderTarget;
   desc.InitialState = ResourceStates::kRenderTarget;
-  for (uint32_t i = 0; i < kGBufferTargets; ++i) {
-    desc.Format = kTargetFormats[i];
+  for (uint32_t i = 0; i < count; ++i) {
+    desc.Format = formats[i];
     desc.Name = "target " + std::to_string(i);
     colors_.push_back(device_.CreateTexture(desc).value());
     device_.CreateRenderTargetView(colors_[i], rtvs_.GetCPUDescriptorHandle(i)).value();
@@ -76,13 +79,12 @@ void RasterRun::create_pipeline() {
   desc.InputLayout = {{.SemanticName = "POSITION", .Format = Format::kR32G32B32Float}};
   desc.RasterizerState.CullMode = CullMode::kNone;
   desc.DSVFormat = Format::kD32Float;
-  if (scene_.pass == RasterPass::kShadow) {
-    desc.VS = {library, "DepthVertex"};
-  } else {
-    desc.VS = {library, "GBufferVertex"};
-    desc.PS = {library, "GBufferPixel"};
+  const bool is_gbuffer = scene_.pass == RasterPass::kGBuffer;
+  desc.VS = {library, is_gbuffer ? "GBufferVertex" : "DepthVertex"};
+  if (scene_.pass != RasterPass::kShadow) {
+    desc.PS = {library, is_gbuffer ? "GBufferPixel" : "IdPixel"};
     desc.DepthStencilState.DepthFunc = ComparisonFunc::kGreater;
-    desc.RTVFormats.assign(std::begin(kTargetFormats), std::end(kTargetFormats));
+    desc.RTVFormats = formats_of(scene_.pass);
   }
   pipeline_ = device_.CreateGraphicsPipelineState(desc).value();
 }

@@ -86,15 +86,19 @@ glm::mat4 light() {
   return glm::orthoRH_ZO(-12.0f, 12.0f, -12.0f, 12.0f, 1.0f, 40.0f) * view;
 }
 
-// Near plane 0.1, depth 1 there and 0 at infinity.
-glm::mat4 camera(float width, float height, float moved) {
-  const float scale = 1 / std::tan(0.5f * glm::radians(50.0f));
+// Depth is 1 at the near plane and 0 at infinity.
+glm::mat4 perspective(float vertical_fov, float width, float height) {
+  const float scale = 1 / std::tan(0.5f * vertical_fov);
   glm::mat4 projection(0);
   projection[0][0] = scale * height / width;
   projection[1][1] = scale;
   projection[2][3] = -1;
-  projection[3][2] = 0.1f;
-  return projection *
+  projection[3][2] = kRasterNear;
+  return projection;
+}
+
+glm::mat4 camera(float width, float height, float moved) {
+  return perspective(glm::radians(50.0f), width, height) *
          glm::lookAt(glm::vec3(0.3f + moved, 8, 11), glm::vec3(0, 0, 1.2f), glm::vec3(0, 1, 0));
 }
 
@@ -161,6 +165,36 @@ RasterScene make_raster_scene(RasterPass pass, uint32_t width, uint32_t height, 
   const glm::mat4 clip = shadow ? light() : camera(w, h, 0);
   set_rows(scene.constants.clip, clip, {0, 1, 2, 3});
   set_rows(scene.constants.before, shadow ? clip : camera(w, h, 0.05f), {0, 1, 3});
+  return scene;
+}
+
+RasterScene make_raster_scene(const SceneData& data, uint32_t width, uint32_t height) {
+  RasterScene scene;
+  scene.pass = RasterPass::kIds;
+  scene.width = width;
+  scene.height = height;
+  for (const InstanceData& instance : data.instances) {
+    const MeshData& mesh = data.meshes[instance.mesh];
+    const auto first = static_cast<uint32_t>(scene.positions.size() / 3);
+    for (const effects::Vertex& vertex : *mesh.vertices) {
+      for (size_t row = 0; row < 3; ++row) {
+        const float* t = instance.transform.data() + 4 * row;
+        scene.positions.push_back(t[0] * vertex.position.x + t[1] * vertex.position.y +
+                                  t[2] * vertex.position.z + t[3]);
+      }
+    }
+    for (const GeometryData& geometry : mesh.geometries) {
+      for (uint32_t i = 0; i < 3 * geometry.triangle_count; ++i) {
+        scene.indices.push_back(first + geometry.first_vertex +
+                                mesh.indices[geometry.first_index + i]);
+      }
+    }
+  }
+  const effects::Camera& from = data.scene.cameras.front();
+  const glm::mat4 clip = perspective(static_cast<float>(from.vertical_fov),
+                                     static_cast<float>(width), static_cast<float>(height)) *
+                         glm::mat4(glm::inverse(glm::dmat4(from.camera_to_world)));
+  set_rows(scene.constants.clip, clip, {0, 1, 2, 3});
   return scene;
 }
 

@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene_data.h"
+
 namespace kaamos::bench {
 
-// Depth alone, as of a shadow map (D32_FLOAT, LESS), or with the five targets of a G-buffer
-// (reversed depth, GREATER).
-enum class RasterPass { kShadow, kGBuffer };
+// Depth alone, as of a shadow map (D32_FLOAT, LESS); reversed depth (GREATER) with the five targets
+// of a G-buffer; reversed depth with the numbers of triangles (R32_UINT).
+enum class RasterPass { kShadow, kGBuffer, kIds };
 
 // The constants of raster.hlsl.
 struct RasterConstants {
@@ -37,6 +39,9 @@ struct RasterScene {
 
 // A height field and 50 spheres above it: some 300,000 * detail triangles, 301,600 for 1.
 RasterScene make_raster_scene(RasterPass pass, uint32_t width, uint32_t height, double detail = 1);
+// The scene of the ray sets in the world, as seen by its camera (primary_rays()): kIds.
+RasterScene make_raster_scene(const SceneData& data, uint32_t width, uint32_t height);
+inline constexpr float kRasterNear = 0.1f;  // of reversed depth: z of the view is this over depth
 
 // What a pass leaves. Texels as in memory: RGBA8 sRGB, RGBA16F, RGBA8, RG16F, R32_UINT.
 struct RasterPictures {

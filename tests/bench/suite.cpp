@@ -14,6 +14,7 @@
 
 #include "fixtures.h"
 #include "precision_table.h"
+#include "raster_table.h"
 
 namespace kaamos::bench {
 namespace {
@@ -33,6 +34,7 @@ Measures Kaamos against hand-written baselines in the same process, in turn.
   --precision P    of the Embree backend in dispatch/embree/: fast, robust (default) or exact
   --precision-table
                    instead of the cases: speeds, wrong hits and errors of every precision
+  --raster-table   instead of the cases: draws by number of triangles, pixels and threads
   --clock wall|cpu cpu: CPU time over threads, for a machine that is busy (default wall)
   --quick          small inputs and one pair: shows that it works, measures nothing
   --help           this text
@@ -175,6 +177,8 @@ bool parse_arguments(const std::vector<std::string>& arguments, Options& options
       options.version = true;
     } else if (argument == "--precision-table") {
       options.precision_table = true;
+    } else if (argument == "--raster-table") {
+      options.raster_table = true;
     } else if (argument == "--quick") {
       options.quick = true;
       options.pairs = 1;
@@ -217,6 +221,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
   }
   if (options.threads == 0) options.threads = std::max(1u, std::thread::hardware_concurrency());
   if (options.precision_table) return print_precision_table(options, out, errors);
+  if (options.raster_table) return print_raster_table(options, out, errors);
   std::vector<Case> cases;
   for (auto part : {dispatch_cases, build_cases, hlsl_cases, compute_cases, frame_cases,
                     reference_cases, sorting_cases, claims_cases, vulkan_cases, raster_cases}) {

@@ -28,6 +28,7 @@ struct Options {
   uint32_t height = 360;
   rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;  // of Embree
   bool precision_table = false;  // print precision_table.h's table instead of running the cases
+  bool raster_table = false;     // print raster_table.h's instead
   bool quick = false;            // small inputs: shows that everything works, measures nothing
 };
 
