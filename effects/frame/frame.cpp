@@ -41,8 +41,8 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"sun sharpness sum", Format::kR32G32B32A32Float},
 };
 
-// Layout of the view heap: t0..t6, then u0.., then the scene's textures, then the passes' own
-// views.
+// Layout of the view heap: t0..t6, then u0.., then the scene's textures, then its geometries'
+// vertices and indices, then the passes' own views.
 constexpr std::uint32_t kRayOrder = 5;
 constexpr std::uint32_t kSpecularAlbedo = kRayOrder + 1;
 constexpr std::uint32_t kFirstPicture = kSpecularAlbedo + 1;
@@ -146,6 +146,10 @@ rtapi::Status Frame::create_root_signatures(const Device& device) {
                                                      .NumDescriptors = kPassUnorderedAccess,
                                                      .RegisterSpace = 3}}));
   global.Parameters.push_back(RootParameter::Constants32(kPassWords, 0, 3));
+  global.Parameters.push_back(RootParameter::Table({{.RangeType = DescriptorRangeType::kSrv,
+                                                     .NumDescriptors = kUnboundedDescriptors,
+                                                     .RegisterSpace = 4}}));
+  global.Flags = RootSignatureFlags::kAllowInputAssemblerInputLayout;
   const auto created = device.CreateRootSignature(global);
   if (!created) return created.error();
   root_signature_ = *created;
@@ -190,7 +194,8 @@ rtapi::Result<PassViews> Frame::create_pass_views(const Device& device) const {
 
 rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   DescriptorHeapDesc heap;
-  heap.NumDescriptors = kFirstSceneTexture + static_cast<std::uint32_t>(gpu.textures.size()) +
+  first_geometry_ = kFirstSceneTexture + static_cast<std::uint32_t>(gpu.textures.size());
+  heap.NumDescriptors = first_geometry_ + 2 * static_cast<std::uint32_t>(gpu.geometries.size()) +
                         desc_.max_pass_views * kPassViews;
   heap.Flags = DescriptorHeapFlags::kShaderVisible;
   heap.Name = "views";
@@ -213,6 +218,25 @@ rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   for (std::uint32_t i = 0; i < gpu.textures.size(); ++i) {
     const auto handle = views_.GetCPUDescriptorHandle(kFirstSceneTexture + i);
     if (const auto s = device.CreateShaderResourceView(gpu.textures[i], handle); !s) return s;
+  }
+  return create_geometry_views(device, gpu);
+}
+
+rtapi::Status Frame::create_geometry_views(const Device& device, const GpuScene& gpu) {
+  std::uint32_t slot = first_geometry_;
+  for (const GpuGeometry& geometry : gpu.geometries) {
+    for (const GpuRange& range : {geometry.vertex_range(), geometry.index_range()}) {
+      ShaderResourceViewDesc view;
+      view.Format = Format::kR32Typeless;
+      view.ViewDimension = SrvDimension::kBuffer;
+      view.Buffer.Flags = BufferSrvFlags::kRaw;
+      view.Buffer.FirstElement = range.offset_bytes / 4;
+      view.Buffer.NumElements = static_cast<std::uint32_t>((range.size_bytes + 3) / 4);
+      const auto handle = views_.GetCPUDescriptorHandle(slot++);
+      // A view of no elements would reach to the end of the buffer.
+      const Buffer buffer = range.size_bytes > 0 ? range.buffer : Buffer();
+      if (const auto s = device.CreateShaderResourceView(buffer, view, handle); !s) return s;
+    }
   }
   return {};
 }
@@ -321,9 +345,25 @@ void Frame::bind(CommandList& list, const PassConstants& constants,
   list.SetComputeRootDescriptorTable(kRootSamplers, samplers_.GetGPUDescriptorHandleForHeapStart());
   list.SetComputeRootConstantBufferView(kRootFrame, constants_.GetGPUVirtualAddress());
   list.SetComputeRoot32BitConstants(kRootPass, constants);
+  list.SetComputeRootDescriptorTable(kRootGeometries,
+                                     views_.GetGPUDescriptorHandle(first_geometry_));
   if (arguments.views == nullptr) return;
   list.SetComputeRootDescriptorTable(kRootPassViews, arguments.views->table());
   list.SetComputeRoot32BitConstants(kRootPassWords, arguments.words);
+}
+
+void Frame::bind_draws(CommandList& list, const PassArguments& arguments) const {
+  list.SetDescriptorHeaps({views_, samplers_});
+  list.SetGraphicsRootSignature(root_signature_);
+  list.SetGraphicsRootDescriptorTable(kRootViews, views_.GetGPUDescriptorHandleForHeapStart());
+  list.SetGraphicsRootDescriptorTable(kRootSamplers,
+                                      samplers_.GetGPUDescriptorHandleForHeapStart());
+  list.SetGraphicsRootConstantBufferView(kRootFrame, constants_.GetGPUVirtualAddress());
+  list.SetGraphicsRootDescriptorTable(kRootGeometries,
+                                      views_.GetGPUDescriptorHandle(first_geometry_));
+  if (arguments.views == nullptr) return;
+  list.SetGraphicsRootDescriptorTable(kRootPassViews, arguments.views->table());
+  list.SetGraphicsRoot32BitConstants(kRootPassWords, arguments.words);
 }
 
 void Frame::clear(CommandList& list, FrameTexture texture) const {

@@ -84,12 +84,13 @@ enum FrameTexture : std::uint32_t {
 
 /// Parameters of the global root signature.
 enum FrameRootParameter : std::uint32_t {
-  kRootViews,      ///< table: the scene, materials, blue noise, pictures, textures
-  kRootSamplers,   ///< table: the scene's samplers
-  kRootFrame,      ///< CBV b0
-  kRootPass,       ///< constants b1
-  kRootPassViews,  ///< table: space3, of the pass alone
-  kRootPassWords,  ///< constants b0, space3
+  kRootViews,       ///< table: the scene, materials, blue noise, pictures, textures
+  kRootSamplers,    ///< table: the scene's samplers
+  kRootFrame,       ///< CBV b0
+  kRootPass,        ///< constants b1
+  kRootPassViews,   ///< table: space3, of the pass alone
+  kRootPassWords,   ///< constants b0, space3
+  kRootGeometries,  ///< table: space4, vertices and indices of every geometry
 };
 
 /// What a frame looks like besides the scene.
@@ -165,6 +166,9 @@ class Frame {
   /// Records what a dispatch needs besides its pipeline: heaps, root signature and root arguments.
   void bind(rtapi::CommandList& list, const PassConstants& constants,
             const PassArguments& arguments = {}) const;
+  /// The same for draws; all but the pipeline, targets, viewport and what the input assembler
+  /// reads.
+  void bind_draws(rtapi::CommandList& list, const PassArguments& arguments) const;
   /// Records that zero is written to a picture of floats.
   void clear(rtapi::CommandList& list, FrameTexture texture) const;
   /// One of its pictures, in unordered-access state.
@@ -181,6 +185,7 @@ class Frame {
   rtapi::Status create_views(const rtapi::Device& device, const GpuScene& gpu);
   rtapi::Status write_structured_view(const rtapi::Device& device, const rtapi::Buffer& buffer,
                                       std::uint32_t stride, std::uint32_t index) const;
+  rtapi::Status create_geometry_views(const rtapi::Device& device, const GpuScene& gpu);
   rtapi::Status create_samplers(const rtapi::Device& device, const Scene& scene);
 
   FrameDesc desc_;
@@ -188,6 +193,7 @@ class Frame {
   rtapi::RootSignature local_root_signature_;
   rtapi::DescriptorHeap views_;
   rtapi::DescriptorHeap samplers_;
+  std::uint32_t first_geometry_ = 0;  // of kRootGeometries, in views_
   rtapi::Buffer constants_;
   rtapi::Buffer blue_noise_, specular_albedo_;
   rtapi::Buffer lights_;

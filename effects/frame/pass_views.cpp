@@ -7,9 +7,15 @@
 
 namespace kaamos::effects {
 
-rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Texture& texture) {
+rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Texture& texture,
+                                             rtapi::Format format) {
   bytes_[t] = picture_bytes(texture);
-  return device_.CreateShaderResourceView(texture, heap_.GetCPUDescriptorHandle(first_ + t));
+  const auto handle = heap_.GetCPUDescriptorHandle(first_ + t);
+  if (format == rtapi::Format::kUnknown) return device_.CreateShaderResourceView(texture, handle);
+  rtapi::ShaderResourceViewDesc view;
+  view.Format = format;
+  view.ViewDimension = rtapi::SrvDimension::kTexture2D;
+  return device_.CreateShaderResourceView(texture, view, handle);
 }
 
 rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Buffer& buffer,

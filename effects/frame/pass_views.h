@@ -32,9 +32,11 @@ class PassViews {
   PassViews(rtapi::Device device, rtapi::DescriptorHeap heap, std::uint32_t first)
       : device_(std::move(device)), heap_(std::move(heap)), first_(first) {}
 
-  /// Register t, 0 to 15: the whole texture. It must outlive the dispatches.
+  /// Register t, 0 to 15: the whole texture. It must outlive the dispatches. `format`: of a
+  /// typeless one's family.
   /// @errors those of rtapi::Device::CreateShaderResourceView.
-  rtapi::Status set_shader_resource(std::uint32_t t, const rtapi::Texture& texture);
+  rtapi::Status set_shader_resource(std::uint32_t t, const rtapi::Texture& texture,
+                                    rtapi::Format format = rtapi::Format::kUnknown);
   /// Register t, 0 to 15: a whole structured buffer of elements of `stride` bytes. It must outlive
   /// the dispatches.
   /// @errors those of rtapi::Device::CreateShaderResourceView.

@@ -18,10 +18,6 @@ constexpr std::uint32_t kSamplesPerDispatch = 64;
 constexpr double kDispatchMs = 250;
 constexpr std::uint32_t kFirstRows = 32;
 
-constexpr FrameTexture kSurfaceTextures[] = {kDepth,     kViewZ,    kNormal,   kShadingNormal,
-                                             kBaseColor, kEmissive, kMaterial, kIds,
-                                             kPosition,  kMotion};
-
 }  // namespace
 
 const FrameRenderer::Active* FrameRenderer::active(const std::string& effect) const {
@@ -245,11 +241,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
     if (moment_.cut) filters_.reset();
   }
   for (const auto& effect : active_) set_samples(*effect, effect->settings.samples);
-  if (const auto s = run_pass("G-buffer", gbuffer_, nullptr, progress); !is_done(s)) return s;
-  statistics_.back().bytes = 0;
-  for (const FrameTexture texture : kSurfaceTextures) {
-    statistics_.back().bytes += picture_bytes(frame_.texture(texture));
-  }
+  if (const auto s = run_gbuffer(progress); !is_done(s)) return s;
   if (curvature_) {
     const std::uint64_t bytes = picture_bytes(frame_.texture(kShadingNormal)) +
                                 picture_bytes(frame_.texture(kIds)) +

@@ -22,6 +22,8 @@
 #include "effects/frame/frame.h"
 #include "effects/frame/outcome.h"
 #include "effects/frame/ray_pass.h"
+#include "effects/gbuffer/primary_comparison.h"
+#include "effects/gbuffer/raster_gbuffer.h"
 #include "effects/indirect_diffuse/volume.h"
 #include "effects/lights/lighting.h"
 #include "effects/northlight/effect.h"
@@ -136,6 +138,13 @@ class FrameRenderer {
   /// @errors KA3046 no such signal; those of SignalFilters::add.
   rtapi::Status add_signal(SignalFilters& to, const std::string& signal) const;
 
+  /// How the drawn G-buffer differs from one by rays, and what both take. The frame's pictures stay
+  /// as they are.
+  /// @errors those of prepare and of the device; KA3046 the G-buffer is not drawn.
+  rtapi::Result<PrimaryComparison> compare_primary();
+  /// Null: the G-buffer is traced.
+  const RasterGBuffer* raster() const { return raster_ ? &*raster_ : nullptr; }
+
   /// Executes what `record` records; milliseconds.
   /// @errors those of the device.
   rtapi::Result<double> execute(const std::function<void(rtapi::CommandList&)>& record);
@@ -149,7 +158,8 @@ class FrameRenderer {
     std::uint32_t samples = 0;       ///< 0: as settings() have them
     bool is_sorted = false;          ///< in the order that record_sort made
   };
-  /// Records one of them over the whole picture. Sums begin anew.
+  /// Records one of them over the whole picture. Sums begin anew. Drawn surfaces are those of now:
+  /// what their draws read is written while they are recorded.
   void record(rtapi::CommandList& list, const std::string& part, const PartOptions& options);
   /// Records the sorting of an effect's rays by settings().order.
   void record_sort(rtapi::CommandList& list, const std::string& effect) const;
@@ -197,8 +207,8 @@ class FrameRenderer {
   const StructureStatistics* structures() const {
     return structures_ ? &structures_->statistics() : nullptr;
   }
-  /// The pipelines of the G-buffer and of the effects, for their shader tables. They are made
-  /// without preparing anything else.
+  /// The pipelines of the G-buffer, unless it is drawn, and of the effects, for their shader
+  /// tables. They are made without preparing anything else.
   /// @errors those of rtapi::LoadShaderLibrary and of RayPass::create.
   rtapi::Result<std::vector<std::pair<std::string, RayPass>>> ray_passes() const;
 
@@ -237,6 +247,12 @@ class FrameRenderer {
   const rtapi::Texture* composed(const Active& effect, std::size_t signal) const;
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   void list_left_out();
+  // frame_renderer_surfaces.cpp
+  rtapi::Status create_gbuffer();
+  void record_draws(rtapi::CommandList& list);
+  void record_gbuffer(rtapi::CommandList& list);
+  rtapi::Result<Outcome> run_gbuffer(const Progress& progress);
+  rtapi::Status draw_surfaces();
   // frame_renderer.cpp
   rtapi::Result<Outcome> run_pass(const std::string& title, const RayPass& pass, Active* effect,
                                   const Progress& progress);
@@ -250,7 +266,6 @@ class FrameRenderer {
   std::uint64_t compose_bytes() const;
   // frame_renderer_run.cpp
   void set_samples(Active& effect, std::uint32_t samples);
-  rtapi::Status draw_surfaces();
   rtapi::Result<Active*> runnable(const std::string& effect, const EffectSettings& settings);
   PassArguments arguments(const Active& effect, const EffectSettings& settings) const;
   void record_pass(rtapi::CommandList& list, const Active& effect, const EffectSettings& settings,
@@ -291,6 +306,7 @@ class FrameRenderer {
   bool has_own_libraries_ = false;
   ShaderLibraries libraries_;
   RayPass gbuffer_;
+  std::optional<RasterGBuffer> raster_;  // draws it instead
   std::optional<ComputePass> curvature_;
   std::optional<RaySorter> sorter_;
   std::optional<Lighting> lighting_;

@@ -208,15 +208,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
     if (!sorter) return sorter.error();
     sorter_ = std::move(*sorter);
   }
-  const auto gbuffer =
-      RayPass::create(device_, frame_, gpu_, gbuffer_pass(libraries_.at("gbuffer/gbuffer")));
-  if (!gbuffer) return gbuffer.error();
-  gbuffer_ = *gbuffer;
-  if (settings_.curvature_to_roughness) {
-    const auto pass = curvature_pass(device_, frame_, libraries_.at("gbuffer/curvature"));
-    if (!pass) return pass.error();
-    curvature_ = *pass;
-  }
+  if (const auto s = create_gbuffer(); !s) return s.error();
   find_active();
   if (settings_.whole_frame) {
     const double start = clock_ms_();
@@ -469,9 +461,11 @@ void FrameRenderer::list_left_out() {
 
 rtapi::Result<std::vector<std::pair<std::string, RayPass>>> FrameRenderer::ray_passes() const {
   std::vector<RayPassDesc> descs;
-  const auto gbuffer = gbuffer_library();
-  if (!gbuffer) return gbuffer.error();
-  descs.push_back(gbuffer_pass(*gbuffer));
+  if (settings_.primary == Primary::kRays) {
+    const auto gbuffer = gbuffer_library();
+    if (!gbuffer) return gbuffer.error();
+    descs.push_back(gbuffer_pass(*gbuffer));
+  }
   for (const Effect& effect : effects_) {
     const auto chosen = settings_.effects.find(effect.name);
     if (chosen == settings_.effects.end() || !effect.pass) continue;

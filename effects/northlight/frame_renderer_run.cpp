@@ -29,20 +29,6 @@ rtapi::Status FrameRenderer::set_seed(std::uint32_t seed) {
                            {.index = moment_.index, .previous_camera = moment_.camera});
 }
 
-rtapi::Status FrameRenderer::draw_surfaces() {
-  const auto prepared = prepare();
-  if (!prepared) return prepared.error();
-  if (has_surfaces_) return {};
-  const auto drawn = execute([&](rtapi::CommandList& list) {
-    gbuffer_.dispatch(list, frame_, {.sample_count = 1}, frame_.height());
-    record_curvature(list);
-    if (settings_.whole_frame) record_lights(list);
-  });
-  if (!drawn) return drawn.error();
-  has_surfaces_ = true;
-  return {};
-}
-
 PassArguments FrameRenderer::arguments(const Active& effect, const EffectSettings& settings) const {
   const auto& views = settings.trace_only ? effect.trace_views : effect.views;
   return views ? PassArguments(*views, settings.constants) : PassArguments{};
@@ -199,8 +185,7 @@ std::vector<std::string> FrameRenderer::parts() const {
 void FrameRenderer::record(rtapi::CommandList& list, const std::string& part,
                            const PartOptions& options) {
   if (part == "gbuffer") {
-    gbuffer_.dispatch(list, frame_, {.sample_count = 1, .accumulate = 0}, frame_.height());
-    record_curvature(list);
+    record_gbuffer(list);
   } else if (part == "lights") {
     record_lights(list);
   } else if (auto* effect = const_cast<Active*>(active(part)); effect && effect->row->pass) {

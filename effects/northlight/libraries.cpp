@@ -10,6 +10,7 @@
 #include "effects/composite/composite.h"
 #include "effects/direct/direct.h"
 #include "effects/gbuffer/gbuffer.h"
+#include "effects/gbuffer/raster_gbuffer.h"
 #include "effects/indirect_diffuse/volume.h"
 #include "effects/lights/lighting.h"
 #include "effects/taa/taa.h"
@@ -43,8 +44,11 @@ struct PartRow {
 const std::vector<PartRow>& parts() {
   constexpr auto kAlways = [](const FrameSettings&) { return true; };
   constexpr auto kWhole = [](const FrameSettings& s) { return s.whole_frame; };
+  constexpr auto kDrawn = [](const FrameSettings& s) { return s.primary == Primary::kRaster; };
   static const std::vector<PartRow> rows = {
       {{"gbuffer/gbuffer", gbuffer_library}, kAlways},
+      {{"gbuffer/raster", raster_library}, kDrawn},
+      {{"gbuffer/resolve", resolve_library}, kDrawn},
       {{"gbuffer/curvature", curvature_library},
        [](const FrameSettings& s) { return s.curvature_to_roughness; }},
       {{"composite/composite", composite_library}, kAlways},

@@ -30,6 +30,12 @@ struct VolumeSettings {
   std::shared_ptr<const IndirectVolume> given;  ///< instead of a file and of baking
 };
 
+/// How a frame finds what its pixels show. The pictures are the same, but for pixels at edges.
+enum class Primary : std::uint8_t {
+  kRays,    ///< by rays: the reference
+  kRaster,  ///< by draws [effects/gbuffer/raster_gbuffer.h]
+};
+
 /// The size of a frame, its effects and how good they are.
 struct FrameSettings {
   std::uint32_t width = 1280;  ///< pixels, 1 to 16384
@@ -47,6 +53,7 @@ struct FrameSettings {
   bool taa = false;     ///< antialiasing over the frames of a sequence
   bool moving = false;  ///< frames of a sequence: structures are kept up with what moves
   RayOrder order = RayOrder::kPixels;   ///< of rays; the frame stays the same
+  Primary primary = Primary::kRays;     ///< of the G-buffer
   bool ray_cones = true;                ///< [FrameDesc]
   bool curvature_to_roughness = false;  ///< [curvature_pass]
   float sun_angular_radius = -1.0f;     ///< [FrameDesc]

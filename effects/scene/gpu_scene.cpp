@@ -105,6 +105,10 @@ rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t m
     gpu.vertices = vertices->GetGPUVirtualAddress() +
                    static_cast<std::uint64_t>(geometry.first_vertex) * kVertexStride;
     gpu.indices = indices->GetGPUVirtualAddress() + geometry.index_offset_bytes;
+    gpu.vertex_buffer = *vertices;
+    gpu.index_buffer = *indices;
+    gpu.vertex_count = geometry.vertex_count;
+    gpu.index_count = geometry.index_count;
     gpu.constants.index_size_bytes = geometry.index_size_bytes;
     gpu.constants.material_id = geometry.material;
     gpu.constants.mesh_id = mesh_id;

@@ -22,13 +22,35 @@ enum RayType : std::uint32_t {
   kRayTypeCount
 };
 
-/// One geometry of one mesh: the arguments of its records.
+/// A part of a buffer.
+struct GpuRange {
+  rtapi::Buffer buffer;            ///< what it is a part of
+  std::uint64_t offset_bytes = 0;  ///< a multiple of 16
+  std::uint64_t size_bytes = 0;    ///< may be 0
+};
+
+/// One geometry of one mesh: the arguments of its records, and of draws.
 struct GpuGeometry {
   rtapi::GpuVirtualAddress vertices = 0;  ///< of its first vertex: root SRV t0, space2
   rtapi::GpuVirtualAddress indices = 0;   ///< of its first index: root SRV t1, space2
   HitConstants constants;                 ///< root constants b0, space2
+  rtapi::Buffer vertex_buffer;            ///< that `vertices` lies in
+  rtapi::Buffer index_buffer;             ///< that `indices` lies in
+  std::uint32_t vertex_count = 0;         ///< from `vertices` on
+  std::uint32_t index_count = 0;          ///< from `indices` on, a multiple of 3
   bool alpha_tested = false;              ///< any-hit shaders run: also of glass
   bool glass = false;                     ///< its material is see-through
+
+  /// Its vertices, with all their attributes.
+  GpuRange vertex_range() const {
+    return {vertex_buffer, vertices - vertex_buffer.GetGPUVirtualAddress(),
+            std::uint64_t{vertex_count} * constants.vertex_stride};
+  }
+  /// Its indices.
+  GpuRange index_range() const {
+    return {index_buffer, indices - index_buffer.GetGPUVirtualAddress(),
+            std::uint64_t{index_count} * constants.index_size_bytes};
+  }
 };
 
 /// Where an instance was one frame ago; t4 of the frame, mirrored in effects/shaders/frame.hlsli.

@@ -18,6 +18,7 @@ void Mesh::add_geometry(std::span<const Vertex> piece, std::span<const std::uint
   Geometry geometry;
   geometry.first_vertex = static_cast<std::uint32_t>(vertices.size());
   geometry.vertex_count = static_cast<std::uint32_t>(piece.size());
+  indices.resize((indices.size() + 15) / 16 * 16, 0);
   geometry.index_offset_bytes = static_cast<std::uint32_t>(indices.size());
   geometry.index_count = static_cast<std::uint32_t>(piece_indices.size());
   geometry.index_size_bytes = piece.size() <= 65536 ? 2 : 4;

@@ -54,8 +54,8 @@ static_assert(sizeof(HitConstants) == 32);
 struct Geometry {
   std::uint32_t first_vertex = 0;  ///< in Mesh::vertices; indices count from here
   std::uint32_t vertex_count = 0;  ///< from first_vertex on
-  /// Where the indices start in Mesh::indices: a multiple of 4. A shader may read 4-byte words up
-  /// to the next multiple of 4 after the last index.
+  /// Where the indices start in Mesh::indices: a multiple of 16, as raw views have to. A shader may
+  /// read 4-byte words up to the next multiple of 4 after the last index.
   std::uint32_t index_offset_bytes = 0;
   std::uint32_t index_count = 0;       ///< a multiple of 3
   std::uint32_t index_size_bytes = 4;  ///< 2 or 4

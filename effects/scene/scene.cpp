@@ -133,7 +133,7 @@ std::string quoted(const char* noun, const std::string& name) {
 void Checker::geometry(const Mesh& mesh, const Geometry& g, const std::string& where) {
   require(g.index_size_bytes == 2 || g.index_size_bytes == 4, where,
           "index size is " + std::to_string(g.index_size_bytes) + " bytes, 2 or 4 are allowed");
-  require(g.index_offset_bytes % 4 == 0, where, "index offset is not a multiple of 4 bytes");
+  require(g.index_offset_bytes % 16 == 0, where, "index offset is not a multiple of 16 bytes");
   require(g.index_count % 3 == 0, where, "index count is not a multiple of 3");
   const std::uint64_t end =
       g.index_offset_bytes + std::uint64_t{g.index_count} * g.index_size_bytes;

@@ -64,7 +64,7 @@ TEST(Mesh, StoresShortIndicesWhereTheyFit) {
   mesh.add_geometry(large, second, 1, true);
   EXPECT_EQ(mesh.geometries[0].index_size_bytes, 2u);
   EXPECT_EQ(mesh.geometries[1].index_size_bytes, 4u);
-  EXPECT_EQ(mesh.geometries[1].index_offset_bytes % 4, 0u);
+  EXPECT_EQ(mesh.geometries[1].index_offset_bytes % 16, 0u);
   EXPECT_EQ(mesh.index(mesh.geometries[0], 0), 2u);
   EXPECT_EQ(mesh.index(mesh.geometries[1], 0), 65536u);
   EXPECT_EQ(&mesh.corner(mesh.geometries[1], 0, 1), &mesh.vertices[3]);

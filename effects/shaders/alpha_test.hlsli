@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Alpha test for any-hit shaders: holes in leaves and fences. Opaque geometry never runs it.
+// Alpha test for any-hit and pixel shaders: holes in leaves and fences. Opaque geometry never runs
+// it.
 #ifndef KAAMOS_ALPHA_TEST_HLSLI
 #define KAAMOS_ALPHA_TEST_HLSLI
 
 #include "frame.hlsli"
 
-// True where the surface has a hole. Reads level 0 of the texture, because the shadow of a leaf
-// must not depend on how far away the camera is.
-bool IsOpenAt(float2 barycentrics) {
-  const MaterialConstants material = materials[hit_constants.material_id];
+// True where a surface with these texture coordinates has a hole. Reads level 0 of the texture,
+// because the shadow of a leaf must not depend on how far away the camera is.
+bool IsOpenAtUv(MaterialConstants material, float2 uv) {
   float alpha = 1.0;
   if (HasTexture(material, kBaseColorTexture)) {
-    const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
-    const float2 uv = MaterialUv(material, kBaseColorTexture,
-                                 LoadUv(vertices, hit_constants, corners, barycentrics));
     const uint image = material.image[kBaseColorTexture];
     const uint sampler_id = material.sampler_id[kBaseColorTexture];
     alpha = textures[NonUniformResourceIndex(image)]
-                .SampleLevel(samplers[NonUniformResourceIndex(sampler_id)], uv, 0.0)
+                .SampleLevel(samplers[NonUniformResourceIndex(sampler_id)],
+                             MaterialUv(material, kBaseColorTexture, uv), 0.0)
                 .a;
   }
   return IsOpen(material, alpha);
+}
+
+// True where the triangle of the any-hit shader that calls this has a hole.
+bool IsOpenAt(float2 barycentrics) {
+  const MaterialConstants material = materials[hit_constants.material_id];
+  float2 uv = float2(0, 0);
+  if (HasTexture(material, kBaseColorTexture)) {
+    const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
+    uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+  }
+  return IsOpenAtUv(material, uv);
 }
 
 #endif

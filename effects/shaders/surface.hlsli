@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a closest-hit shader knows about the surface it hit. G-buffer, reflections and indirect
-// light all read it here.
+// What is known about the surface at a point of a triangle: one that a ray hit, or one that a pixel
+// of a visibility buffer shows. G-buffer, reflections and indirect light all read it here.
 #ifndef KAAMOS_SURFACE_HLSLI
 #define KAAMOS_SURFACE_HLSLI
 
@@ -40,9 +40,8 @@ float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float le
 // relative to the level at which the texture is one texel: half the log2 of the fraction of the
 // texture that the cone covers. [Akenine-Moller et al. 2019, Texture Level of Detail Strategies for
 // Real-Time Ray Tracing]
-float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2, float facing,
-                   float width) {
-  const float3x3 to_world = (float3x3)ObjectToWorld3x4();
+float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2,
+                   float3x3 to_world, float facing, float width) {
   const float world_area = length(cross(mul(to_world, p1 - p0), mul(to_world, p2 - p0)));
   const float2 a = uv1 - uv0;
   const float2 b = uv2 - uv0;
@@ -58,6 +57,28 @@ float ConeWidth() {
   return way * frame.pixel_angle;
 }
 
+// A point of a triangle and who looks at it. Its vertices and indices are handed on besides.
+struct TriangleHit {
+  HitConstants layout;  // of the triangle's geometry
+  uint primitive;
+  float2 barycentrics;  // weights of the second and third vertex
+  float3x4 object_to_world;
+  float3x4 world_to_object;
+  float3 direction;  // towards the point, unit
+};
+
+// That of the hit shader that calls this.
+TriangleHit RayHit(float2 barycentrics) {
+  TriangleHit hit;
+  hit.layout = hit_constants;
+  hit.primitive = PrimitiveIndex();
+  hit.barycentrics = barycentrics;
+  hit.object_to_world = ObjectToWorld3x4();
+  hit.world_to_object = WorldToObject3x4();
+  hit.direction = normalize(WorldRayDirection());
+  return hit;
+}
+
 // The triangle that was hit and the point on it, seen from the side that the ray comes from.
 struct HitPoint {
   uint3 corners;  // vertex numbers
@@ -65,21 +86,20 @@ struct HitPoint {
   float3 p1;
   float3 p2;
   SpawnPoint spawn;  // `spawn.normal` is the triangle's own
-  float3 direction;  // of the ray, unit
   float side;        // 1: the ray came from the normal's side; -1: from the back
 };
 
-HitPoint LoadHitPoint(HitConstants layout, float2 barycentrics) {
-  HitPoint hit;
-  hit.corners = LoadTriangle(indices, layout.index_size_bytes, PrimitiveIndex());
-  hit.p0 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, hit.corners.x);
-  hit.p1 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, hit.corners.y);
-  hit.p2 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, hit.corners.z);
-  hit.spawn = MakeSpawnPoint(hit.p0, hit.p1, hit.p2, barycentrics, ObjectToWorld3x4(),
-                             WorldToObject3x4());
-  hit.direction = normalize(WorldRayDirection());
-  hit.side = dot(hit.direction, hit.spawn.normal) <= 0.0 ? 1.0 : -1.0;
-  return hit;
+HitPoint LoadHitPoint(ByteAddressBuffer vertices, ByteAddressBuffer indices, TriangleHit hit) {
+  const uint stride = hit.layout.vertex_stride;
+  HitPoint found;
+  found.corners = LoadTriangle(indices, hit.layout.index_size_bytes, hit.primitive);
+  found.p0 = LoadVertexFloat3(vertices, stride, 0, found.corners.x);
+  found.p1 = LoadVertexFloat3(vertices, stride, 0, found.corners.y);
+  found.p2 = LoadVertexFloat3(vertices, stride, 0, found.corners.z);
+  found.spawn = MakeSpawnPoint(found.p0, found.p1, found.p2, hit.barycentrics, hit.object_to_world,
+                               hit.world_to_object);
+  found.side = dot(hit.direction, found.spawn.normal) <= 0.0 ? 1.0 : -1.0;
+  return found;
 }
 
 // Where to read textures at a hit, and at which level of detail.
@@ -90,48 +110,51 @@ struct HitTexel {
 
 // `cone_width` is the width of the ray's cone at the hit in metres; 0 reads level 0. [Northlight
 // deck: texture LOD]
-HitTexel LoadHitTexel(HitConstants layout, HitPoint hit, float2 barycentrics, float cone_width) {
+HitTexel LoadHitTexel(ByteAddressBuffer vertices, TriangleHit hit, HitPoint found,
+                      float cone_width) {
+  const HitConstants layout = hit.layout;
   const float2 uv0 =
-      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.x);
+      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, found.corners.x);
   const float2 uv1 =
-      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.y);
+      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, found.corners.y);
   const float2 uv2 =
-      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.z);
+      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, found.corners.z);
   HitTexel texel;
-  texel.uv = Interpolate(uv0, uv1, uv2, barycentrics);
+  texel.uv = Interpolate(uv0, uv1, uv2, hit.barycentrics);
   texel.level = kFinestLevel;
   if (cone_width > 0.0) {
-    texel.level = RayConeLevel(hit.p0, hit.p1, hit.p2, uv0, uv1, uv2,
-                               abs(dot(hit.direction, hit.spawn.normal)), cone_width);
+    texel.level = RayConeLevel(found.p0, found.p1, found.p2, uv0, uv1, uv2,
+                               (float3x3)hit.object_to_world,
+                               abs(dot(hit.direction, found.spawn.normal)), cone_width);
   }
   return texel;
 }
 
 // `cone_width`: as in LoadHitTexel.
-Surface LoadSurface(float2 barycentrics, float cone_width) {
-  const HitConstants layout = hit_constants;
-  const MaterialConstants material = materials[layout.material_id];
-  const HitPoint hit = LoadHitPoint(layout, barycentrics);
+Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, TriangleHit hit,
+                    float cone_width) {
+  const MaterialConstants material = materials[hit.layout.material_id];
+  const HitPoint found = LoadHitPoint(vertices, indices, hit);
   Surface surface;
-  surface.position = hit.spawn.position;
-  surface.offset = hit.spawn.offset;
-  surface.normal = hit.side * hit.spawn.normal;
-  surface.back_face = hit.side < 0.0;
+  surface.position = found.spawn.position;
+  surface.offset = found.spawn.offset;
+  surface.normal = found.side * found.spawn.normal;
+  surface.back_face = found.side < 0.0;
   HitTexel texel;
   texel.uv = float2(0, 0);
   texel.level = kFinestLevel;
-  if (HasAnyTexture(material)) texel = LoadHitTexel(layout, hit, barycentrics, cone_width);
+  if (HasAnyTexture(material)) texel = LoadHitTexel(vertices, hit, found, cone_width);
 
-  float3 shading_normal =
-      NormalToWorld(LoadNormal(vertices, layout, hit.corners, barycentrics), WorldToObject3x4());
+  float3 shading_normal = NormalToWorld(
+      LoadNormal(vertices, hit.layout, found.corners, hit.barycentrics), hit.world_to_object);
   if (HasTexture(material, kNormalTexture)) {
-    const float4 tangent = LoadTangent(vertices, layout, hit.corners, barycentrics);
-    const float3 world_tangent = normalize(mul((float3x3)ObjectToWorld3x4(), tangent.xyz));
+    const float4 tangent = LoadTangent(vertices, hit.layout, found.corners, hit.barycentrics);
+    const float3 world_tangent = normalize(mul((float3x3)hit.object_to_world, tangent.xyz));
     shading_normal =
         ApplyNormalTexture(SampleMaterial(material, kNormalTexture, texel.uv, texel.level).xyz,
                            material.normal_scale, shading_normal, world_tangent, tangent.w);
   }
-  shading_normal *= dot(shading_normal, hit.spawn.normal) * hit.side >= 0.0 ? 1.0 : -1.0;
+  shading_normal *= dot(shading_normal, found.spawn.normal) * found.side >= 0.0 ? 1.0 : -1.0;
   // A shading normal that faces away from the ray's origin would reflect no visible light.
   surface.shading_normal = dot(shading_normal, hit.direction) < 0.0 ? shading_normal : surface.normal;
 
@@ -148,6 +171,11 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   return surface;
 }
 
+// The surface that a ray hit.
+Surface LoadSurface(float2 barycentrics, float cone_width) {
+  return LoadSurface(vertices, indices, RayHit(barycentrics), cone_width);
+}
+
 // What a diffuse ray's closest-hit shader needs: a colour that is the same from all directions.
 // Metals count as matte too, so they spread the light that they would mirror.
 struct MatteSurface {
@@ -159,17 +187,17 @@ struct MatteSurface {
 };
 
 MatteSurface LoadMatteSurface(float2 barycentrics, float cone_width) {
-  const HitConstants layout = hit_constants;
-  const MaterialConstants material = materials[layout.material_id];
-  const HitPoint hit = LoadHitPoint(layout, barycentrics);
+  const TriangleHit hit = RayHit(barycentrics);
+  const MaterialConstants material = materials[hit.layout.material_id];
+  const HitPoint found = LoadHitPoint(vertices, indices, hit);
   MatteSurface surface;
-  surface.position = hit.spawn.position;
-  surface.offset = hit.spawn.offset;
-  surface.normal = hit.side * hit.spawn.normal;
+  surface.position = found.spawn.position;
+  surface.offset = found.spawn.offset;
+  surface.normal = found.side * found.spawn.normal;
   surface.base_color = material.base_color.rgb;
   surface.emissive = material.emissive;
   if (HasTexture(material, kBaseColorTexture) || HasTexture(material, kEmissiveTexture)) {
-    const HitTexel texel = LoadHitTexel(layout, hit, barycentrics, cone_width);
+    const HitTexel texel = LoadHitTexel(vertices, hit, found, cone_width);
     surface.base_color *= SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level).rgb;
     surface.emissive *= SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb;
   }

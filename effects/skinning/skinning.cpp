@@ -49,7 +49,7 @@ rtapi::Result<SkinnedMesh> SkinningPass::create_mesh(const Device& device, const
   BufferDesc desc;
   desc.SizeInBytes = std::max<std::uint64_t>(mesh.vertices.size(), 1) * kSkinnedVertexStride;
   desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-  desc.InitialState = ResourceStates::kNonPixelShaderResource;
+  desc.InitialState = kSkinnedVertexState;
   desc.Name = mesh.name + " skinned vertices";
   auto vertices = device.CreateBuffer(desc);
   if (!vertices) return vertices.error();

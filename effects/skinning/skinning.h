@@ -21,13 +21,18 @@ inline constexpr std::uint32_t kSkinnedVertexStride = 64;
 inline constexpr std::uint32_t kPreviousPositionOffset = sizeof(Vertex);
 ///@}
 
+/// State of deformed vertices outside of the skinning: builds, hit shaders and draws read them.
+inline constexpr rtapi::ResourceStates kSkinnedVertexState =
+    rtapi::ResourceStates::kNonPixelShaderResource |
+    rtapi::ResourceStates::kVertexAndConstantBuffer;
+
 /// Buffers of one deformed mesh.
 struct SkinnedMesh {
   std::uint32_t vertex_count = 0;              ///< vertices of the mesh
   rtapi::GpuVirtualAddress bind_vertices = 0;  ///< Vertex each, in the bind pose
   rtapi::GpuVirtualAddress skin = 0;           ///< SkinVertex each
   rtapi::Buffer joints;                        ///< JointMatrix each, upload heap
-  rtapi::Buffer vertices;  ///< non-pixel shader resource outside of the skinning
+  rtapi::Buffer vertices;                      ///< kSkinnedVertexState outside of the skinning
 };
 
 /// The compute pass that deforms vertices. [glTF 2.0: Skins]

@@ -226,6 +226,7 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
     GpuGeometry gpu = gpu_.geometries[bind_record + i];
     gpu.vertices = body.skinned.vertices.GetGPUVirtualAddress() +
                    std::uint64_t{mesh.geometries[i].first_vertex} * kSkinnedVertexStride;
+    gpu.vertex_buffer = body.skinned.vertices;
     gpu.constants.vertex_stride = kSkinnedVertexStride;
     body.geometries.push_back(geometry_desc(mesh.geometries[i], gpu));
     gpu_.geometries.push_back(gpu);

@@ -117,13 +117,12 @@ void StructureManager::barrier(CommandList& list) {
 
 void StructureManager::record_skinning(CommandList& list) {
   std::vector<ResourceBarrier> before, after;
+  const ResourceStates unordered = ResourceStates::kUnorderedAccess;
   for (const Body& body : bodies_) {
     if (!body.moved) continue;
     const Buffer& vertices = body.skinned.vertices;
-    before.push_back(ResourceBarrier::Transition(vertices, ResourceStates::kNonPixelShaderResource,
-                                                 ResourceStates::kUnorderedAccess));
-    after.push_back(ResourceBarrier::Transition(vertices, ResourceStates::kUnorderedAccess,
-                                                ResourceStates::kNonPixelShaderResource));
+    before.push_back(ResourceBarrier::Transition(vertices, kSkinnedVertexState, unordered));
+    after.push_back(ResourceBarrier::Transition(vertices, unordered, kSkinnedVertexState));
   }
   if (before.empty()) return;
   list.BeginEvent("skinning");

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Which triangle primary rays hit, and how far away: what the draws of raster.hlsl are held against.
+#include "alpha_test.hlsli"
+#include "store.hlsli"
+
+// InstanceIndex() + 1 (0: nothing), GeometryIndex(), PrimitiveIndex(), the view depth's bits.
+RWTexture2D<uint4> primary_ids : register(u0, space3);
+
+struct IdsPayload {
+  uint unused;  // the hit and miss shaders write the picture themselves
+};
+
+[shader("raygeneration")]
+void PrimaryIdsRayGen() {
+  const uint2 pixel = FramePixel();
+  uint2 size;
+  primary_ids.GetDimensions(size.x, size.y);
+  RayDesc ray;
+  ray.Origin = float3(0, 0, 0);
+  ray.TMin = 0.0;
+  ray.Direction = PixelDirection(pixel, size);
+  ray.TMax = 1e30;
+  IdsPayload payload;
+  payload.unused = 0;
+  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+           payload);
+}
+
+[shader("miss")]
+void PrimaryIdsMiss(inout IdsPayload payload) {
+  primary_ids[FramePixel()] = uint4(0, 0, 0, 0);
+}
+
+[shader("anyhit")]
+void PrimaryIdsAnyHit(inout IdsPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+[shader("closesthit")]
+void PrimaryIdsClosestHit(inout IdsPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  primary_ids[FramePixel()] =
+      uint4(InstanceIndex() + 1, GeometryIndex(), PrimitiveIndex(), asuint(RayTCurrent()));
+}

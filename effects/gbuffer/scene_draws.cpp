@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "effects/gbuffer/scene_draws.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace kaamos::effects {
+
+namespace {
+
+// As kMaskSolid of effects/shaders/frame.hlsli: primary rays see everything but glass.
+constexpr std::uint32_t kMaskSolid = 0xFFu & ~static_cast<std::uint32_t>(kMaskTransparent);
+
+// False where there is no inverse.
+bool invert(const glm::mat3x4& rows, glm::mat3x4& inverse) {
+  const glm::dmat3 linear{glm::dvec3(rows[0]), glm::dvec3(rows[1]), glm::dvec3(rows[2])};
+  const double determinant = glm::determinant(linear);
+  if (determinant == 0 || !std::isfinite(determinant)) return false;
+  // GLM's columns are rows here, before and behind.
+  const glm::dmat3 inverse_linear = glm::inverse(linear);
+  const glm::dvec3 translation(rows[0].w, rows[1].w, rows[2].w);
+  for (int row = 0; row < 3; ++row) {
+    const glm::dvec3& by = inverse_linear[row];
+    inverse[row] = glm::vec4(glm::vec3(by), static_cast<float>(-glm::dot(by, translation)));
+    for (int i = 0; i < 4; ++i) {
+      if (!std::isfinite(inverse[row][i])) return false;
+    }
+  }
+  return true;
+}
+
+// The geometries of a mesh follow each other.
+std::size_t end_of_mesh(const std::vector<GpuGeometry>& geometries, std::size_t first) {
+  std::size_t end = first + 1;
+  while (end < geometries.size() && geometries[end].constants.geometry_id == end - first) ++end;
+  return std::min(end, geometries.size());
+}
+
+}  // namespace
+
+std::vector<SceneDraw> scene_draws(const GpuScene& gpu) {
+  std::vector<SceneDraw> out;
+  if (!gpu.instances) return out;
+  const auto descs = gpu.instances.data<rtapi::RaytracingInstanceDesc>();
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    const rtapi::RaytracingInstanceDesc& desc = descs[i];
+    if ((desc.InstanceMask & kMaskSolid) == 0 || desc.AccelerationStructure == 0) continue;
+    SceneDraw draw;
+    std::memcpy(&draw.object_to_world, desc.Transform, sizeof desc.Transform);
+    if (!invert(draw.object_to_world, draw.world_to_object)) continue;
+    draw.instance = static_cast<std::uint32_t>(i);
+    const std::size_t first = desc.InstanceContributionToHitGroupIndex / kRayTypeCount;
+    for (std::size_t g = first; g < end_of_mesh(gpu.geometries, first); ++g) {
+      draw.geometry = static_cast<std::uint32_t>(g);
+      if (gpu.geometries[g].index_count > 0) out.push_back(draw);
+    }
+  }
+  return out;
+}
+
+std::uint32_t most_scene_draws(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Instance& instance : scene.instances) {
+    std::size_t most = scene.meshes[instance.mesh].geometries.size();
+    for (const Level& level : instance.levels) {
+      most = std::max(most, scene.meshes[level.mesh].geometries.size());
+    }
+    count += most;
+  }
+  return static_cast<std::uint32_t>(count);
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a rasterizer draws of a scene: a draw for each geometry of each instance that primary rays
+/// can hit.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "effects/scene/gpu_scene.h"
+
+namespace kaamos::effects {
+
+/// A geometry of an instance; mirrors SceneDraw of effects/gbuffer/draws.hlsli.
+struct SceneDraw {
+  glm::mat3x4 object_to_world{0.0f};  ///< rows, relative to the camera
+  glm::mat3x4 world_to_object{0.0f};  ///< its inverse, rounded once from double
+  std::uint32_t instance = 0;         ///< in GpuScene::instances
+  std::uint32_t geometry = 0;         ///< in GpuScene::geometries
+  std::uint32_t padding[2] = {};      ///< to 112 bytes
+};
+static_assert(sizeof(SceneDraw) == 112);
+
+/// The draws of a scene as its instances stand in GpuScene::instances now, in their order. Left out
+/// is what no primary ray can hit: glass, inactive instances, transforms without an inverse.
+std::vector<SceneDraw> scene_draws(const GpuScene& gpu);
+
+/// The most draws that any frame of the scene has: of instances with levels of detail the level
+/// with the most geometries counts.
+std::uint32_t most_scene_draws(const Scene& scene);
+
+}  // namespace kaamos::effects
