@@ -37,6 +37,11 @@ rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer) {
   if (renderer.set_up()) out.passes.push_back(*renderer.set_up());
   out.passes.insert(out.passes.end(), renderer.passes().begin(), renderer.passes().end());
   out.left_out = renderer.left_out();
+  if (renderer.raster() != nullptr) {
+    const auto primary = renderer.compare_primary();
+    if (!primary) return primary.error();
+    out.primary = *primary;
+  }
   return out;
 }
 

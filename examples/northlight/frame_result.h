@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct FrameResult {
   kaamos::effects::FloatImage radiance;                       // RGBA, linear
   std::vector<kaamos::effects::PassStatistics> passes;
   std::vector<std::string> left_out;  // effects and parts left out, and why
+  std::optional<kaamos::effects::PrimaryComparison> primary;  // of surfaces that were drawn
 };
 
 rtapi::Result<rtapi::Device> create_device(const Options& options, const Say& message);

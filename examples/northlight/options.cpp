@@ -43,6 +43,7 @@ struct Words {
   std::vector<std::string> bake_lights;
   std::string sort_rays;
   std::string texture_lod = "cone";
+  std::string primary = "rays";
   float contact_length = ContactShadowConstants().length;
   std::string fireflies = "retrace";
   std::string contact_combine = "product";
@@ -147,6 +148,10 @@ void add_engine(CLI::App& app, Options& options, Words& words) {
   app.add_option("--sort-rays", words.sort_rays,
                  "sort rays by direction or by origin; the picture stays the same")
       ->check(CLI::IsMember({"direction", "origin"}));
+  app.add_option("--primary", words.primary,
+                 "what finds the surfaces that pixels show: rays, or the rasterizer (raster)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"rays", "raster"}));
   app.add_option("--texture-lod", words.texture_lod,
                  "level of detail of textures: by ray cones (cone), or always 0 (zero)")
       ->capture_default_str()
@@ -303,6 +308,7 @@ void apply(const Words& words, Options& options) {
     frame.denoise.iterations = frame.denoise.iterations_with_history = *words.denoise_passes;
   }
   frame.ray_cones = words.texture_lod == "cone";
+  frame.primary = words.primary == "raster" ? Primary::kRaster : Primary::kRays;
   if (!words.sort_rays.empty()) {
     frame.order = words.sort_rays == "origin" ? RayOrder::kOrigin : RayOrder::kDirection;
   }

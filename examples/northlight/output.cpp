@@ -157,6 +157,21 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
                     {"bytes", bake->bytes}};
   }
   json["left_out"] = result.left_out;
+  if (const auto& primary = result.primary) {
+    const PrimaryDifference& d = primary->difference;
+    json["primary"] = {{"covered_pixels", d.covered},
+                       {"pixels_per_triangle", d.pixels_per_triangle()},
+                       {"share", d.share()},
+                       {"expected_share", d.expected_share()},
+                       {"expected_share_of_equals", d.expected_share_of_equals()},
+                       {"neighbours", d.neighbours},
+                       {"silhouettes", d.silhouettes},
+                       {"surfaces_close_by", d.others},
+                       {"hit_or_not", d.hit_or_not},
+                       {"draw_ms", primary->draw_ms},
+                       {"resolve_ms", primary->resolve_ms},
+                       {"ray_ms", primary->ray_ms}};
+  }
   return json;
 }
 
@@ -287,6 +302,21 @@ std::string list_devices() {
   return out;
 }
 
+std::string describe_primary(const FrameResult& result) {
+  if (!result.primary) return {};
+  const PrimaryComparison& primary = *result.primary;
+  const PrimaryDifference& d = primary.difference;
+  return fmt::format(
+      "drawn in {:.1f} ms and resolved in {:.1f} ms; primary rays take {:.1f} ms\n"
+      "{:.2e} of {} covered pixels show another triangle than rays hit, {} in all: {} a neighbour, "
+      "{} beyond a silhouette, {} another surface close by, {} something or nothing\n"
+      "vertices snap to 1/256 pixel: by the length of the triangles' edges that makes {:.2e}, and "
+      "with {:.1f} pixels a triangle, if all were equal, {:.2e}\n",
+      primary.draw_ms, primary.resolve_ms, primary.ray_ms, d.share(), d.covered, d.differing(),
+      d.neighbours, d.silhouettes, d.others, d.hit_or_not, d.expected_share(),
+      d.pixels_per_triangle(), d.expected_share_of_equals());
+}
+
 std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
   const GpuSceneStatistics& s = renderer.gpu_scene().statistics;
   std::string out = fmt::format(
@@ -311,6 +341,7 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
             static_cast<double>(std::max<std::uint64_t>(bake->cells, 1)),
         100 * bake->error, mebibytes(bake->bytes));
   }
+  out += describe_primary(result);
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
   if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
   return out;

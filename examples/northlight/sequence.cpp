@@ -252,7 +252,8 @@ std::string describe(const FrameRenderer& renderer, const SequenceResult& sequen
                        sequence.last.passes[i].name, sum / count, least, most, rays / count,
                        sum > 0 ? rays / sum / 1000 : 0.0);
   }
-  return out + describe_structures(sequence.frames) + describe_flicker(sequence.flicker);
+  return out + describe_structures(sequence.frames) + describe_primary(sequence.last) +
+         describe_flicker(sequence.flicker);
 }
 
 void remove_later_frames(const std::string& folder, std::uint32_t count) {

@@ -67,6 +67,7 @@ expect_error 1 'no camera path "roundabout".*still, dolly, orbit' --frames 2 --s
 printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
 expect_error 2 'not in {direction,origin}' --sort-rays length
+expect_error 2 'not in {rays,raster}' --primary points
 expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
 expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
 expect_error 2 'tables and --explain exclude each other' --tables --explain 3,4 --size 16x9
@@ -101,6 +102,12 @@ small=(--size 64x36 --out "$work/out")
 for file in frame.png frame.exr ao.png sun.png normal.png stats.json; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
+
+# Drawn surfaces: the same picture but for pixels at edges, and what both ways took.
+"$northlight" --size 64x36 --primary raster --out "$work/drawn" > "$work/log" || fail "--primary raster"
+grep -Eq '^G-buffer resolve ' "$work/log" || fail "--primary raster's table lacks passes: $(cat "$work/log")"
+grep -Eq 'covered pixels show another triangle than rays hit' "$work/log" || fail "--primary raster says no difference: $(cat "$work/log")"
+grep -q '"ray_ms"' "$work/drawn/stats.json" || fail "stats.json has no times of both: $(cat "$work/drawn/stats.json")"
 
 # The whole frame. Its volume of indirect light is saved, read again, and refused when damaged.
 whole=(--effects all --size 64x36 --gi-bake-samples 1 --gi-cell 1 --gi-volume "$work/lounge.gi")
