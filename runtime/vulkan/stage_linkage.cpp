@@ -41,6 +41,11 @@ uint32_t conversion_of(const Gpu& gpu, rtapi::Format format, bool blends) {
     const bool truncates = gpu.workarounds().has(Workaround::kRoundTenBits);
     return integer || (truncates && !blends) ? bits_of_components(10, 2) : 0;
   }
+  if (info.type == rtapi::FormatClass::kSnorm) {
+    return gpu.workarounds().has(Workaround::kLimitSnorm)
+               ? bits_of_components(shader::spirv::kLimitedSnorm, shader::spirv::kLimitedSnorm)
+               : 0;
+  }
   return integer && info.channel_bits < 32
              ? bits_of_components(info.channel_bits, info.channel_bits)
              : 0;

@@ -50,6 +50,8 @@ constexpr WorkaroundInfo kTable[] = {
      "colours in R10G10B10A2 are truncated"},
     {Workaround::kRefuseSnormBlend, "SNORMB", kLavapipe, kFirst, kOpen, true, 0,
      "SNORM targets are blended wrongly"},
+    {Workaround::kLimitSnorm, "SNORMC", kLavapipe, kFirst, kOpen, true, 0,
+     "NaN becomes the least value of SNORM targets, and less than -1 becomes -128"},
 };
 
 bool lists_workaround(std::string_view list, std::string_view name) {

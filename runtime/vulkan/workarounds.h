@@ -31,6 +31,7 @@ enum class Workaround : uint32_t {
   kHalveDepthBias,         // BIAS2
   kRoundTenBits,           // RT10
   kRefuseSnormBlend,       // SNORMB
+  kLimitSnorm,             // SNORMC
 };
 
 // Driver versions as one number: major * 1000 + minor.

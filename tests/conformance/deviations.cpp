@@ -42,10 +42,6 @@ constexpr char kInterlock[] =
     "by design: Mesa 25.0 has no VK_EXT_fragment_shader_interlock; the order holds as long as a "
     "tile "
     "is one thread's";
-constexpr char kSnormStore[] =
-    "SNORMC: fault of Mesa 25.0's conversion to SNORM: NaN becomes the least value, and 8 bits "
-    "below "
-    "-1 become -128";
 constexpr char kNanTimesZero[] =
     "NANB: fault of Mesa 25.0's blending: a factor of zero leaves NaN out";
 constexpr char kSnormBlend[] = "SNORMB: Mesa 25.0 blends SNORM wrongly, so that it is refused";
@@ -58,8 +54,7 @@ constexpr Deviation kDeviations[] = {
     {"RAS-33", "vulkan", kMesa, kCutOnScreen},      {"RAS-61", "vulkan", kMesa, kNanInDepth},
     {"RAS-66", "vulkan", kMesa, kBiasWithoutDepth}, {"RAS-72", "vulkan", kMesa, kBarycentrics},
     {"RAS-75", "vulkan", kMesa, kPlanes},           {"RAS-103", "vulkan", kMesa, kInterlock},
-    {"RAS-114", "vulkan", kMesa, kSnormStore},      {"RAS-124", "vulkan", kMesa, kNanTimesZero},
-    {"RAS-125", "vulkan", kMesa, kSnormBlend},
+    {"RAS-124", "vulkan", kMesa, kNanTimesZero},    {"RAS-125", "vulkan", kMesa, kSnormBlend},
 };
 
 }  // namespace

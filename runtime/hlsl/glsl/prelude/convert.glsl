@@ -5,10 +5,11 @@
 // nearest even.
 
 // A component of a pixel shader's output, for a target whose component has that many bits. 0: as it
-// is.
+// is; 128: SNORM.
 //@ k_target
 float k_target(float value, uint bits) {
   if (bits == 0u) return value;
+  if (bits == 128u) return isnan(value) ? 0.0 : clamp(value, -1.0, 1.0);
   float most = float((1u << bits) - 1u);
   float inside = value > 0.0 ? min(value, 1.0) : 0.0;  // not a number: 0
   // The middle of what drivers turn into this step, be it that they round value * most or truncate

@@ -52,8 +52,10 @@ inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
 // Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's
 // format differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it
 // does not. The bits of an integer component, to whose range values are clamped; of a UNORM
-// component, to whose steps values are rounded.
+// component, to whose steps values are rounded; kLimitedSnorm: values are limited to -1 to 1, and
+// NaN is 0.
 inline constexpr uint32_t kTargetConstant = 0xFFFF0010u;
+inline constexpr uint32_t kLimitedSnorm = 128;
 
 // Driver faults that generated code works around; each is off unless its bit is set. The ids are
 // those of the list in runtime/vulkan/README.md.
