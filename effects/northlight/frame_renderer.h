@@ -67,6 +67,10 @@ using BandExecutor = std::function<rtapi::Status(rtapi::CommandQueue& queue,
                                                  rtapi::CommandList& list, const std::string& pass,
                                                  std::uint32_t first_row, std::uint32_t row_count)>;
 
+/// Executes the draws of a G-buffer; replaces CommandQueue::ExecuteAndWait, to look at them.
+using DrawExecutor =
+    std::function<rtapi::Status(rtapi::CommandQueue& queue, rtapi::CommandList& list)>;
+
 /// A scene on a device with all that its frames need. Not for several threads at once.
 class FrameRenderer {
  public:
@@ -86,6 +90,8 @@ class FrameRenderer {
   void set_libraries(ShaderLibraries libraries);
   /// Executes the bands of rows of every pass by this, to look at them.
   void set_band_executor(BandExecutor executor) { execute_band_ = std::move(executor); }
+  /// Executes the draws of frames that are rendered by this, to look at them.
+  void set_draw_executor(DrawExecutor executor) { execute_draws_ = std::move(executor); }
   /// Milliseconds of the clock that times passes and runs; by default the time that passes.
   void set_clock(std::function<double()> milliseconds) { clock_ms_ = std::move(milliseconds); }
 
@@ -294,6 +300,7 @@ class FrameRenderer {
   FrameMoment moment_;
   glm::vec2 jitter_{0.0f};
   BandExecutor execute_band_;
+  DrawExecutor execute_draws_;
   std::function<double()> clock_ms_;
   std::vector<PassStatistics> statistics_;
   std::optional<PassStatistics> set_up_;

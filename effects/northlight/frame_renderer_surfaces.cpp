@@ -63,11 +63,16 @@ rtapi::Result<Outcome> FrameRenderer::run_gbuffer(const Progress& progress) {
     statistics_.back().bytes = surface_bytes(frame_);
     return Outcome::kDone;
   }
-  if (const auto s =
-          run_compute("G-buffer draws", raster_->bytes(), [&](auto& list) { record_draws(list); });
-      !s) {
-    return s.error();
-  }
+  auto draws = device_.CreateCommandList();
+  if (!draws) return draws.error();
+  device_.ResetStatistics();
+  const double start = clock_ms_();
+  record_draws(*draws);
+  const auto drawn =
+      execute_draws_ ? execute_draws_(queue_, *draws) : queue_.ExecuteAndWait(*draws);
+  if (!drawn) return drawn.error();
+  statistics_.push_back(
+      {"G-buffer draws", clock_ms_() - start, device_.GetStatistics(), raster_->bytes()});
   if (const auto s = run_compute("G-buffer resolve", surface_bytes(frame_),
                                  [&](auto& list) { raster_->record_resolve(list, frame_); });
       !s) {

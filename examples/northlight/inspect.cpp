@@ -47,6 +47,13 @@ rtapi::Status count_band(const Options& options, Inspection& seen, rtapi::Comman
   return {};
 }
 
+rtapi::Status count_draws(Inspection& seen, rtapi::CommandQueue& queue, rtapi::CommandList& list) {
+  const auto counts = rtapi::CollectOverdraw(queue, list);
+  if (!counts) return counts.error();
+  for (const rtapi::PixelOverdraw& pixel : counts->Pixels) seen.overdraw.push_back(pixel.Shaded);
+  return {};
+}
+
 }  // namespace
 
 void inspect(const Options& options, FrameRenderer& renderer, Inspection& seen) {
@@ -57,6 +64,9 @@ void inspect(const Options& options, FrameRenderer& renderer, Inspection& seen) 
       const auto done = explain_band(options, seen, queue, list, pass, first_row, row_count);
       return done ? device.GetDeviceRemovedReason() : done;
     });
+  } else if (options.heatmap == "overdraw") {
+    renderer.set_draw_executor(
+        [&seen](auto& queue, auto& list) { return count_draws(seen, queue, list); });
   } else if (!options.heatmap.empty()) {
     renderer.set_band_executor(
         [&options, &seen](auto& queue, auto& list, const auto&, auto first_row, auto) {
@@ -118,7 +128,7 @@ std::string print_explanations(const std::vector<ExplainedDispatch>& dispatches,
 }
 
 std::string write_heatmap(const Options& options, const Inspection& seen, std::string& said) {
-  std::vector<std::uint32_t> counts;
+  std::vector<std::uint32_t> counts = seen.overdraw;
   counts.reserve(seen.pixel_counts.size());
   for (const rtapi::PixelStatistics& pixel : seen.pixel_counts) {
     counts.push_back(options.heatmap == "anyhit"       ? pixel.AnyHitCalls

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <rtapi/explain.h>
+#include <rtapi/explain_draw.h>
 #include <rtapi/table_description.h>
 
 #include <string>
@@ -25,6 +26,7 @@ struct ExplainedDispatch {
 struct Inspection {
   std::vector<ExplainedDispatch> explained;          // with --explain
   std::vector<rtapi::PixelStatistics> pixel_counts;  // with --heatmap: width * height
+  std::vector<std::uint32_t> overdraw;  // --heatmap overdraw: pixel shaders that ran, row by row
 };
 
 // Makes the renderer's next frames fill `seen`, which must stay, as the options ask for.

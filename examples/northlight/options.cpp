@@ -213,6 +213,10 @@ std::string conflict(const Options& options) {
     return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
            "other: leave one out";
   }
+  if (options.heatmap == "overdraw" && options.frame.primary == Primary::kRays) {
+    return "--heatmap overdraw counts the pixel shaders of draws, and rays draw nothing: add "
+           "--primary raster";
+  }
   if (!options.camera_path.empty() && options.frames == 0 && options.measure != "svgf") {
     return "--camera-path requires --frames or --measure svgf";
   }
@@ -476,9 +480,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
           ->check(
               CLI::Validator([&](std::string& t) { return parse_pixel(t, options.explain); }, ""));
   app.add_flag("--json", options.json, "--explain prints JSON")->needs(explained);
-  app.add_option("--heatmap", options.heatmap,
-                 "anyhit, candidates, depth or rays: write a picture of these counts per pixel")
-      ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays"}));
+  app.add_option(
+         "--heatmap", options.heatmap,
+         "anyhit, candidates, depth, rays or overdraw (with --primary raster): write a picture "
+         "of these counts per pixel")
+      ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays", "overdraw"}));
   app.add_flag("--list-devices", options.list_devices, "print the devices of every backend");
   app.add_option("--reference", options.reference,
                  "add layers NAME_reference: each effect with this many samples, not denoised")

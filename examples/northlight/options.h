@@ -54,7 +54,7 @@ struct Options {
   std::string tables;  // "text", "json": print the shader tables instead of rendering; empty: no
   std::optional<std::pair<std::uint32_t, std::uint32_t>> explain;  // print this pixel's tree
   bool json = false;                                               // for --explain
-  std::string heatmap;  // "anyhit", "candidates", "depth", "rays": write that picture; empty: no
+  std::string heatmap;  // "anyhit", ..., "overdraw": write that picture; empty: no
 };
 
 // Chooses these effects instead, with the settings of options.effects. "all": every one.

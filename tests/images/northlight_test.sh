@@ -72,6 +72,7 @@ expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
 expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
 expect_error 2 'tables and --explain exclude each other' --tables --explain 3,4 --size 16x9
 expect_error 2 'pixel and --heatmap exclude each other' --pixel 3,4 --heatmap rays --size 16x9
+expect_error 2 'overdraw counts .*add --primary raster' --heatmap overdraw --size 16x9
 expect_error 2 'json requires --explain' --json --size 16x9
 expect_error 2 'reference-path-traced and --frames exclude each other' --reference-path-traced 4 --frames 2
 expect_error 2 'reference-path-traced and --explain exclude each other' --reference-path-traced 4 --explain 3,4 --size 16x9
@@ -108,6 +109,9 @@ done
 grep -Eq '^G-buffer resolve ' "$work/log" || fail "--primary raster's table lacks passes: $(cat "$work/log")"
 grep -Eq 'covered pixels show another triangle than rays hit' "$work/log" || fail "--primary raster says no difference: $(cat "$work/log")"
 grep -q '"ray_ms"' "$work/drawn/stats.json" || fail "stats.json has no times of both: $(cat "$work/drawn/stats.json")"
+
+"$northlight" --size 64x36 --primary raster --heatmap overdraw --out "$work/drawn" > "$work/log" || fail "--heatmap overdraw"
+grep -Eq 'heatmap-overdraw.png.*the most is [1-9]' "$work/log" || fail "--heatmap overdraw counts nothing: $(cat "$work/log")"
 
 # The whole frame. Its volume of indirect light is saved, read again, and refused when damaged.
 whole=(--effects all --size 64x36 --gi-bake-samples 1 --gi-cell 1 --gi-volume "$work/lounge.gi")
