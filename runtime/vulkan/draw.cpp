@@ -15,6 +15,7 @@ namespace {
 
 constexpr uint64_t kPlaceBytes = kStatusBytes + kBlockBytes;
 constexpr uint64_t kPlacesPerBuffer = 1024;
+constexpr uint64_t kZeroElementBytes = 16;
 
 bool has_targets(const runtime::DrawTargets& targets) {
   const auto* end = targets.color.begin() + targets.color_count;
@@ -38,6 +39,14 @@ bool writes_depth(const runtime::DrawCommand& command) {
          !command.state->targets.depth.read_only_depth;
 }
 
+bool is_unbound(const rtapi::VertexBufferView& view) {
+  return view.BufferLocation == 0;
+}
+
+uint32_t stride_of(const rtapi::VertexBufferView& view) {
+  return is_unbound(view) ? 0 : view.StrideInBytes;
+}
+
 const GraphicsPipeline& graphics_of(const runtime::DrawCommand& command) {
   return static_cast<const GraphicsPipeline&>(*command.pipeline);
 }
@@ -55,6 +64,15 @@ rtapi::Result<DrawBlocks::Place> DrawBlocks::next(Gpu& gpu) {
   const uint64_t offset = used_++ % kPlacesPerBuffer * kPlaceBytes;
   const GpuBuffer& buffer = *buffers_[number];
   return Place{buffer.host() + offset, buffer.address() + offset};
+}
+
+rtapi::Result<const GpuBuffer*> DrawBlocks::zeros(Gpu& gpu) {
+  if (zeros_ == nullptr) {
+    auto made = gpu.create_buffer(kZeroElementBytes, "zeros for vertices");
+    if (!made) return made.error();
+    zeros_ = std::move(*made);
+  }
+  return zeros_.get();
 }
 
 bool DrawPass::is_checked() const {
@@ -82,16 +100,16 @@ rtapi::Result<VkPipeline> DrawPass::pipeline_of(const runtime::DrawCommand& comm
     wanted.colors[i] = bound_format(state.targets.color[i]);
   }
   wanted.depth = bound_format(state.targets.depth);
+  if (pipeline.needs_layers()) wanted.layers = area_of(state.targets, {}).layers;
   const auto& bindings = pipeline.inputs().bindings;
-  const auto stride_of = [&](const VertexBinding& binding) {
-    return state.vertex_buffers[binding.slot].StrideInBytes;
-  };
-  const bool all_taken =
-      std::all_of(bindings.begin(), bindings.end(),
-                  [&](const VertexBinding& binding) { return binding.takes(stride_of(binding)); });
-  if (!all_taken) {
-    std::transform(bindings.begin(), bindings.end(), std::back_inserter(wanted.strides), stride_of);
+  bool all_taken = true;
+  for (uint32_t i = 0; i < bindings.size(); ++i) {
+    const rtapi::VertexBufferView& view = state.vertex_buffers[bindings[i].slot];
+    wanted.strides.push_back(stride_of(view));
+    all_taken = all_taken && bindings[i].takes(stride_of(view));
+    if (is_unbound(view)) wanted.unbound |= 1u << i;
   }
+  if (all_taken) wanted.strides.clear();
   return pipeline.variant(wanted);
 }
 
@@ -114,37 +132,51 @@ rtapi::Result<uint64_t> DrawPass::write_block(const runtime::DrawCommand& comman
   shader::spirv::DispatchBlock block = dispatch_block(command.bindings, scene_);
   block.status = place->address;
   block.dimensions[0] = pass_.area().layers;
-  // Below every viewport's range, whose lower end it then is limited to. [RAS-69]
-  block.base[0] = std::bit_cast<uint32_t>(std::numeric_limits<float>::lowest());
+  // What an SV_Depth that is not a number becomes: below every viewport's range, to whose lower end
+  // it is limited then. [RAS-69]
+  const bool replaces = environment_.stream->gpu().workarounds().has(Workaround::kReplaceNanDepth);
+  block.base[0] = std::bit_cast<uint32_t>(replaces ? std::numeric_limits<float>::lowest()
+                                                   : std::numeric_limits<float>::quiet_NaN());
   std::memcpy(place->host + kStatusBytes, &block, sizeof(block));
   waiting_.push_back({label, place->host});
   return place->address + kStatusBytes;
 }
 
-void DrawPass::bind_vertices(VkCommandBuffer commands, const runtime::DrawCommand& command) const {
+rtapi::Status DrawPass::bind_vertices(VkCommandBuffer commands,
+                                      const runtime::DrawCommand& command) {
   const auto& bindings = graphics_of(command).inputs().bindings;
-  if (bindings.empty()) return;
+  if (bindings.empty()) return {};
   std::vector<VkBuffer> buffers;
   std::vector<VkDeviceSize> offsets, sizes, strides;
   bool all_taken = true;
   for (const VertexBinding& binding : bindings) {
     const rtapi::VertexBufferView& view = command.state->vertex_buffers[binding.slot];
-    const GpuBuffer* buffer =
-        view.SizeInBytes == 0 ? nullptr : environment_.memory->find(view.BufferLocation);
+    const GpuBuffer* buffer = environment_.memory->find(view.BufferLocation);
+    uint64_t offset = buffer == nullptr ? 0 : view.BufferLocation - buffer->address();
+    if (is_unbound(view)) {
+      auto zeros = blocks_.zeros(environment_.stream->gpu());
+      if (!zeros) return zeros.error();
+      buffer = *zeros;
+      offset = 0;
+    } else if (view.SizeInBytes == 0) {
+      buffer = nullptr;
+    }
     buffers.push_back(buffer == nullptr ? VK_NULL_HANDLE : buffer->handle());
-    offsets.push_back(
-        buffer == nullptr ? 0 : buffer->offset() + (view.BufferLocation - buffer->address()));
-    sizes.push_back(buffer == nullptr ? VK_WHOLE_SIZE : view.SizeInBytes);
-    strides.push_back(view.StrideInBytes);
-    all_taken = all_taken && binding.takes(view.StrideInBytes);
+    offsets.push_back(buffer == nullptr ? 0 : buffer->offset() + offset);
+    sizes.push_back(is_unbound(view)    ? kZeroElementBytes
+                    : buffer == nullptr ? VK_WHOLE_SIZE
+                                        : view.SizeInBytes);
+    strides.push_back(stride_of(view));
+    all_taken = all_taken && binding.takes(stride_of(view));
   }
   environment_.stream->gpu().vk().vkCmdBindVertexBuffers2(
       commands, 0, static_cast<uint32_t>(buffers.size()), buffers.data(), offsets.data(),
       sizes.data(), all_taken ? strides.data() : nullptr);
+  return {};
 }
 
-void DrawPass::set_state(VkCommandBuffer commands, const runtime::DrawCommand& command,
-                         bool restarts) {
+rtapi::Status DrawPass::set_state(VkCommandBuffer commands, const runtime::DrawCommand& command,
+                                  bool restarts) {
   const VolkDeviceTable& vk = environment_.stream->gpu().vk();
   const runtime::DrawState& state = *command.state;
   const bool one = command.linked->vertex_columns.viewport_array_index == runtime::kNoColumn;
@@ -156,7 +188,7 @@ void DrawPass::set_state(VkCommandBuffer commands, const runtime::DrawCommand& c
   vk.vkCmdSetPrimitiveTopology(commands, topology_of(state.topology));
   vk.vkCmdSetPrimitiveRestartEnable(commands, restarts);
   vk.vkCmdSetDepthWriteEnable(commands, writes_depth(command));
-  bind_vertices(commands, command);
+  return bind_vertices(commands, command);
 }
 
 rtapi::Status DrawPass::record(const runtime::DrawCommand& command, const std::string& label) {
@@ -188,7 +220,7 @@ rtapi::Status DrawPass::record(const runtime::DrawCommand& command, const std::s
   pipeline.layout().push(*commands, *block);
   if (anew || set_pipeline_ != *handle || set_state_ != command.state ||
       set_restart_ != indices.restarts) {
-    set_state(*commands, command, indices.restarts);
+    if (auto s = set_state(*commands, command, indices.restarts); !s) return s;
   }
   set_in_ = pass_.number();
   set_pipeline_ = *handle;

@@ -26,12 +26,15 @@ class DrawBlocks {
     uint64_t address = 0;
   };
   rtapi::Result<Place> next(Gpu& gpu);
+  // 16 bytes of zeros, for what is not bound.
+  rtapi::Result<const GpuBuffer*> zeros(Gpu& gpu);
   // All are free again.
   void reset() { used_ = 0; }
 
  private:
   std::vector<std::unique_ptr<GpuBuffer>> buffers_;
   uint64_t used_ = 0;  // blocks
+  std::unique_ptr<GpuBuffer> zeros_;
 };
 
 // One for the commands of a list. Everything else than its own commands must call flush() first.
@@ -60,8 +63,9 @@ class DrawPass {
   rtapi::Result<VkPipeline> pipeline_of(const runtime::DrawCommand& command) const;
   rtapi::Result<uint64_t> write_block(const runtime::DrawCommand& command,
                                       const std::string& label);
-  void set_state(VkCommandBuffer commands, const runtime::DrawCommand& command, bool restarts);
-  void bind_vertices(VkCommandBuffer commands, const runtime::DrawCommand& command) const;
+  rtapi::Status set_state(VkCommandBuffer commands, const runtime::DrawCommand& command,
+                          bool restarts);
+  rtapi::Status bind_vertices(VkCommandBuffer commands, const runtime::DrawCommand& command);
   bool is_checked() const;
 
   DispatchEnvironment environment_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/gpu.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -102,6 +104,17 @@ class FilterOption {
   std::string before_;
 };
 
+// Freed memory stays with the process. lavapipe allocates what it keeps of a frame in pieces, which
+// would come from the system and go back to it each time.
+void keep_heap() {
+#ifdef __GLIBC__
+  constexpr int kBytes = 1 << 29;
+  mallopt(M_TRIM_THRESHOLD, kBytes);
+  mallopt(M_TOP_PAD, kBytes / 8);
+  mallopt(M_MMAP_THRESHOLD, kBytes);
+#endif
+}
+
 rtapi::Error no_device(const std::string& why) {
   return runtime::make_error(runtime::Id::kNoVulkanDevice, why + ". " + kWhatToInstall);
 }
@@ -150,6 +163,7 @@ rtapi::Status Gpu::start(std::shared_ptr<Instance> instance, VkPhysicalDevice ph
       workarounds_for(properties_.driver.driverID, properties_.driver.driverInfo,
                       environment("KAAMOS_VULKAN_DISABLE_WORKAROUNDS"),
                       environment("KAAMOS_VULKAN_ENABLE_WORKAROUNDS"), &unknown_workarounds_);
+  if (workarounds_.has(Workaround::kKeepHeap)) keep_heap();
   if (auto s = create_device(); !s) return s;
   vk_.vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
   const VkResult r = create_command_buffer(&pool_, &commands_, &fence_);

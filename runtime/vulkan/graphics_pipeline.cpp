@@ -7,6 +7,7 @@
 
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/backend/errors.h"
+#include "runtime/vulkan/barycentrics_stage.h"
 #include "runtime/vulkan/fixed_state.h"
 #include "runtime/vulkan/shader_stage.h"
 #include "runtime/vulkan/stage_linkage.h"
@@ -27,6 +28,7 @@ constexpr uint32_t kDynamicStateCount = std::size(kDynamicStates);
 // The vertex buffers as VkPipelineVertexInputStateCreateInfo takes them.
 struct VertexInputState {
   std::vector<VkVertexInputBindingDescription> bindings;
+  std::vector<VkVertexInputAttributeDescription> attributes;
   std::vector<VkVertexInputBindingDivisorDescriptionEXT> divisors;
   VkPipelineVertexInputDivisorStateCreateInfoEXT divisor_info = {
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_DIVISOR_STATE_CREATE_INFO_EXT};
@@ -43,13 +45,19 @@ struct VertexInputState {
         divisors.push_back({i, binding.step_rate});
       }
     }
+    attributes = inputs.attributes;
+    for (size_t i = 0; i < attributes.size(); ++i) {
+      if ((wanted.unbound >> attributes[i].binding & 1) == 0) continue;
+      attributes[i].format = inputs.zero_formats[i];
+      attributes[i].offset = 0;
+    }
     divisor_info.vertexBindingDivisorCount = static_cast<uint32_t>(divisors.size());
     divisor_info.pVertexBindingDivisors = divisors.data();
     if (!divisors.empty()) info.pNext = &divisor_info;
     info.vertexBindingDescriptionCount = static_cast<uint32_t>(bindings.size());
     info.pVertexBindingDescriptions = bindings.data();
-    info.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.attributes.size());
-    info.pVertexAttributeDescriptions = inputs.attributes.data();
+    info.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size());
+    info.pVertexAttributeDescriptions = attributes.data();
   }
   VertexInputState(const VertexInputState&) = delete;
   VertexInputState& operator=(const VertexInputState&) = delete;
@@ -88,13 +96,28 @@ rtapi::Status GraphicsPipeline::start() {
   if (linked_->has_pixel() && linked_->pixel.code->spirv != nullptr) {
     pixel_code_ = linked_pixel_code(*linked_);
   }
+  if (linked_->pixel_columns.barycentrics != runtime::kNoColumn) {
+    if (gpu.is_lavapipe() && !gpu.workarounds().has(Workaround::kBarycentricsStage)) {
+      return runtime::make_error(runtime::Id::kNoBarycentrics,
+                                 "pixel shader \"" + linked_->pixel.name + "\" of \"" +
+                                     linked_->name +
+                                     "\" reads SV_Barycentrics, and workaround BARY is off.");
+    }
+    geometry_code_ = barycentrics_code(*linked_);
+  }
   GraphicsVariant first;
   std::copy_n(linked_->target_formats, first.colors.size(), first.colors.begin());
   first.color_count = linked_->target_count;
   first.depth = linked_->depth_format;
+  first.layers = needs_layers() ? 1 : 0;
   auto made = variant(first);
   if (!made) return made.error();
   return {};
+}
+
+bool GraphicsPipeline::needs_layers() const {
+  return !geometry_code_.empty() &&
+         linked_->vertex_columns.target_array_index != runtime::kNoColumn;
 }
 
 bool GraphicsPipeline::pixels_write_memory() const {
@@ -119,6 +142,10 @@ rtapi::Result<VkPipeline> GraphicsPipeline::create_variant(const GraphicsVariant
   if (auto added = stages.add(linked_->vertex); !added) return added.error();
   if (linked_->has_pixel()) {
     auto added = stages.add(linked_->pixel, pixel_code_, target_constants(gpu, *linked_, wanted));
+    if (!added) return added.error();
+  }
+  if (!geometry_code_.empty()) {
+    auto added = stages.add(geometry_code_, VK_SHADER_STAGE_GEOMETRY_BIT, wanted.layers);
     if (!added) return added.error();
   }
   const VertexInputState vertices(inputs_, wanted);

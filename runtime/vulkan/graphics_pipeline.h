@@ -22,6 +22,10 @@ struct GraphicsVariant {
   std::array<rtapi::Format, rtapi::kSimultaneousRenderTargetCount> colors = {};  // kUnknown: none
   uint32_t color_count = 0;
   rtapi::Format depth = rtapi::Format::kUnknown;
+  // Of the targets; 0 unless the pipeline's own code picks one.
+  uint32_t layers = 0;
+  // A bit for each binding without a buffer, whose elements are four zeros. [RAS-14]
+  uint32_t unbound = 0;
   // By binding; empty: strides come with the buffers. [VertexBinding::takes]
   std::vector<uint32_t> strides;
 
@@ -31,7 +35,7 @@ struct GraphicsVariant {
 class GraphicsPipeline final : public runtime::BackendPipeline {
  public:
   // With the variant for the formats of its description. Errors: KA0952, KA0954, KA0963, KA0965 the
-  // device lacks what graphics pipelines need, KA0966.
+  // device lacks what graphics pipelines need, KA0966, KA0967.
   static rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create(
       std::shared_ptr<PipelineLayout> layout,
       std::shared_ptr<const runtime::LinkedGraphics> linked);
@@ -42,6 +46,8 @@ class GraphicsPipeline final : public runtime::BackendPipeline {
   const VertexInput& inputs() const { return inputs_; }
   // Thread-safe; made once each. Errors: KA0952.
   rtapi::Result<VkPipeline> variant(const GraphicsVariant& wanted);
+  // Whether GraphicsVariant::layers is needed: a geometry shader of the backend's own picks layers.
+  bool needs_layers() const;
   // Whether its pixel shader writes memory, whose writes are not to be lost. [RAS-104]
   bool pixels_write_memory() const;
 

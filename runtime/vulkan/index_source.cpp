@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "runtime/backend/linked_graphics.h"
+
 namespace kaamos::vulkan {
 namespace {
 

@@ -32,6 +32,17 @@ uint32_t binding_of(const runtime::LinkedElement& element, std::vector<VertexBin
   return static_cast<uint32_t>(bindings.size() - 1);
 }
 
+VkFormat zero_format(rtapi::Format format) {
+  switch (rtapi::GetFormatInfo(format).type) {
+    case rtapi::FormatClass::kUint:
+      return VK_FORMAT_R32G32B32A32_UINT;
+    case rtapi::FormatClass::kSint:
+      return VK_FORMAT_R32G32B32A32_SINT;
+    default:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+  }
+}
+
 // The number of the input, which is its location.
 uint32_t location_of(const shader::GraphicsDesc& code, uint32_t first_column) {
   uint32_t i = 0;
@@ -56,6 +67,7 @@ rtapi::Result<VertexInput> vertex_input(const Gpu& gpu, const runtime::LinkedGra
     result.attributes.push_back({location_of(linked.vertex_desc(), element.first_column),
                                  binding_of(element, result.bindings), format.format,
                                  element.offset_bytes});
+    result.zero_formats.push_back(zero_format(element.format));
   }
   return result;
 }

@@ -29,6 +29,8 @@ struct VertexBinding {
 struct VertexInput {
   std::vector<VertexBinding> bindings;
   std::vector<VkVertexInputAttributeDescription> attributes;
+  // By attribute: four 32-bit components of its class, to read zeros as.
+  std::vector<VkFormat> zero_formats;
 };
 
 // Errors: KA0966 the device has no vertices in a format.

@@ -46,12 +46,18 @@ constexpr WorkaroundInfo kTable[] = {
      "a triangle that covers a tile takes away what pixel shaders there wrote to memory before"},
     {Workaround::kHalveDepthBias, "BIAS2", kLavapipe, kFirst, kOpen, true, 0,
      "the constant depth bias is doubled on D16 and D24"},
+    {Workaround::kBarycentricsStage, "BARY", kLavapipe, kFirst, kOpen, true, 0,
+     "pixel shaders have no barycentrics"},
     {Workaround::kRoundTenBits, "RT10", kLavapipe, kFirst, kOpen, true, 0,
-     "colours in R10G10B10A2 are truncated"},
+     "colours in R10G10B10A2 are multiplied by 1024 and truncated"},
     {Workaround::kRefuseSnormBlend, "SNORMB", kLavapipe, kFirst, kOpen, true, 0,
      "SNORM targets are blended wrongly"},
     {Workaround::kLimitSnorm, "SNORMC", kLavapipe, kFirst, kOpen, true, 0,
      "NaN becomes the least value of SNORM targets, and less than -1 becomes -128"},
+    {Workaround::kReplaceNanDepth, "NANZ", kLavapipe, kFirst, kOpen, true, 0,
+     "an SV_Depth that is not a number becomes MaxDepth"},
+    {Workaround::kKeepHeap, "TRIM", kLavapipe, kFirst, kOpen, false, 0,
+     "memory of tiles goes back to the system after each frame; applied when a device starts"},
 };
 
 bool lists_workaround(std::string_view list, std::string_view name) {

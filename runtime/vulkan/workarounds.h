@@ -29,9 +29,12 @@ enum class Workaround : uint32_t {
   kReserveCallables,       // CALLABLES
   kKeepMemoryWrites,       // RASUAV
   kHalveDepthBias,         // BIAS2
+  kBarycentricsStage,      // BARY
   kRoundTenBits,           // RT10
   kRefuseSnormBlend,       // SNORMB
   kLimitSnorm,             // SNORMC
+  kReplaceNanDepth,        // NANZ
+  kKeepHeap,               // TRIM
 };
 
 // Driver versions as one number: major * 1000 + minor.

@@ -94,3 +94,33 @@ float4 Traced(float4 position : SV_Position) : SV_Target0 {
   if (query.CommittedStatus() != COMMITTED_TRIANGLE_HIT) return float4(0.0, 0.0, 0.0, 0.0);
   return float4(query.CommittedRayT(), query.CommittedTriangleBarycentrics(), 1.0);
 }
+
+[shader("pixel")]
+float4 Barycentrics(Vertex input, float3 weights : SV_Barycentrics, uint primitive : SV_PrimitiveID) : SV_Target0 {
+  return float4(weights, float(primitive * 100 + input.id));
+}
+
+struct Sliced {
+  float4 position : SV_Position;
+  nointerpolation uint slice : SV_RenderTargetArrayIndex;
+};
+
+// An instance for each slice.
+[shader("vertex")]
+Sliced WholeSlice(uint vertex : SV_VertexID, uint instance : SV_InstanceID) {
+  Sliced result;
+  result.position = float4(vertex == 1 ? 3.0 : -1.0, vertex == 2 ? -3.0 : 1.0, tint.w, 1.0);
+  result.slice = instance;
+  return result;
+}
+
+[shader("pixel")]
+float4 SliceAndWeights(Sliced input, float3 weights : SV_Barycentrics) : SV_Target0 {
+  return float4(float(input.slice), weights);
+}
+
+[shader("pixel")]
+float4 DepthOfTint(float4 position : SV_Position, out float depth : SV_Depth) : SV_Target0 {
+  depth = tint.x;
+  return tint;
+}

@@ -76,9 +76,18 @@ void GlslEmitter::graphics_output(size_t index, const std::string& name) {
     line(out + " = " + name + ";");
   };
   switch (element.system_value) {
-    case shader::SystemValue::kTarget:
-      line(name + " = " + converted_target(element, name) + ";");
-      return at_location(element.semantic_index);
+    case shader::SystemValue::kTarget: {
+      // Components that the shader does not have are 0. [RAS-111]
+      SignatureElement whole = element;
+      whole.components = 4;
+      const std::string type_of_all = vector_type(whole);
+      std::string rest;
+      for (int i = element.components; i < 4; ++i) rest += ", 0";
+      const std::string out = "g_out_" + std::to_string(index);
+      declarations_ += "layout(location = " + std::to_string(element.semantic_index) + ") out " +
+                       type_of_all + " " + out + ";\n";
+      return line(out + " = " + type_of_all + "(" + converted_target(element, name) + rest + ");");
+    }
     case shader::SystemValue::kDepth:
       return line("gl_FragDepth = isnan(" + name +
                   ") ? uintBitsToFloat(k_dispatch.base[0]) : " + name + ";");
