@@ -42,6 +42,9 @@ runtime::RootBindings CommandListImpl::Snapshot(const char* call, const RootStat
   if (view_heap) state.view_heap = view_heap.impl()->memory;
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
   state.root_signature = root.signature;
+  if (const auto& signature = root.signature.impl()) {
+    state.argument_offsets = {signature, &signature->offsets};
+  }
   state.set_parameters = root.set_parameters;
   state.forgotten_parameters = root.forgotten_parameters;
   return state;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <rtapi/root_signature.h>
 
@@ -29,6 +30,8 @@ struct RootBindings {
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
   rtapi::RootSignature root_signature;  // the one that was set; may be empty
+  // Where its parameters' arguments lie in `root_arguments`; null without a signature.
+  std::shared_ptr<const std::vector<uint32_t>> argument_offsets;
   // Bits of root parameters that were set since; and of those that were set before, under another
   // signature. For checked mode.
   uint64_t set_parameters = 0;

@@ -131,15 +131,15 @@ void Draws::check_rectangles(const runtime::DrawCommand& command) {
 void Draws::check_root_arguments(const runtime::DrawCommand& command,
                                  const runtime::LinkedShader& shader) {
   const runtime::RootBindings& bindings = command.bindings;
-  if (!bindings.root_signature) return;
-  const auto& parameters = bindings.root_signature.GetDesc().Parameters;
+  if (bindings.argument_offsets == nullptr) return;
+  const std::vector<uint32_t>& offsets = *bindings.argument_offsets;
   uint64_t told = 0;
   for (uint32_t i = 0; i < shader.slots.size(); ++i) {
     const shader::BindingSlot& slot = shader.slots[i];
     if (slot.source == shader::SlotSource::kUnbound || slot.local) continue;
     if (slot.source == shader::SlotSource::kStaticSampler) continue;
-    for (uint32_t p = 0; p < parameters.size() && p < 64; ++p) {
-      if (bindings.root_signature.GetArgumentOffset(p) != slot.argument_offset) continue;
+    for (uint32_t p = 0; p < offsets.size() && p < 64; ++p) {
+      if (offsets[p] != slot.argument_offset) continue;
       if (((bindings.set_parameters | told) >> p & 1) != 0) continue;
       told |= uint64_t{1} << p;
       const bool changed = (bindings.forgotten_parameters >> p & 1) != 0;
