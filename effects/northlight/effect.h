@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,13 +92,19 @@ struct EffectNeeds {
   bool strongest_lights = false;
 };
 
+class EffectPass;
+struct EffectScope;
+
 /// An effect as the frame sees it.
 struct Effect {
   std::string name;            ///< in FrameSettings::effects and on command lines
   std::string about;           ///< a few words for --help
   EffectLibrary library = {};  ///< of `pass`, `trace` and `compose`
-  /// Null: the frame's main lighting, which is no ray tracing pass.
+  /// One ray tracing pass. Without it and `make`: the frame's main lighting.
   std::function<RayPassDesc(rtapi::ShaderLibrary)> pass = {};
+  /// Passes of its own instead of `pass`. [effect_pass.h]
+  std::function<rtapi::Result<std::unique_ptr<EffectPass>>(const EffectScope&)> make = {};
+  std::vector<EffectLibrary> more_libraries = {};  ///< of `make`, besides `library`
   /// The same rays with nothing shaded, for measuring. The volume is then empty. May be null.
   std::function<RayPassDesc(rtapi::ShaderLibrary)> trace = {};
   /// A compute shader of the library, [numthreads(8, 8, 1)], that adds the effect to the finished
@@ -109,15 +116,22 @@ struct Effect {
   /// Another effect beside which the composition does not read this one, so that it is left out
   /// unless it was asked for by its name. Empty: none.
   std::string replaced_by = {};
+  /// Another effect that answers the same question. This one is no part of "all"; where it is
+  /// chosen it takes the other's place in the composition, and the other is left out unless it was
+  /// asked for by its name. Empty: none.
+  std::string alternative_to = {};
   std::string includes = {};        ///< another effect that this one changes and so brings along
   std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed
 };
 
-/// Northlight's effects in the order in which they are rendered.
+/// Northlight's effects in the order in which they are rendered, and behind them the alternatives
+/// to them.
 const std::vector<Effect>& northlight_effects();
 
 /// Null: there is none of that name.
 const Effect* find_effect(const std::vector<Effect>& effects, const std::string& name);
+/// Whether it writes pictures that other frames do not have.
+bool has_own_pictures(const Effect& effect);
 /// "ao, sun, ...".
 std::string effect_names(const std::vector<Effect>& effects);
 

@@ -6,6 +6,7 @@
 #include "effects/contact_shadow/contact_shadow.h"
 #include "effects/indirect_diffuse/indirect_diffuse.h"
 #include "effects/northlight/effect.h"
+#include "effects/northlight/techniques.h"
 #include "effects/reflections/reflections.h"
 #include "effects/sun_shadow/sun_shadow.h"
 #include "effects/transparent/transparent.h"
@@ -19,7 +20,7 @@ EffectSettings with_constants(const T& constants) {
   return EffectSettings().set_constants(constants);
 }
 
-std::vector<Effect> make_effects() {
+std::vector<Effect> ray_traced_effects() {
   return {
       {
           .name = "ao",
@@ -114,6 +115,14 @@ std::vector<Effect> make_effects() {
   };
 }
 
+std::vector<Effect> make_effects() {
+  std::vector<Effect> out = ray_traced_effects();
+  for (const auto rows : {shadow_techniques, ambient_occlusion_techniques, reflection_techniques}) {
+    for (Effect& row : rows()) out.push_back(std::move(row));
+  }
+  return out;
+}
+
 }  // namespace
 
 const std::vector<Effect>& northlight_effects() {
@@ -125,6 +134,11 @@ const Effect* find_effect(const std::vector<Effect>& effects, const std::string&
   const auto found = std::find_if(effects.begin(), effects.end(),
                                   [&](const Effect& effect) { return effect.name == name; });
   return found == effects.end() ? nullptr : &*found;
+}
+
+bool has_own_pictures(const Effect& effect) {
+  return std::any_of(effect.signals.begin(), effect.signals.end(),
+                     [](const EffectSignal& signal) { return !signal.picture; });
 }
 
 std::string effect_names(const std::vector<Effect>& effects) {

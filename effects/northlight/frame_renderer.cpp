@@ -27,8 +27,9 @@ const FrameRenderer::Active* FrameRenderer::active(const std::string& effect) co
 }
 
 bool FrameRenderer::comes_first(const Active& effect) const {
-  return effect.row->pass && std::all_of(effect.row->signals.begin(), effect.row->signals.end(),
-                                         [](const auto& signal) { return signal.picture; });
+  return has_passes(*effect.row) &&
+         std::all_of(effect.row->signals.begin(), effect.row->signals.end(),
+                     [](const auto& signal) { return signal.picture; });
 }
 
 bool FrameRenderer::has_strongest_effect() const {
@@ -67,7 +68,12 @@ rtapi::Status FrameRenderer::begin_frame(const FrameMoment& moment) {
     statistics_.push_back({"structures", clock_ms_() - start, {}});
   }
   if (moment.cut && taa_) taa_->reset();
-  return frame_.set_camera(device_, scene_, moment.camera, time);
+  if (const auto s = frame_.set_camera(device_, scene_, moment.camera, time); !s) return s;
+  for (const auto& effect : active_) {
+    if (!effect->own) continue;
+    if (const auto s = effect->own->begin_frame(moment.camera); !s) return s;
+  }
+  return {};
 }
 
 rtapi::Status FrameRenderer::sort_rays(const Active& effect, const PassConstants& constants,
@@ -138,8 +144,37 @@ rtapi::Result<Outcome> FrameRenderer::run_pass(const std::string& title, const R
   return Outcome::kDone;
 }
 
+rtapi::Result<Outcome> FrameRenderer::run_own(Active& effect, const Progress& progress) {
+  const EffectSettings& settings = effect.settings;
+  const std::uint32_t first = moment_.index * settings.samples;
+  auto list = device_.CreateCommandList();
+  if (!list) return list.error();
+  device_.ResetStatistics();
+  const double start = clock_ms_();
+  for (std::uint32_t sample = 0; sample < settings.samples; sample += kSamplesPerDispatch) {
+    const std::uint32_t count = std::min(kSamplesPerDispatch, settings.samples - sample);
+    if (const auto reset = list->Reset(); !reset) return reset.error();
+    record_pass(*list, effect, settings,
+                {.first_sample = first + sample,
+                 .sample_count = count,
+                 .accumulate = sample > 0 ? 1u : 0u});
+    if (const auto done = queue_.ExecuteAndWait(*list); !done) return done.error();
+    const double part = static_cast<double>(sample + count) / settings.samples;
+    if (progress && !progress(effect.title, part)) return Outcome::kStopped;
+  }
+  statistics_.push_back(
+      {effect.title, clock_ms_() - start, device_.GetStatistics(), bytes_of(effect)});
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> FrameRenderer::run_effect(Active& effect, const Progress& progress) {
+  if (effect.own) return run_own(effect, progress);
+  return run_pass(effect.title, effect.pass, &effect, progress);
+}
+
 std::uint64_t FrameRenderer::bytes_of(const Active& effect) const {
   std::uint64_t sum = effect.views ? effect.views->bytes() : 0;
+  if (effect.own) sum += effect.own->bytes();
   for (std::size_t i = 0; i < effect.pictures.size(); ++i) {
     if (effect.row->signals[i].picture) sum += picture_bytes(effect.pictures[i]);
   }
@@ -220,8 +255,8 @@ rtapi::Result<Outcome> FrameRenderer::finish_whole(const Progress& progress) {
     return s.error();
   }
   for (const auto& effect : active_) {
-    if (!effect->row->pass || comes_first(*effect)) continue;
-    const auto s = run_pass(effect->title, effect->pass, effect.get(), progress);
+    if (!has_passes(*effect->row) || comes_first(*effect)) continue;
+    const auto s = run_effect(*effect, progress);
     if (!is_done(s)) return s;
   }
   for (SignalFilters::Filter& filter : filters_.filters()) {
@@ -251,7 +286,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
   }
   for (const auto& effect : active_) {
     if (!comes_first(*effect)) continue;
-    const auto s = run_pass(effect->title, effect->pass, effect.get(), progress);
+    const auto s = run_effect(*effect, progress);
     if (!is_done(s)) return s;
   }
   if (settings_.whole_frame) {

@@ -27,6 +27,7 @@
 #include "effects/indirect_diffuse/volume.h"
 #include "effects/lights/lighting.h"
 #include "effects/northlight/effect.h"
+#include "effects/northlight/effect_pass.h"
 #include "effects/northlight/libraries.h"
 #include "effects/northlight/settings.h"
 #include "effects/northlight/signal_filters.h"
@@ -225,7 +226,8 @@ class FrameRenderer {
     EffectSettings settings;
     std::string title;  // of its pass
     RayPass pass, trace;
-    std::optional<RayPass> keys;  // sorts its rays
+    std::unique_ptr<EffectPass> own;  // instead of `pass`
+    std::optional<RayPass> keys;      // sorts its rays
     std::optional<PassViews> views, trace_views;
     std::optional<ComputePass> compose;
     std::vector<rtapi::Texture> pictures;   // by signal
@@ -238,21 +240,25 @@ class FrameRenderer {
   // frame_renderer_prepare.cpp
   rtapi::Status create_scene();
   rtapi::Status check_effects() const;
-  bool is_of_use(const Effect& effect, const EffectSettings& settings) const;
-  void find_active();
   rtapi::Result<Outcome> prepare_whole(const Progress& progress);
   rtapi::Status create_lighting();
   rtapi::Result<Outcome> create_volume(const Progress& progress);
   rtapi::Result<Outcome> bake_indirect(IndirectVolume& volume, const Progress& progress);
-  rtapi::Status create_effect(Active& effect);
-  rtapi::Status create_views(Active& effect, const GpuVolume& volume,
-                             std::optional<PassViews>& views) const;
   rtapi::Status create_filters();
   rtapi::Status add_signal(SignalFilters& to, const Active& effect, std::size_t index) const;
   rtapi::Status create_compose();
   const rtapi::Texture* composed(const Active& effect, std::size_t signal) const;
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   void list_left_out();
+  // frame_renderer_effects.cpp
+  const Effect* what_replaces(const Effect& effect) const;
+  bool is_of_use(const Effect& effect, const EffectSettings& settings) const;
+  void find_active();
+  rtapi::Status create_views(Active& effect, const GpuVolume& volume,
+                             std::optional<PassViews>& views) const;
+  rtapi::Status create_pictures(Active& effect) const;
+  rtapi::Status create_own(Active& effect);
+  rtapi::Status create_effect(Active& effect);
   // frame_renderer_surfaces.cpp
   rtapi::Status create_gbuffer();
   void record_draws(rtapi::CommandList& list);
@@ -262,6 +268,8 @@ class FrameRenderer {
   // frame_renderer.cpp
   rtapi::Result<Outcome> run_pass(const std::string& title, const RayPass& pass, Active* effect,
                                   const Progress& progress);
+  rtapi::Result<Outcome> run_own(Active& effect, const Progress& progress);
+  rtapi::Result<Outcome> run_effect(Active& effect, const Progress& progress);
   rtapi::Status sort_rays(const Active& effect, const PassConstants& constants, double& ms);
   rtapi::Status run_compute(const std::string& name, std::uint64_t bytes,
                             const std::function<void(rtapi::CommandList&)>& record);
@@ -285,6 +293,8 @@ class FrameRenderer {
   std::vector<Layer> find_layers() const;
 
   const Active* active(const std::string& effect) const;
+  // Main lighting is no effect with passes.
+  static bool has_passes(const Effect& effect) { return effect.pass || effect.make; }
   // Effects whose sums every frame has come before local lights, the others after them.
   bool comes_first(const Active& effect) const;
   bool has_strongest_effect() const;

@@ -16,8 +16,6 @@ namespace kaamos::effects {
 
 namespace {
 
-constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
-
 bool has_glass(const Scene& scene) {
   return std::any_of(scene.instances.begin(), scene.instances.end(), [](const Instance& instance) {
     return (instance.mask & kMaskTransparent) != 0;
@@ -27,17 +25,6 @@ bool has_glass(const Scene& scene) {
 std::uint32_t count_local_lights(const Scene& scene) {
   const glm::dvec3 origin = scene.cameras.front().position();
   return static_cast<std::uint32_t>(light_constants(scene, origin).size());
-}
-
-bool has_own_pictures(const Effect& effect) {
-  return std::any_of(effect.signals.begin(), effect.signals.end(),
-                     [](const EffectSignal& signal) { return !signal.picture; });
-}
-
-bool needs_views(const Effect& effect, const EffectSettings& settings) {
-  return has_own_pictures(effect) || effect.needs.lights || effect.needs.volume ||
-         std::any_of(settings.constants.begin(), settings.constants.end(),
-                     [](std::uint32_t word) { return word != 0; });
 }
 
 // Brings along what the chosen effects include.
@@ -61,7 +48,9 @@ std::map<std::string, EffectSettings> choose_effects(const std::vector<std::stri
       out[name] = effect->defaults;
       out[name].named = true;
     } else if (name == "all") {
-      for (const Effect& each : effects) out.try_emplace(each.name, each.defaults);
+      for (const Effect& each : effects) {
+        if (each.alternative_to.empty()) out.try_emplace(each.name, each.defaults);
+      }
     } else {
       out[name] = {};
     }
@@ -161,25 +150,6 @@ void FrameRenderer::set_libraries(ShaderLibraries libraries) {
   is_prepared_ = false;
 }
 
-bool FrameRenderer::is_of_use(const Effect& effect, const EffectSettings& settings) const {
-  if (settings.keep) return true;
-  if (!settings.named && settings_.effects.count(effect.replaced_by) != 0) return false;
-  return scene_offers(scene_, effect.needs) && (!effect.needs.motion || settings_.moving);
-}
-
-void FrameRenderer::find_active() {
-  active_.clear();
-  for (const Effect& effect : effects_) {
-    const auto chosen = settings_.effects.find(effect.name);
-    if (chosen == settings_.effects.end() || !is_of_use(effect, chosen->second)) continue;
-    active_.push_back(std::make_unique<Active>());
-    active_.back()->row = &effect;
-    active_.back()->settings = chosen->second;
-    // Without a denoiser nothing would fill the other pixels.
-    if (!settings_.whole_frame) active_.back()->settings.pixel_step = 1;
-  }
-}
-
 rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   if (is_prepared_) return Outcome::kDone;
   frame_.release_pass_views();  // those of earlier shaders
@@ -251,8 +221,8 @@ rtapi::Status FrameRenderer::create_lighting() {
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
   direct_.reset();
-  const bool has_main_lighting = std::any_of(active_.begin(), active_.end(),
-                                             [](const auto& effect) { return !effect->row->pass; });
+  const bool has_main_lighting = std::any_of(
+      active_.begin(), active_.end(), [](const auto& effect) { return !has_passes(*effect->row); });
   if (has_main_lighting) {
     const auto direct =
         DirectLighting::create(device_, frame_, *lighting_, libraries_.at("direct/direct"));
@@ -325,77 +295,6 @@ rtapi::Result<Outcome> FrameRenderer::bake_indirect(IndirectVolume& volume,
   return Outcome::kDone;
 }
 
-rtapi::Status FrameRenderer::create_views(Active& effect, const GpuVolume& volume,
-                                          std::optional<PassViews>& views) const {
-  const EffectNeeds& needs = effect.row->needs;
-  const auto created = frame_.create_pass_views(device_);
-  if (!created) return created.error();
-  views = *created;
-  if (needs.strongest_lights) {
-    if (const auto s = views->set_unordered_access(0, direct_->strongest()); !s) return s;
-  }
-  for (std::size_t i = 0; i < effect.pictures.size(); ++i) {
-    const EffectSignal& signal = effect.row->signals[i];
-    if (signal.picture) continue;
-    if (const auto s = views->set_unordered_access(signal.output, effect.pictures[i]); !s) return s;
-    if (!signal.is_visibility) continue;
-    const auto s = views->set_unordered_access(signal.sharpness_output, effect.sharpness[i]);
-    if (!s) return s;
-  }
-  if (needs.lights) {
-    if (const auto s = lighting_->bind(*views); !s) return s;
-  }
-  return needs.volume ? volume.bind(*views) : rtapi::Status{};
-}
-
-rtapi::Status FrameRenderer::create_effect(Active& effect) {
-  const Effect& row = *effect.row;
-  effect.samples = effect.settings.samples;
-  if (!row.pass) return {};
-  if (row.needs.strongest_lights && !direct_) {
-    return make_error(ErrorId::kFrameRenderer,
-                      "effect \"" + row.name + "\" needs local lights, which are not rendered");
-  }
-  for (const EffectSignal& signal : row.signals) {
-    effect.sharpness.emplace_back();
-    if (signal.is_visibility && signal.sharpness_picture) {
-      effect.sharpness.back() = frame_.texture(*signal.sharpness_picture);
-    } else if (signal.is_visibility) {
-      const auto created =
-          frame_.create_picture(device_, signal.name + " sharpness sum", kSignalFormat);
-      if (!created) return created.error();
-      effect.sharpness.back() = *created;
-    }
-    if (signal.picture) {
-      effect.pictures.push_back(frame_.texture(*signal.picture));
-      continue;
-    }
-    const auto created = frame_.create_picture(
-        device_, signal.is_sum ? signal.name + " sum" : signal.name, kSignalFormat);
-    if (!created) return created.error();
-    effect.pictures.push_back(*created);
-  }
-  if (needs_views(row, effect.settings)) {
-    if (const auto s = create_views(effect, gpu_volume_, effect.views); !s) return s;
-  }
-  const rtapi::ShaderLibrary& library = libraries_.at(row.library.file);
-  const RayPassDesc desc = row.pass(library);
-  effect.title = desc.name;
-  const auto pass = RayPass::create(device_, frame_, gpu_, desc);
-  if (!pass) return pass.error();
-  effect.pass = *pass;
-  if (sorter_ && !desc.key_generation.empty()) {
-    const auto keys = RayPass::create(device_, frame_, gpu_, key_pass(desc));
-    if (!keys) return keys.error();
-    effect.keys = *keys;
-  }
-  if (row.compose.empty()) return {};
-  const auto compose = ComputePass::create(device_, frame_, library, row.compose);
-  if (!compose) return compose.error();
-  effect.compose = *compose;
-  return {};
-}
-
 rtapi::Status FrameRenderer::add_signal(SignalFilters& to, const Active& effect,
                                         std::size_t index) const {
   const EffectSignal& signal = effect.row->signals[index];
@@ -446,7 +345,7 @@ rtapi::Status FrameRenderer::create_compose() {
 void FrameRenderer::list_left_out() {
   for (const Effect& effect : effects_) {
     const auto chosen = settings_.effects.find(effect.name);
-    const Effect* instead = find_effect(effects_, effect.replaced_by);
+    const Effect* instead = what_replaces(effect);
     if (chosen == settings_.effects.end() || instead == nullptr || active(effect.name)) continue;
     left_out_.push_back(effect.about + ": " + instead->about +
                         " takes its place; its layer is there if \"" + effect.name +

@@ -38,12 +38,11 @@ rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string&
                                                               const EffectSettings& settings) {
   if (const auto s = draw_surfaces(); !s) return s.error();
   auto* effect = const_cast<Active*>(active(name));
-  if (effect == nullptr || !effect->row->pass) {
+  if (effect == nullptr || !has_passes(*effect->row)) {
     return make_error(
         ErrorId::kFrameRenderer,
         "effect \"" + name +
-            "\" cannot be run: it is not chosen, traces no rays, or the scene has no use "
-            "for it");
+            "\" cannot be run: it is not chosen, has no passes, or the scene has no use for it");
   }
   if (!settings.trace_only || effect->trace_views) return effect;
   if (!effect->row->trace)
@@ -59,9 +58,10 @@ rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string&
 
 void FrameRenderer::record_pass(rtapi::CommandList& list, const Active& effect,
                                 const EffectSettings& settings, PassConstants constants) const {
-  const PassArguments words = arguments(effect, settings);
   constants.radius = settings.radius;
   constants.pixel_step = settings.pixel_step;
+  if (effect.own) return effect.own->record(list, settings, constants);
+  const PassArguments words = arguments(effect, settings);
   const std::uint32_t step = settings.pixel_step;
   const RayPass& pass = settings.trace_only ? effect.trace : effect.pass;
   pass.dispatch(list, frame_, constants, (frame_.height() + step - 1) / step, words);
@@ -177,7 +177,7 @@ std::vector<std::string> FrameRenderer::parts() const {
   }
   if (settings_.whole_frame) out.push_back("lights");
   for (const auto& effect : active_) {
-    if (effect->row->pass && !comes_first(*effect)) out.push_back(effect->row->name);
+    if (has_passes(*effect->row) && !comes_first(*effect)) out.push_back(effect->row->name);
   }
   return out;
 }
@@ -188,7 +188,7 @@ void FrameRenderer::record(rtapi::CommandList& list, const std::string& part,
     record_gbuffer(list);
   } else if (part == "lights") {
     record_lights(list);
-  } else if (auto* effect = const_cast<Active*>(active(part)); effect && effect->row->pass) {
+  } else if (auto* effect = const_cast<Active*>(active(part)); effect && has_passes(*effect->row)) {
     const std::uint32_t samples = options.samples > 0 ? options.samples : effect->settings.samples;
     record_pass(list, *effect, effect->settings,
                 {.first_sample = options.first_sample,
@@ -231,7 +231,7 @@ std::vector<FrameRenderer::Layer> FrameRenderer::find_layers() const {
   for (const auto& effect : active_) {
     for (std::size_t i = 0; i < effect->row->signals.size(); ++i) {
       const EffectSignal& signal = effect->row->signals[i];
-      if (!effect->row->pass) {
+      if (!has_passes(*effect->row)) {
         if (!direct_) continue;
         out.push_back({signal.name, has_strongest_effect() ? direct_->total() : direct_->direct()});
         continue;

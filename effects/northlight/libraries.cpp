@@ -7,6 +7,8 @@
 #include <shaders/upscale.h>
 #include <shaders/visibility_filter.h>
 
+#include <algorithm>
+
 #include "effects/composite/composite.h"
 #include "effects/direct/direct.h"
 #include "effects/gbuffer/gbuffer.h"
@@ -71,13 +73,20 @@ const std::vector<PartRow>& parts() {
 std::vector<EffectLibrary> frame_libraries(const FrameSettings& settings,
                                            const std::vector<Effect>& effects) {
   std::vector<EffectLibrary> out;
+  // Several effects may share one.
+  const auto add = [&](const EffectLibrary& library) {
+    const bool is_there = std::any_of(out.begin(), out.end(), [&](const EffectLibrary& each) {
+      return each.file == library.file;
+    });
+    if (!is_there) out.push_back(library);
+  };
   for (const PartRow& row : parts()) {
-    if (row.is_needed(settings)) out.push_back(row.library);
+    if (row.is_needed(settings)) add(row.library);
   }
   for (const Effect& effect : effects) {
-    if (settings.effects.count(effect.name) != 0 && !effect.library.file.empty()) {
-      out.push_back(effect.library);
-    }
+    if (settings.effects.count(effect.name) == 0) continue;
+    if (!effect.library.file.empty()) add(effect.library);
+    for (const EffectLibrary& library : effect.more_libraries) add(library);
   }
   return out;
 }

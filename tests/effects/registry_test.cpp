@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 
+#include "effects/frame/compute_pass.h"
 #include "effects/northlight/frame_renderer.h"
 #include "room.h"
 
@@ -32,8 +33,49 @@ RayPassDesc toy_pass(rtapi::ShaderLibrary library) {
   return desc;
 }
 
+// Counts what the frame asks of it.
+class FacingPass : public EffectPass {
+ public:
+  static inline int frames = 0;
+  static inline int records = 0;
+
+  static rtapi::Result<std::unique_ptr<EffectPass>> make(const EffectScope& scope) {
+    auto out = std::make_unique<FacingPass>(scope.frame, scope.views);
+    const auto pass =
+        ComputePass::create(scope.device, scope.frame, scope.library("toy/toy"), "ToyFacing");
+    if (!pass) return pass.error();
+    out->pass_ = *pass;
+    return std::unique_ptr<EffectPass>(std::move(out));
+  }
+  FacingPass(const Frame& frame, const PassViews& views) : frame_(frame), views_(views) {}
+  rtapi::Status begin_frame(const Camera&) override {
+    ++frames;
+    return {};
+  }
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override {
+    ++records;
+    pass_.dispatch(list, frame_, constants, PassArguments(views_, settings.constants),
+                   frame_.width(), frame_.height());
+  }
+  std::uint64_t bytes() const override { return 12; }
+
+ private:
+  const Frame& frame_;
+  const PassViews& views_;
+  ComputePass pass_;
+};
+
 std::vector<Effect> effects_with_toy() {
   std::vector<Effect> effects = northlight_effects();
+  effects.push_back(
+      {.name = "facing",
+       .about = "how far surfaces face up",
+       .library = {"toy/toy", [] { return rtapi::LoadShaderLibrary(kaamos_shaders_toy()); }},
+       .make = FacingPass::make,
+       .signals = {{.name = "facing", .is_sum = false, .part = &FrameParts::ambient}},
+       .defaults = EffectSettings().set_constants(ToyConstants{1.0f}),
+       .alternative_to = "ao"});
   effects.push_back(
       {.name = "toy",
        .about = "a glow of what sees the sky",
@@ -88,10 +130,47 @@ TEST(Registry, ARowIsAnEffect) {
   EXPECT_EQ(with->read("toy").value().values, toy.values);
 }
 
+// An alternative has passes of its own and takes the place of what it is an alternative to.
+TEST(Registry, AnAlternativeTakesTheOthersPlace) {
+  const Scene scene = make_room();
+  const std::vector<Effect> effects = effects_with_toy();
+  EXPECT_EQ(choose_effects({"all"}, effects).count("facing"), 0u);
+  const auto make = [&](const std::vector<std::string>& names) {
+    return FrameRenderer::create(make_device(), scene, small_settings(names, effects), effects)
+        .value();
+  };
+  const auto with = make({"all", "facing"});
+  const auto alone = make({"facing"});
+  const auto both = make({"facing", "ao"});
+  FacingPass::frames = FacingPass::records = 0;
+  alone->render().value();
+  EXPECT_EQ(FacingPass::frames, 1);
+  EXPECT_EQ(FacingPass::records, 1);
+  ASSERT_TRUE(alone->begin_frame({.index = 1, .camera = scene.cameras.front()}));
+  alone->render().value();
+  EXPECT_EQ(FacingPass::frames, 2);
+  EXPECT_EQ(alone->passes().front().name, "G-buffer");
+  const FloatImage facing = alone->read("facing").value();
+  EXPECT_GT(*std::max_element(facing.values.begin(), facing.values.end()), 0.99f);
+  EXPECT_EQ(alone->run("facing", 1).value().rays, 0u);
+  EXPECT_EQ(alone->read("facing").value().values, facing.values);
+  both->render().value();
+  EXPECT_EQ(both->read("radiance").value().values, alone->read("radiance").value().values)
+      << "the alternative is composed, and ao is a layer beside it";
+  EXPECT_TRUE(both->read("ao"));
+  with->render().value();
+  EXPECT_FALSE(with->renders("ao"));
+  EXPECT_TRUE(with->read("facing"));
+}
+
 TEST(Registry, NamesAreKnownOrRefused) {
   const Scene scene = make_room();
   EXPECT_TRUE(choose_effects({"contact"}).count("local")) << "contact shadows include local lights";
-  EXPECT_EQ(choose_effects({"all"}).size(), northlight_effects().size());
+  const auto is_alternative = [](const Effect& each) { return !each.alternative_to.empty(); };
+  EXPECT_EQ(choose_effects({"all"}).size() +
+                static_cast<std::size_t>(std::count_if(northlight_effects().begin(),
+                                                       northlight_effects().end(), is_alternative)),
+            northlight_effects().size());
   const auto refused = FrameRenderer::create(make_device(), scene, small_settings({"fog"}));
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("no effect \"fog\""), std::string::npos);
@@ -138,12 +217,17 @@ TEST(Registry, EveryRowHasItsShaderFileAndItsOwnNames) {
     for (const EffectSignal& signal : effect.signals) {
       EXPECT_TRUE(signals.insert(signal.name).second) << signal.name;
     }
+    EXPECT_FALSE(effect.pass && effect.make) << effect.name;
+    if (effect.alternative_to.empty()) continue;
+    EXPECT_NE(find_effect(northlight_effects(), effect.alternative_to), nullptr) << effect.name;
   }
-  FrameSettings settings = small_settings({"all"});
+  std::vector<std::string> all;
+  for (const std::string& name : names) all.push_back(name);
+  FrameSettings settings = small_settings(all);
   settings.taa = true;
   settings.order = RayOrder::kDirection;
   const auto libraries = frame_libraries(settings);
-  EXPECT_GT(libraries.size(), northlight_effects().size());
+  EXPECT_GT(libraries.size(), 15u);
   for (const EffectLibrary& library : libraries) {
     const std::string file = KAAMOS_SOURCE_DIR "/effects/" + library.file + ".hlsl";
     EXPECT_TRUE(std::filesystem::exists(file)) << file;

@@ -28,3 +28,13 @@ void ToyCompose(uint3 id : SV_DispatchThreadID) {
   if (id.x >= width || id.y >= height) return;
   radiance[id.xy] += float4(toy.strength * toy_sum[id.xy].rgb, 0.0);
 }
+
+// The same question answered by passes of its own, without a ray.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void ToyFacing(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  radiance.GetDimensions(width, height);
+  if (id.x >= width || id.y >= height || g_ids[id.xy].x == 0) return;
+  toy_sum[id.xy] = toy.strength * saturate(OctahedralDecode(g_normal[id.xy]).y);
+}

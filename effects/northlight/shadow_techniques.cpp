@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include "effects/northlight/techniques.h"
+
+namespace kaamos::effects {
+
+std::vector<Effect> shadow_techniques() {
+  return {};
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The registry's rows of raster and screen-space techniques, by the ray traced effect that they
+/// are alternatives to.
+#pragma once
+
+#include <vector>
+
+#include "effects/northlight/effect.h"
+
+namespace kaamos::effects {
+
+/// How much of the sun each surface sees: alternatives to "sun".
+std::vector<Effect> shadow_techniques();
+/// How open the hemisphere above each surface is: alternatives to "ao".
+std::vector<Effect> ambient_occlusion_techniques();
+/// What each surface reflects: alternatives to "reflections".
+std::vector<Effect> reflection_techniques();
+
+}  // namespace kaamos::effects
