@@ -7,6 +7,7 @@
 #include "effects/scene/matched_scenes.h"
 #include "effects/scene/mirror_hall.h"
 #include "effects/scene/oracle_scenes.h"
+#include "effects/scene/peter_panning.h"
 #include "effects/scene/runner.h"
 
 namespace kaamos::effects {
@@ -22,6 +23,7 @@ constexpr BuiltInScene kScenes[] = {
     {"sealed-hall", [] { return make_sealed_hall({}); }},
     {"lit-hall", [] { return make_sealed_hall({.lit = true}); }},
     {"thin-dome", [] { return make_thin_dome({}); }},
+    {"peter-panning", [] { return make_peter_panning({}); }},
     {"matched-box", [] { return make_matched_box(); }},
     {"matched-metal", [] { return make_matched_metal(); }},
     {"matched-yard", [] { return make_matched_yard(); }},
