@@ -27,7 +27,7 @@ struct FrameResult {
   std::map<std::string, kaamos::effects::FloatImage> layers;  // "ao", "normal", ...
   kaamos::effects::FloatImage radiance;                       // RGBA, linear
   std::vector<kaamos::effects::PassStatistics> passes;
-  std::vector<std::string> left_out;  // effects and parts left out, and why
+  std::vector<std::string> left_out;                          // effects and parts left out, and why
   std::optional<kaamos::effects::PrimaryComparison> primary;  // of surfaces that were drawn
 };
 

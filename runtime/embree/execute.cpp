@@ -20,7 +20,8 @@ namespace {
 class Target final : public runtime::CommandTarget {
  public:
   explicit Target(Device& device)
-      : device_(device), pass_(device.dispatch_environment(), device.rasterizer(), device.observation()) {}
+      : device_(device),
+        pass_(device.dispatch_environment(), device.rasterizer(), device.observation()) {}
 
   runtime::DispatchOutcome dispatch_rays(const runtime::DispatchRaysCommand& command,
                                          const std::string& label) override {

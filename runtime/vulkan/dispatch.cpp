@@ -189,6 +189,9 @@ GridLimits RaysDispatch::limits() const {
     result.size[axis] =
         uint64_t{core.maxComputeWorkGroupCount[axis]} * core.maxComputeWorkGroupSize[axis];
   }
+  if (gpu_.workarounds().has(Workaround::kLimitDepth)) {
+    result.size[2] = std::min<uint64_t>(result.size[2], UINT16_MAX);
+  }
   result.cells = gpu_.properties().ray_tracing.maxRayDispatchInvocationCount;
   return smaller(result, environment_.limits);
 }

@@ -10,6 +10,7 @@ namespace kaamos::vulkan {
 namespace {
 
 constexpr VkDriverId kLavapipe = VK_DRIVER_ID_MESA_LLVMPIPE;
+constexpr VkDriverId kNvidia = VK_DRIVER_ID_NVIDIA_PROPRIETARY;  // its versions are not told apart
 constexpr uint32_t kFirst = 24003;   // the first Mesa whose lavapipe traces rays
 constexpr uint32_t kOpen = 9999999;  // no version is known to fix it
 
@@ -58,6 +59,8 @@ constexpr WorkaroundInfo kTable[] = {
      "an SV_Depth that is not a number becomes MaxDepth"},
     {Workaround::kKeepHeap, "TRIM", kLavapipe, kFirst, kOpen, false, 0,
      "memory of tiles goes back to the system after each frame; applied when a device starts"},
+    {Workaround::kLimitDepth, "DEPTH16", kNvidia, 0, kOpen, true, 0,
+     "the depth of a launch is taken modulo 65536"},
 };
 
 bool lists_workaround(std::string_view list, std::string_view name) {

@@ -35,6 +35,7 @@ enum class Workaround : uint32_t {
   kLimitSnorm,             // SNORMC
   kReplaceNanDepth,        // NANZ
   kKeepHeap,               // TRIM
+  kLimitDepth,             // DEPTH16
 };
 
 // Driver versions as one number: major * 1000 + minor.

@@ -35,7 +35,11 @@ TEST(Workarounds, AreForTheirDriverOnly) {
                 shader::spirv::kTrackReportedT | shader::spirv::kInterleaveRows);
   const Workarounds nvidia = of(VK_DRIVER_ID_NVIDIA_PROPRIETARY, "550.40");
   EXPECT_EQ(nvidia.shader_bits(), 0u);
-  for (const WorkaroundInfo& info : workaround_table()) EXPECT_FALSE(nvidia.has(info.workaround));
+  for (const WorkaroundInfo& info : workaround_table()) {
+    EXPECT_EQ(nvidia.has(info.workaround), info.driver == VK_DRIVER_ID_NVIDIA_PROPRIETARY)
+        << info.name;
+  }
+  EXPECT_TRUE(nvidia.has(Workaround::kLimitDepth));
 }
 
 TEST(Workarounds, EachHasASwitch) {
