@@ -83,6 +83,7 @@ void CommandQueueImpl::Run(const Operation& operation) {
     device->checks->begin_list();
   }
   if (Status s = device->backend->execute(*execute->commands); !s.ok()) device->Remove(s.error());
+  if (device->checks) device->checks->end_list();
 }
 
 }  // namespace detail

@@ -44,6 +44,7 @@ Status ExecuteObserved(CommandQueue& queue, CommandList& list, const char* call,
   if (device->checks) device->checks->begin_list();
   Status s = device->backend->execute(*list.impl()->commands);
   device->backend->observe_draws(nullptr);
+  if (device->checks) device->checks->end_list();
   if (!s.ok()) device->Remove(s.error());
   return s;
 }

@@ -39,7 +39,20 @@ std::string text_of(const rtapi::Rect& r) {
 
 void Draws::begin_list() {
   number_ = 0;
+  drawn_.clear();
   targets_.begin_list();
+}
+
+void Draws::end_list() {
+  for (const auto& [name, drawn] : drawn_) {
+    if (drawn.arrived || drawn.silent == 0) continue;
+    const std::string others = drawn.silent == 1 ? ""
+                                                 : " Nothing of the list's other " +
+                                                       counted(drawn.silent - 1, "draw") +
+                                                       " with this pipeline arrives either.";
+    report_once(drawn.id, name, drawn.cause, drawn.text + others + " (" + drawn.label + ")");
+  }
+  drawn_.clear();
 }
 
 void Draws::created(const runtime::LinkedGraphics& pipeline) {
@@ -67,6 +80,7 @@ void Draws::created(const runtime::LinkedGraphics& pipeline) {
 void Draws::check(const runtime::DrawCommand& command, const std::string& label) {
   who_ = "draw " + number(number_++) + ", pipeline " + quoted(command.linked->name);
   draws_nothing_ = false;
+  label_ = label;
   targets_.check(command, who_, label);
   check_rectangles(command);
   check_vertex_inputs(addresses_, reporter_, command, who_);
@@ -245,19 +259,28 @@ void Draws::report_outputs(const runtime::DrawCommand& command, const DrawCounts
   report(counts.depth, "SV_Depth", "; it passes no comparison but NOT_EQUAL and ALWAYS");
 }
 
-void Draws::report_once(Id id, const runtime::DrawCommand& command, const char* cause,
+void Draws::report_once(Id id, const std::string& pipeline, const char* cause,
                         const std::string& text) {
   if (said_.size() >= kMostSaid) said_.clear();
-  if (said_.insert(command.linked->name + "|" + cause).second) reporter_.report(id, text);
+  if (said_.insert(pipeline + "|" + cause).second) reporter_.report(id, text);
 }
 
 // [RAS-51, RAS-52]
 void Draws::report_nothing_drawn(const runtime::DrawCommand& command, const DrawCounts& counts) {
-  if (counts.triangles == 0 || counts.written != 0) return;
+  if (counts.triangles == 0) return;
   const runtime::LinkedGraphics& linked = *command.linked;
+  Drawn& drawn = drawn_[linked.name];
+  if (counts.written != 0) {
+    drawn.arrived = true;
+    return;
+  }
   const std::string all = "all " + counted(counts.triangles, "triangle");
   const auto tell = [&](Id id, const char* cause, const std::string& text) {
-    report_once(id, command, cause, who_ + " draws nothing: " + text);
+    if (drawn.silent++ > 0) return;
+    drawn.id = id;
+    drawn.cause = cause;
+    drawn.text = who_ + " draws nothing: " + text;
+    drawn.label = label_;
   };
   const rtapi::RasterizerDesc& raster = linked.rasterizer;
   if (counts.culled != 0 &&
@@ -284,7 +307,10 @@ void Draws::report_nothing_drawn(const runtime::DrawCommand& command, const Draw
   if (counts.covered != 0 && counts.failed_depth == counts.covered) {
     const runtime::TargetView& depth = command.state->targets.depth;
     const std::string cleared = targets_.only_cleared(depth);
-    if (cleared.empty() || targets_.told_of_clear()) return;  // hidden by other draws, or known
+    if (cleared.empty() || targets_.told_of_clear()) {  // hidden by other draws, or known
+      drawn.arrived = true;
+      return;
+    }
     return tell(Id::kNothingDrawn, "depth",
                 "all " + counted(counts.covered, "pixel") + " fail the depth test " +
                     comparison_name(linked.depth_stencil.DepthFunc) +

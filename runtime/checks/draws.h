@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 
@@ -21,6 +22,9 @@ class Draws {
       : addresses_(addresses), reporter_(reporter), targets_(reporter, states) {}
 
   void begin_list();
+  // Reports the pipelines of which nothing arrived in the whole list: single draws may be culled or
+  // outside of the picture.
+  void end_list();
   void created(const runtime::LinkedGraphics& pipeline);
   // Before the draw; counts it. `label` names the command.
   void check(const runtime::DrawCommand& command, const std::string& label);
@@ -40,8 +44,7 @@ class Draws {
   void report_outputs(const runtime::DrawCommand& command, const runtime::DrawCounts& counts);
   void report_nothing_drawn(const runtime::DrawCommand& command, const runtime::DrawCounts& counts);
   // Once for each pipeline and cause, as it may be right.
-  void report_once(Id id, const runtime::DrawCommand& command, const char* cause,
-                   const std::string& text);
+  void report_once(Id id, const std::string& pipeline, const char* cause, const std::string& text);
 
   const runtime::AddressMap& addresses_;
   Reporter& reporter_;
@@ -50,6 +53,17 @@ class Draws {
   std::string who_;
   bool draws_nothing_ = false;  // the draw's rectangles are empty, and it was said
   std::set<std::string> said_;
+
+  // What a pipeline's draws of this list came to, by its name.
+  struct Drawn {
+    bool arrived = false;
+    uint64_t silent = 0;  // draws of which nothing arrived; the rest is of the first
+    Id id = Id::kNothingDrawn;
+    const char* cause = "";
+    std::string text, label;
+  };
+  std::map<std::string, Drawn> drawn_;
+  std::string label_;
 };
 
 }  // namespace kaamos::checks

@@ -43,6 +43,8 @@ class Layer : public runtime::CommandObserver {
     textures_.begin_list();
     draws_.begin_list();
   }
+  // They have all run.
+  void end_list() { draws_.end_list(); }
 
   void before(const runtime::Command& command, const std::string& label) override;
   void after(const runtime::Command& command, bool succeeded) override;

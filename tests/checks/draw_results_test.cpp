@@ -85,6 +85,28 @@ TEST_F(DrawResults, AllOutside) {
   expect_none();
 }
 
+// What is outside, behind or turned away is drawn all the time: only a pipeline of which nothing
+// arrives in the whole list is worth a word.
+TEST_F(DrawResults, SomeOfAPipelinesDrawsMayBeOutside) {
+  const std::vector<float> outside = {2, 0, 0.5f, 1, 3, 0, 0.5f, 1, 2, 1, 0.5f, 1};
+  const PipelineState pipeline = make(desc("Constant", "FromBuffer"));
+  const auto draw_list = [&](const std::vector<std::vector<float>>& draws) {
+    CommandList list = begin();
+    list.SetPipelineState(pipeline);
+    for (const std::vector<float>& corners : draws) {
+      list.IASetVertexBuffers(1, vertices(upload(corners, "corners"), 16));
+      list.DrawInstanced(3, 1, 0, 0);
+    }
+    run(list);
+  };
+  draw_list({outside, whole_, outside});
+  expect_none();
+  draw_list({outside, outside, outside});
+  expect_one("KA0490", {"draw 0, pipeline", "all 1 triangle are outside",
+                        "Nothing of the list's other 2 draws with this pipeline arrives either",
+                        "(DrawInstanced, command "});
+}
+
 TEST_F(DrawResults, AllFailTheDepthTest) {
   CommandList list = begin(0.25f);
   draw(list);
