@@ -140,7 +140,7 @@ TEST_F(DrawInputs, StrideOfZero) {
   ASSERT_EQ(all.size(), 2u) << ::testing::PrintToString(all);
   EXPECT_NE(all[0].find("KA0491"), std::string::npos) << all[0];
   EXPECT_NE(all[1].find("KA0458"), std::string::npos) << all[1];
-  EXPECT_NE(all[0].find("every vertex reads the first element"), std::string::npos) << all[1];
+  EXPECT_NE(all[0].find("every vertex reads the first element"), std::string::npos) << all[0];
 }
 
 TEST_F(DrawInputs, StripCutsThatDoNotFit) {
