@@ -160,8 +160,10 @@ std::string draw_series(const PlotSeries& series, const char* color, const Axis&
     if (!has_place(point.x, point.y)) continue;
     const double px = x.place(point.x), py = y.place(point.y);
     path += format("%s%.1f %.1f", path.empty() ? "M" : " L", px, py);
-    marks += series.line ? format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", px, py)
-                         : format("<path d=\"M%.1f %.1f l5 5 l-5 5 l-5 -5 z\"/>\n", px, py - 5);
+    const std::string key = point.key.empty() ? "" : " data-key=\"" + escaped(point.key) + "\"";
+    marks += series.line ? format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"", px, py)
+                         : format("<path d=\"M%.1f %.1f l5 5 l-5 5 l-5 -5 z\"", px, py - 5);
+    marks += key + "/>\n";
   }
   std::string out;
   if (series.line && !path.empty()) {

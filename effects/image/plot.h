@@ -16,6 +16,7 @@ struct PlotPoint {
   double y = 0;
   ///@}
   std::string label;  ///< beside the point; may be empty
+  std::string key;    ///< its mark's attribute data-key, for scripts; may be empty
 };
 
 /// Points of one colour.

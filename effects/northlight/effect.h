@@ -92,6 +92,12 @@ struct EffectNeeds {
   bool strongest_lights = false;
 };
 
+/// One of an effect's settings between fast and accurate.
+struct EffectStep {
+  std::string label;  ///< "2048 x 2048, 16 taps"
+  EffectSettings settings = {};
+};
+
 class EffectPass;
 struct EffectScope;
 
@@ -122,6 +128,10 @@ struct Effect {
   std::string alternative_to = {};
   std::string includes = {};        ///< another effect that this one changes and so brings along
   std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed
+  /// Settings from fast to accurate, for measuring. Empty: counts of samples, or the defaults where
+  /// the count is fixed.
+  std::vector<EffectStep> steps = {};
+  std::string misses = {};  ///< what it cannot show, in a few words; empty: nothing but noise
 };
 
 /// Northlight's effects in the order in which they are rendered, and behind them the alternatives

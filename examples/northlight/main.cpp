@@ -27,6 +27,7 @@
 #include "reference.h"
 #include "sequence.h"
 #include "split.h"
+#include "study/study.h"
 #include "watch.h"
 
 namespace {
@@ -274,6 +275,7 @@ int main(int argc, char** argv) {
   if (!options->measure.empty()) {
     return report(run_measure(*options, scene, show_progress), *options);
   }
+  if (options->study) return report(run_study(*options, scene, show_progress), *options);
   if (options->claims) return report(run_claims(*options, scene, show_progress), *options);
   if (!options->split.empty()) {
     return report(run_split(*options, scene, show_progress, say_error), *options);

@@ -38,8 +38,8 @@ struct Record {
   Errors from_truth;
 };
 
-rtapi::Status run_setting(EffectRuns& runs, const Setting& setting, const Target& target,
-                          const Target* truth, Record& record) {
+rtapi::Result<FloatImage> run_setting(EffectRuns& runs, const Setting& setting,
+                                      const Target& target, const Target* truth, Record& record) {
   const auto ran = runs.run(setting);
   if (!ran) return ran.error();
   record.ms.push_back(ran->ms);
@@ -48,11 +48,11 @@ rtapi::Status run_setting(EffectRuns& runs, const Setting& setting, const Target
   const auto image = runs.read(setting);
   if (!image) return image.error();
   if (const auto error = record.errors.add(*image, target); !error.empty()) return failure(error);
-  if (truth == nullptr) return {};
+  if (truth == nullptr) return image;
   if (const auto error = record.from_truth.add(*image, *truth); !error.empty()) {
     return failure(error);
   }
-  return {};
+  return image;
 }
 
 // The truth of each of the plan's references, as far as it has one.
@@ -104,13 +104,6 @@ rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
   return Outcome::kDone;
 }
 
-std::string scene_text(const Options& options) {
-  std::string text = fmt::format("{}, {} x {}, {}", options.scene, options.frame.width,
-                                 options.frame.height, options.backend);
-  if (options.threads > 0) text += fmt::format(", {} threads", options.threads);
-  return text;
-}
-
 std::string clock_text(const Options& options) {
   return options.cpu_clock ? ", CPU time over threads" : "";
 }
@@ -125,6 +118,13 @@ rtapi::Status write_text(const std::string& path, const std::string& text) {
 
 }  // namespace
 
+std::string scene_text(const Options& options) {
+  std::string text = fmt::format("{}, {} x {}, {}", options.scene, options.frame.width,
+                                 options.frame.height, options.backend);
+  if (options.threads > 0) text += fmt::format(", {} threads", options.threads);
+  return text;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
@@ -136,11 +136,17 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene
                                       const Progress& progress, MeasuredTable& table) {
   const MeasurePlan plan = measure_plan(options);
   if (options.measure == "sun" && !scene.sun) return failure("the scene has no sun to measure");
+  table.title = plan.title + ": time against error";
+  return run_plan(plan, options, scene, progress, table);
+}
+
+rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options, const Scene& scene,
+                                const Progress& progress, MeasuredTable& table,
+                                const LookAt& look_at) {
   std::unique_ptr<EffectRuns> runs;
   const auto created = EffectRuns::create(options, scene, plan.effects, cache_folder(options),
                                           progress, print_message, runs);
   if (!is_done(created)) return created;
-  table.title = plan.title + ": time against error";
   table.subtitle = fmt::format("{}; {}; median of {} interleaved runs{}", scene_text(options),
                                plan.signal, options.repeats, clock_text(options));
   std::map<std::string, Target> targets;
@@ -173,10 +179,12 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene
     if (repeat == 1) records.assign(plan.settings.size(), {});
     for (std::size_t i = 0; i < records.size(); ++i) {
       const MeasuredSetting& measured = plan.settings[i];
-      if (const auto s = run_setting(*runs, measured.setting, targets.at(measured.reference),
-                                     truth_for(measured), records[i]);
-          !s) {
-        return s.error();
+      const Target& target = targets.at(measured.reference);
+      const Target* truth = truth_for(measured);
+      const auto image = run_setting(*runs, measured.setting, target, truth, records[i]);
+      if (!image) return image.error();
+      if (look_at && repeat == options.repeats) {
+        if (const auto s = look_at(i, *image, target, truth); !s) return s.error();
       }
       const double done =
           (repeat + (i + 1.0) / static_cast<double>(records.size())) / (options.repeats + 1.0);

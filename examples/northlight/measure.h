@@ -2,6 +2,7 @@
 // northlight --measure EFFECT: time against error over an effect's quality settings.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +76,15 @@ kaamos::effects::Table as_csv(const MeasuredTable& table);
 std::string as_text(const MeasuredTable& table);
 kaamos::effects::Plot as_plot(const MeasuredTable& table);
 
+// Takes the picture of a setting's last run, what it is compared with, and the truth of that; null:
+// there is none.
+using LookAt = std::function<rtapi::Status(std::size_t setting,
+                                           const kaamos::effects::FloatImage& image,
+                                           const Target& target, const Target* truth)>;
+// Measures the settings of a plan; fills all of the table but its title.
+rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
+                                const kaamos::effects::Scene& scene, const Progress& progress,
+                                MeasuredTable& table, const LookAt& look_at = {});
 rtapi::Result<Outcome> measure_effect(const Options& options, const kaamos::effects::Scene& scene,
                                       const Progress& progress, MeasuredTable& table);
 rtapi::Result<Outcome> measure_denoisers(const Options& options,
@@ -89,6 +99,8 @@ rtapi::Result<Outcome> measure_frame(const Options& options, const kaamos::effec
 rtapi::Result<Outcome> run_measure(const Options& options, const kaamos::effects::Scene& scene,
                                    const Progress& progress);
 
+// "lounge, 320 x 180, embree".
+std::string scene_text(const Options& options);
 // The middle value; for an even number of values, the lower of the middle two.
 double median(std::vector<double> values);
 

@@ -19,6 +19,7 @@
 #include "effects/transparent/transparent.h"
 #include "measure.h"
 #include "split.h"
+#include "study/plans.h"
 
 namespace northlight {
 
@@ -44,6 +45,7 @@ struct Words {
   std::string sort_rays;
   std::string texture_lod = "cone";
   std::string primary = "rays";
+  std::string study;
   float contact_length = ContactShadowConstants().length;
   std::string fireflies = "retrace";
   std::string contact_combine = "product";
@@ -238,7 +240,7 @@ std::string conflict(const Options& options) {
           std::pair("--tables", !options.tables.empty()),
           std::pair("--heatmap", !options.heatmap.empty()),
           std::pair("--measure", !options.measure.empty()), std::pair("--claims", options.claims),
-          std::pair("--split", !options.split.empty()),
+          std::pair("--study", options.study), std::pair("--split", !options.split.empty()),
           std::pair("--reference", options.reference > 0),
           std::pair("--measure-left-out", options.measure_left_out)}) {
       if (!chosen) continue;
@@ -254,6 +256,7 @@ std::string conflict(const Options& options) {
                                                 {"--heatmap", !options.heatmap.empty()},
                                                 {"--measure", !options.measure.empty()},
                                                 {"--claims", options.claims},
+                                                {"--study", options.study},
                                                 {"--split", !options.split.empty()},
                                                 {"--reference", options.reference > 0},
                                                 {"--measure-left-out", options.measure_left_out}};
@@ -503,6 +506,17 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       "--claims", options.claims,
       "what the talk, the deck and the survey say about costs, beside measurements on each "
       "backend, as a table and a CSV file");
+  auto* study = app.add_option(
+      "--study", words.study,
+      "every technique of each family over the scene of this name or file: time against error, as "
+      "a report (study.html), CSV, JSON and plots; goes on where an earlier one was stopped");
+  study->excludes("--scene");
+  app.add_option("--families", options.families, "of --study: " + join(study_family_names()))
+      ->delimiter(',')
+      ->needs(study)
+      ->check(CLI::IsMember(study_family_names()));
+  app.add_flag("--quick", options.quick, "of --study: three settings of each technique")
+      ->needs(study);
   app.add_option("--measure-reference", options.measure_reference,
                  "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
       ->capture_default_str()
@@ -532,6 +546,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     return std::nullopt;
   }
   apply(words, options);
+  options.study = !words.study.empty();
   FrameSettings& frame = options.frame;
   for (const auto& [name, text, chosen] :
        {std::tuple("--pixel", &words.pixel, &options.pixel),
@@ -556,6 +571,15 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     if (options.measure == "svgf" && app.count("--effects") == 0) choose(options, {"all"});
     if (options.measure == "transparent" && app.count("--scene") == 0) {
       options.scene = "glass-stack";
+    }
+  }
+  if (!words.study.empty()) {
+    options.scene = words.study;
+    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(160u, 90u);
+    if (options.quick) {
+      if (app.count("--repeats") == 0) options.repeats = 3;
+      if (app.count("--measure-reference") == 0) options.measure_reference = 1024;
+      if (app.count("--measure-truth") == 0) options.measure_truth = 256;
     }
   }
   if (options.claims) {

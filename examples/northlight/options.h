@@ -48,6 +48,9 @@ struct Options {
   std::uint32_t measure_truth = 1024;       // samples of the path-traced truth; 0: none
   std::uint32_t repeats = 7;                // runs of each measured setting
   bool cpu_clock = false;                   // measure CPU time over threads
+  bool study = false;                       // every technique of each family
+  std::vector<std::string> families;        // of the study; empty: all
+  bool quick = false;                       // three settings of each technique
   std::uint32_t seeds = 64;                 // for each denoiser
   std::optional<std::pair<std::uint32_t, std::uint32_t>>
       pixel;           // print it instead of writing files

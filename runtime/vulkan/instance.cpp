@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 namespace kaamos::vulkan {
 
@@ -86,13 +87,18 @@ rtapi::Status Instance::start() {
   messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
   messenger.pfnUserCallback = on_message;
   messenger.pUserData = this;
-  vkCreateDebugUtilsMessengerEXT(handle_, &messenger, nullptr, &messenger_);
+  // volk's own pointers are those of the instance that the process loaded last.
+  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
+  create(handle_, &messenger, nullptr, &messenger_);
   return {};
 }
 
 Instance::~Instance() {
   if (messenger_ != VK_NULL_HANDLE) {
-    vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
+    const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(handle_, "vkDestroyDebugUtilsMessengerEXT"));
+    destroy(handle_, messenger_, nullptr);
   }
   if (handle_ != VK_NULL_HANDLE) vkDestroyInstance(handle_, nullptr);
 }
@@ -110,8 +116,15 @@ VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                               VkDebugUtilsMessageTypeFlagsEXT,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   auto& instance = *static_cast<Instance*>(self);
+  // What is written to an attachment without a format goes nowhere, as D3D12 has it for a null
+  // view.
+  const std::string_view text = data->pMessage;
+  if (text.find("InterfaceTypeMismatch") != text.npos &&
+      text.find("VK_FORMAT_UNDEFINED") != text.npos) {
+    return VK_FALSE;
+  }
   const std::lock_guard lock(instance.mutex_);
-  instance.messages_.push_back(data->pMessage);
+  instance.messages_.emplace_back(text);
   return VK_FALSE;
 }
 

@@ -20,9 +20,6 @@ constexpr char kLavapipesEdges[] =
     "that meet one exactly hit both";
 constexpr char kMesa[] = "Mesa 25.0.";
 // Of draws; found and measured by these tests.
-constexpr char kNullVertices[] =
-    "NULLVB: fault of Mesa 25.0's vertex fetch: an unbound slot gives (0, 0, 0, 1) for formats "
-    "without alpha";
 constexpr char kHuge[] =
     "HUGE: fault of Mesa 25.0's rasterizer: triangles that reach beyond 1e7 pixels lose coverage";
 constexpr char kCutOnScreen[] =
@@ -34,7 +31,6 @@ constexpr char kNanInDepth[] =
     "NEVER";
 constexpr char kBiasWithoutDepth[] =
     "BIAS0: fault of Mesa 25.0's depth bias: without a depth buffer it is doubled, as on D24";
-constexpr char kBarycentrics[] = "BARY: Mesa 25.0 has no VK_KHR_fragment_shader_barycentric";
 constexpr char kPlanes[] =
     "PLANE: fault of Mesa 25.0's setup: planes of attributes are through corners that are not "
     "rounded, in float32, so constants come out with errors up to 2^-12";
@@ -47,14 +43,13 @@ constexpr char kNanTimesZero[] =
 constexpr char kSnormBlend[] = "SNORMB: Mesa 25.0 blends SNORM wrongly, so that it is refused";
 
 constexpr Deviation kDeviations[] = {
-    {"TRV-03", "embree/fast", "", kEmbreesT},       {"TRV-70", "embree/fast", "", kEmbreesEdges},
-    {"TRV-71", "embree/fast", "", kEmbreesEdges},   {"TRV-72", "embree/fast", "", kEmbreesEdges},
-    {"TRV-70", "vulkan", kMesa, kLavapipesEdges},   {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
-    {"RAS-14", "vulkan", kMesa, kNullVertices},     {"RAS-32", "vulkan", kMesa, kHuge},
-    {"RAS-33", "vulkan", kMesa, kCutOnScreen},      {"RAS-61", "vulkan", kMesa, kNanInDepth},
-    {"RAS-66", "vulkan", kMesa, kBiasWithoutDepth}, {"RAS-72", "vulkan", kMesa, kBarycentrics},
-    {"RAS-75", "vulkan", kMesa, kPlanes},           {"RAS-103", "vulkan", kMesa, kInterlock},
-    {"RAS-124", "vulkan", kMesa, kNanTimesZero},    {"RAS-125", "vulkan", kMesa, kSnormBlend},
+    {"TRV-03", "embree/fast", "", kEmbreesT},     {"TRV-70", "embree/fast", "", kEmbreesEdges},
+    {"TRV-71", "embree/fast", "", kEmbreesEdges}, {"TRV-72", "embree/fast", "", kEmbreesEdges},
+    {"TRV-70", "vulkan", kMesa, kLavapipesEdges}, {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
+    {"RAS-32", "vulkan", kMesa, kHuge},           {"RAS-33", "vulkan", kMesa, kCutOnScreen},
+    {"RAS-61", "vulkan", kMesa, kNanInDepth},     {"RAS-66", "vulkan", kMesa, kBiasWithoutDepth},
+    {"RAS-75", "vulkan", kMesa, kPlanes},         {"RAS-103", "vulkan", kMesa, kInterlock},
+    {"RAS-124", "vulkan", kMesa, kNanTimesZero},  {"RAS-125", "vulkan", kMesa, kSnormBlend},
 };
 
 }  // namespace

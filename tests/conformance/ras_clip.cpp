@@ -284,7 +284,7 @@ void pieces_do_not_overlap(Context& t) {
 
 std::vector<RuleTest> ras_clip_tests() {
   return {{"RAS-26", near_and_far_clip},        {"RAS-27", depth_clip_off},
-          {"RAS-28", behind_the_eye, "*"},      {"RAS-29", directions},
+          {"RAS-28", behind_the_eye, "*"},      {"RAS-29", directions, "KA0457"},
           {"RAS-30", nan_drops_triangles, "*"}, {"RAS-31", infinities_drop_triangles, "*"},
           {"RAS-32", huge_positions, "*"},      {"RAS-33", cut_triangles_interpolate},
           {"RAS-34", clip_distances, "*"},      {"RAS-35", cull_distances, "*"},

@@ -289,7 +289,7 @@ std::vector<RuleTest> ras_output_tests() {
           {"RAS-113", to_ten_bits, "*"},
           {"RAS-114", to_snorm, "*"},
           {"RAS-115", narrow_floats, "*"},
-          {"RAS-116", wide_values_and_integers},
+          {"RAS-116", wide_values_and_integers, "KA0479"},
           {"RAS-117", to_srgb, "*"},
           {"RAS-118", formats_of_views},
           {"RAS-119", write_masks}};

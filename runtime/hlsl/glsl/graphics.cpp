@@ -171,9 +171,12 @@ std::string GlslEmitter::graphics_layout() const {
     if (element.system_value == shader::SystemValue::kClipDistance) sizes[0] += element.components;
     if (element.system_value == shader::SystemValue::kCullDistance) sizes[1] += element.components;
   }
+  // Without the members that are not written, which count where outputs are limited.
+  out += "out gl_PerVertex {\n  vec4 gl_Position;\n";
+  if (sizes[0] != 0) out += "  float gl_ClipDistance[" + std::to_string(sizes[0]) + "];\n";
+  if (sizes[1] != 0) out += "  float gl_CullDistance[" + std::to_string(sizes[1]) + "];\n";
+  out += "};\n";
   if (has_position) out += "invariant gl_Position;\n";
-  if (sizes[0] != 0) out += "out float gl_ClipDistance[" + std::to_string(sizes[0]) + "];\n";
-  if (sizes[1] != 0) out += "out float gl_CullDistance[" + std::to_string(sizes[1]) + "];\n";
   return out;
 }
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What --study found out about a family: kept in files, so that an interrupted study goes on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/image/csv.h"
+#include "effects/image/pareto.h"
+#include "effects/image/plot.h"
+
+namespace northlight {
+
+// A setting of a technique.
+struct StudyRow {
+  std::string technique, label;
+  double ms = 0;      // median
+  double traced = 0;  // rays per pixel
+  double error = 0;   // RMSE against the truth
+  double flip = 0, ssim = 0, energy = 0;
+  std::string picture;     // PNG files beside the report
+  std::string difference;  // 4 times its absolute difference from the truth
+};
+
+struct StudyResult {
+  std::string family, title;
+  std::string key;            // of all that it depends on
+  std::string subtitle;       // scene, size, backend, repeats
+  std::string signal;         // what is compared
+  std::string truth;          // what it is compared with
+  std::string truth_picture;  // a PNG file
+  double truth_error = 0;     // the truth's own standard error
+  std::vector<std::string> about;
+  std::vector<StudyRow> rows;
+  std::string skipped;  // why there is nothing; empty: there is
+
+  std::vector<kaamos::effects::Trade> trades() const;
+};
+
+std::string to_json(const StudyResult& result);
+// Nothing where the text is no result.
+std::optional<StudyResult> parse_result(const std::string& text);
+
+kaamos::effects::Table as_csv(const std::vector<StudyResult>& results);
+// Time against error; marks have the row's number as their key.
+kaamos::effects::Plot as_plot(const StudyResult& result);
+
+}  // namespace northlight
