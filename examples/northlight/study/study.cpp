@@ -39,7 +39,7 @@ std::string read_text(const std::string& path) {
 
 // Of floats from 0 to 1; what the mask leaves out is grey.
 ByteImage as_bytes(const FloatImage& image, const std::vector<std::uint8_t>& mask) {
-  ByteImage out(image.width, image.height, 3);
+  ByteImage out{image.width, image.height, 3, std::vector<std::uint8_t>(image.values.size())};
   for (std::size_t i = 0; i < out.values.size(); ++i) {
     const float value = mask[i / 3] != 0 ? std::clamp(image.values[i], 0.0f, 1.0f) : 0.5f;
     out.values[i] = static_cast<std::uint8_t>(std::lround(value * 255));
