@@ -94,8 +94,8 @@ struct EffectNeeds {
 
 /// One of an effect's settings between fast and accurate.
 struct EffectStep {
-  std::string label;  ///< "2048 x 2048, 16 taps"
-  EffectSettings settings = {};
+  std::string label;             ///< "2048 x 2048, 16 taps"
+  EffectSettings settings = {};  ///< all of them
 };
 
 class EffectPass;
