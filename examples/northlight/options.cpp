@@ -17,9 +17,9 @@
 #include "effects/scene/built_in.h"
 #include "effects/scene/camera_path.h"
 #include "effects/transparent/transparent.h"
-#include "measure.h"
+#include "options_conflict.h"
+#include "options_measure.h"
 #include "split.h"
-#include "study/plans.h"
 
 namespace northlight {
 
@@ -36,7 +36,6 @@ struct Words {
   std::string size = "1280x720";
   std::vector<std::string> effects = {"ao", "sun"};
   std::string pixel, explain;
-  std::string clock = "wall";
   std::string denoise = "svgf";
   std::optional<std::uint32_t> denoise_passes;
   std::vector<std::string> half_resolution;
@@ -45,7 +44,7 @@ struct Words {
   std::string sort_rays;
   std::string texture_lod = "cone";
   std::string primary = "rays";
-  std::string study;
+  MeasureWords measuring;
   float contact_length = ContactShadowConstants().length;
   std::string fireflies = "retrace";
   std::string contact_combine = "product";
@@ -134,12 +133,6 @@ std::vector<std::string> sampled_effects() {
   return out;
 }
 
-std::string join(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
 // A CLI11 validator that stores what it parses.
 template <class Parse>
 CLI::Validator parsed_by(Parse parse, Options& options) {
@@ -181,89 +174,6 @@ void add_sequence(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.01, 10000.0));
   app.add_flag("--taa", options.frame.taa, "antialiasing over the frames of a sequence")
       ->needs(frames);
-}
-
-void add_path_reference(CLI::App& app, Options& options) {
-  auto* samples =
-      app.add_option("--reference-path-traced", options.path_samples,
-                     "render a path-traced reference of so many samples a pixel instead "
-                     "of a frame: reference.exr and its layers")
-          ->check(CLI::Range(2u, 1u << 24));
-  app.add_option("--bounces", options.bounces,
-                 "bounces of its paths after what the camera sees (unlimited)")
-      ->needs(samples)
-      ->check(CLI::Range(0u, 1u << 16));
-  app.add_option("--time", options.seconds, "of it on the scene's clock, in seconds")
-      ->needs(samples)
-      ->check(CLI::Range(0.0, 1e6));
-  app.add_flag("--reference-lamps", options.each_lamp, "a layer for each local light, up to 16")
-      ->needs(samples);
-  app.add_flag("--half", options.half, "its file has half floats")->needs(samples);
-  app.add_option("--save-seconds", options.save_seconds, "seconds between saves of what is done")
-      ->needs(samples)
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e6));
-  app.add_flag("--resume", options.resume, "go on with the reference in the folder of results")
-      ->needs(samples);
-}
-
-// Options that show a single frame or render forever exclude --frames; options that look for a
-// pixel at its place in a dispatch exclude --sort-rays.
-std::string conflict(const Options& options) {
-  if (options.frame.order != RayOrder::kPixels &&
-      (options.explain || options.pixel || !options.heatmap.empty())) {
-    return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
-           "other: leave one out";
-  }
-  if (options.heatmap == "overdraw" && options.frame.primary == Primary::kRays) {
-    return "--heatmap overdraw counts the pixel shaders of draws, and rays draw nothing: add "
-           "--primary raster";
-  }
-  if (!options.camera_path.empty() && options.frames == 0 && options.measure != "svgf") {
-    return "--camera-path requires --frames or --measure svgf";
-  }
-  // Each of these prints or writes something instead of everything else.
-  std::string instead;
-  for (const auto& [name, chosen] : {std::pair("--pixel", options.pixel.has_value()),
-                                     std::pair("--tables", !options.tables.empty()),
-                                     std::pair("--explain", options.explain.has_value()),
-                                     std::pair("--heatmap", !options.heatmap.empty())}) {
-    if (!chosen) continue;
-    if (!instead.empty()) return instead + " and " + name + " exclude each other: leave one out";
-    instead = name;
-  }
-  if (options.path_samples > 0) {
-    for (const auto& [name, chosen] :
-         {std::pair("--frames", options.frames > 0),
-          std::pair("--explain", options.explain.has_value()), std::pair("--watch", options.watch),
-          std::pair("--pixel", options.pixel.has_value()),
-          std::pair("--tables", !options.tables.empty()),
-          std::pair("--heatmap", !options.heatmap.empty()),
-          std::pair("--measure", !options.measure.empty()), std::pair("--claims", options.claims),
-          std::pair("--study", options.study), std::pair("--split", !options.split.empty()),
-          std::pair("--reference", options.reference > 0),
-          std::pair("--measure-left-out", options.measure_left_out)}) {
-      if (!chosen) continue;
-      return std::string("--reference-path-traced and ") + name +
-             " exclude each other: leave one out";
-    }
-  }
-  if (options.frames == 0) return {};
-  const std::pair<const char*, bool> given[] = {{"--watch", options.watch},
-                                                {"--pixel", options.pixel.has_value()},
-                                                {"--explain", options.explain.has_value()},
-                                                {"--tables", !options.tables.empty()},
-                                                {"--heatmap", !options.heatmap.empty()},
-                                                {"--measure", !options.measure.empty()},
-                                                {"--claims", options.claims},
-                                                {"--study", options.study},
-                                                {"--split", !options.split.empty()},
-                                                {"--reference", options.reference > 0},
-                                                {"--measure-left-out", options.measure_left_out}};
-  for (const auto& [name, chosen] : given) {
-    if (chosen) return std::string("--frames and ") + name + " exclude each other: leave one out";
-  }
-  return {};
 }
 
 DenoiseMethod denoise_method(const std::string& name) {
@@ -322,7 +232,6 @@ void apply(const Words& words, Options& options) {
   frame.contact =
       words.contact_combine == "min" ? ContactCombination::kMinimum : ContactCombination::kProduct;
   frame.moving = options.frames > 0;
-  options.cpu_clock = words.clock == "cpu";
   choose(options, words.effects);
 }
 
@@ -497,48 +406,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "against gathered), near-field (against hit = black), denoise (raw against "
                  "denoised)")
       ->check(CLI::IsMember(split_names()));
-  app.add_option("--measure", options.measure,
-                 "time against error over an effect's quality settings, as a table, a CSV file and "
-                 "a plot: " +
-                     join(measured_effects()))
-      ->check(CLI::IsMember(measured_effects()));
-  app.add_flag(
-      "--claims", options.claims,
-      "what the talk, the deck and the survey say about costs, beside measurements on each "
-      "backend, as a table and a CSV file");
-  auto* study = app.add_option(
-      "--study", words.study,
-      "every technique of each family over the scene of this name or file: time against error, as "
-      "a report (study.html), CSV, JSON and plots; goes on where an earlier one was stopped");
-  study->excludes("--scene");
-  app.add_option("--families", options.families, "of --study: " + join(study_family_names()))
-      ->delimiter(',')
-      ->needs(study)
-      ->check(CLI::IsMember(study_family_names()));
-  app.add_flag("--quick", options.quick, "of --study: three settings of each technique")
-      ->needs(study);
-  app.add_option("--measure-reference", options.measure_reference,
-                 "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
-      ->capture_default_str()
-      ->check(CLI::Range(4u, 1u << 24));
-  app.add_option("--measure-truth", options.measure_truth,
-                 "samples per pixel of the path-traced truth that --measure holds effects against; "
-                 "0: none")
-      ->capture_default_str()
-      ->check(CLI::Range(0u, 1u << 24));
-  app.add_option("--repeats", options.repeats,
-                 "runs of each setting that --measure and --claims time")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u));
-  app.add_option(
-         "--clock", words.clock,
-         "clock of --measure and --claims: wall, or cpu (CPU time over threads, for a machine "
-         "that does other work too)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"wall", "cpu"}));
-  app.add_option("--seeds", options.seeds, "independent runs that --measure svgf takes")
-      ->capture_default_str()
-      ->check(CLI::Range(2u, 4096u));
+  add_measuring(app, options, words.measuring);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -546,7 +414,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     return std::nullopt;
   }
   apply(words, options);
-  options.study = !words.study.empty();
+  options.cpu_clock = words.measuring.clock == "cpu";
+  options.study = !words.measuring.study.empty();
   FrameSettings& frame = options.frame;
   for (const auto& [name, text, chosen] :
        {std::tuple("--pixel", &words.pixel, &options.pixel),
@@ -564,29 +433,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = 2;
     return std::nullopt;
   }
-  if (!options.measure.empty()) {
-    if (app.count("--size") == 0) {
-      std::tie(frame.width, frame.height) = default_measure_size(options.measure);
-    }
-    if (options.measure == "svgf" && app.count("--effects") == 0) choose(options, {"all"});
-    if (options.measure == "transparent" && app.count("--scene") == 0) {
-      options.scene = "glass-stack";
-    }
-  }
-  if (!words.study.empty()) {
-    options.scene = words.study;
-    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(160u, 90u);
-    if (options.quick) {
-      if (app.count("--repeats") == 0) options.repeats = 3;
-      if (app.count("--measure-reference") == 0) options.measure_reference = 1024;
-      if (app.count("--measure-truth") == 0) options.measure_truth = 256;
-    }
-  }
-  if (options.claims) {
-    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(320u, 180u);
-    // The time does not depend on what the cells hold.
-    if (app.count("--gi-bake-samples") == 0) frame.volume.samples = 16;
-  }
+  apply_measuring(app, words.measuring, options);
   if (angle->count() != 0) frame.sun_angular_radius = words.sun_angle * 3.14159265f / 360.0f;
   return options;
 }

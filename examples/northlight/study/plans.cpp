@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace northlight {
@@ -31,6 +32,17 @@ std::vector<EffectStep> three_of(const std::vector<EffectStep>& steps) {
   return {steps.front(), steps[(steps.size() - 1) / 2], steps.back()};
 }
 
+// The modes of indirect light are techniques of their own.
+void name_modes(MeasurePlan& plan) {
+  for (MeasuredSetting& each : plan.settings) {
+    if (each.steps) continue;
+    each.group = each.label;
+    each.label =
+        fmt::format("{} rays", std::max(each.setting.settings.samples, each.setting.times_ao));
+    each.steps = true;
+  }
+}
+
 bool belongs_to(const Effect& row, const StudyFamily& family) {
   return row.name == family.effect || row.alternative_to == family.effect;
 }
@@ -56,8 +68,11 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   own.measure = family.effect;
   MeasurePlan plan = measure_plan(own);
   plan.title = family.title;
-  // The modes of indirect light are techniques of their own.
-  if (family.effect != "gi") plan.settings.clear();
+  if (family.effect == "gi") {
+    name_modes(plan);
+  } else {
+    plan.settings.clear();
+  }
   for (const Effect& row : northlight_effects()) {
     if (!belongs_to(row, family)) continue;
     if (row.name != family.effect) plan.effects.push_back(row.name);

@@ -170,7 +170,7 @@ std::string section_of(const StudyResult& result) {
   out += fmt::format(
       "<p>For an error below <input class=\"wanted\" type=\"number\" step=\"any\" min=\"0\" "
       "value=\"{:.3g}\"> <span class=\"advice\"></span>.</p>\n",
-      middle_error(result));
+      1.01 * middle_error(result));
   out += pictures_of(result) + table_of(result);
   out +=
       "<p>A dot marks the Pareto front: nothing else measured here is both as fast and as "
@@ -208,7 +208,8 @@ std::vector<std::string> study_findings(const std::vector<StudyResult>& results)
                     "error {:.3g}) to {} ({:.3g} ms, error {:.3g})",
                     result.title, front.size(), trades.size(), setting_name(fastest), fastest.ms,
                     fastest.error, setting_name(best), best.ms, best.error));
-    out.push_back("  on the front: " + fmt::format("{}", fmt::join(techniques, ", ")));
+    if (techniques.size() == 1) continue;
+    out.push_back(fmt::format("  on the front: {}", fmt::join(techniques, "; ")));
   }
   if (out.size() > 10) out.resize(10);
   return out;

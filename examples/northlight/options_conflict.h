@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Which of northlight's options exclude each other.
+#pragma once
+
+#include <string>
+
+#include "options.h"
+
+namespace northlight {
+
+// Two options that were given and exclude each other, in a sentence; empty: there are none.
+std::string conflict(const Options& options);
+
+}  // namespace northlight

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "options_measure.h"
+
+#include <tuple>
+
+#include "measure.h"
+#include "study/plans.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+
+std::string join(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+void add_path_reference(CLI::App& app, Options& options) {
+  auto* samples =
+      app.add_option("--reference-path-traced", options.path_samples,
+                     "render a path-traced reference of so many samples a pixel instead "
+                     "of a frame: reference.exr and its layers")
+          ->check(CLI::Range(2u, 1u << 24));
+  app.add_option("--bounces", options.bounces,
+                 "bounces of its paths after what the camera sees (unlimited)")
+      ->needs(samples)
+      ->check(CLI::Range(0u, 1u << 16));
+  app.add_option("--time", options.seconds, "of it on the scene's clock, in seconds")
+      ->needs(samples)
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_flag("--reference-lamps", options.each_lamp, "a layer for each local light, up to 16")
+      ->needs(samples);
+  app.add_flag("--half", options.half, "its file has half floats")->needs(samples);
+  app.add_option("--save-seconds", options.save_seconds, "seconds between saves of what is done")
+      ->needs(samples)
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_flag("--resume", options.resume, "go on with the reference in the folder of results")
+      ->needs(samples);
+}
+
+void add_measuring(CLI::App& app, Options& options, MeasureWords& words) {
+  app.add_option("--measure", options.measure,
+                 "time against error over an effect's quality settings, as a table, a CSV file and "
+                 "a plot: " +
+                     join(measured_effects()))
+      ->check(CLI::IsMember(measured_effects()));
+  app.add_flag(
+      "--claims", options.claims,
+      "what the talk, the deck and the survey say about costs, beside measurements on each "
+      "backend, as a table and a CSV file");
+  auto* study = app.add_option(
+      "--study", words.study,
+      "every technique of each family over the scene of this name or file: time against error, as "
+      "a report (study.html), CSV, JSON and plots; goes on where an earlier one was stopped");
+  study->excludes("--scene");
+  app.add_option("--families", options.families, "of --study: " + join(study_family_names()))
+      ->delimiter(',')
+      ->needs(study)
+      ->check(CLI::IsMember(study_family_names()));
+  app.add_flag("--quick", options.quick, "of --study: three settings of each technique")
+      ->needs(study);
+  app.add_option("--measure-reference", options.measure_reference,
+                 "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
+      ->capture_default_str()
+      ->check(CLI::Range(4u, 1u << 24));
+  app.add_option("--measure-truth", options.measure_truth,
+                 "samples per pixel of the path-traced truth that --measure holds effects against; "
+                 "0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, 1u << 24));
+  app.add_option("--repeats", options.repeats,
+                 "runs of each setting that --measure and --claims time")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000u));
+  app.add_option(
+         "--clock", words.clock,
+         "clock of --measure and --claims: wall, or cpu (CPU time over threads, for a machine "
+         "that does other work too)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"wall", "cpu"}));
+  app.add_option("--seeds", options.seeds, "independent runs that --measure svgf takes")
+      ->capture_default_str()
+      ->check(CLI::Range(2u, 4096u));
+}
+
+void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& options) {
+  FrameSettings& frame = options.frame;
+  if (!options.measure.empty()) {
+    if (app.count("--size") == 0) {
+      std::tie(frame.width, frame.height) = default_measure_size(options.measure);
+    }
+    if (options.measure == "svgf" && app.count("--effects") == 0) choose(options, {"all"});
+    if (options.measure == "transparent" && app.count("--scene") == 0) {
+      options.scene = "glass-stack";
+    }
+  }
+  if (!words.study.empty()) {
+    options.scene = words.study;
+    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(160u, 90u);
+    if (options.quick) {
+      if (app.count("--repeats") == 0) options.repeats = 3;
+      if (app.count("--measure-reference") == 0) options.measure_reference = 1024;
+      if (app.count("--measure-truth") == 0) options.measure_truth = 256;
+    }
+  }
+  if (options.claims) {
+    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(320u, 180u);
+    // The time does not depend on what the cells hold.
+    if (app.count("--gi-bake-samples") == 0) frame.volume.samples = 16;
+  }
+}
+
+}  // namespace northlight

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// northlight's options that measure instead of rendering a frame, and those of path-traced
+// references.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options.h"
+
+namespace northlight {
+
+// What the options say in words, until all of them have been read.
+struct MeasureWords {
+  std::string clock = "wall";
+  std::string study;
+};
+
+// "a, b, c".
+std::string join(const std::vector<std::string>& names);
+
+void add_path_reference(CLI::App& app, Options& options);
+void add_measuring(CLI::App& app, Options& options, MeasureWords& words);
+// The sizes and counts that were not given, by what is measured.
+void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& options);
+
+}  // namespace northlight
