@@ -22,6 +22,7 @@ std::uint32_t channels_of(Format format) {
     case Format::kR32Float:
       return 1;
     case Format::kR16G16Snorm:
+    case Format::kR32G32Float:
     case Format::kR32G32Uint:
       return 2;
     case Format::kR32G32B32A32Float:
@@ -57,6 +58,7 @@ std::uint32_t texel_bytes(Format format) {
     case Format::kR16G16Snorm:
     case Format::kR8G8B8A8Unorm:
       return 4;
+    case Format::kR32G32Float:
     case Format::kR32G32Uint:
     case Format::kR16G16B16A16Float:
       return 8;

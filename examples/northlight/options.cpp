@@ -101,15 +101,17 @@ std::string check_effect(const std::string& name) {
 }
 
 std::string parse_radius(const std::string& text, Options& options) {
-  float& radius = options.effects.at("ao").radius;
-  if (text == "inf") {
-    radius = std::numeric_limits<float>::infinity();
-    return {};
+  float radius = std::numeric_limits<float>::infinity();
+  if (text != "inf") {
+    char* end = nullptr;
+    radius = std::strtof(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0' || !(radius > 0)) {
+      return "\"" + text + "\" is not a radius: give metres greater than 0, or inf";
+    }
   }
-  char* end = nullptr;
-  radius = std::strtof(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(radius > 0)) {
-    return "\"" + text + "\" is not a radius: give metres greater than 0, or inf";
+  for (const Effect& effect : northlight_effects()) {
+    if (effect.name != "ao" && effect.alternative_to != "ao") continue;
+    options.effects.at(effect.name).radius = radius;
   }
   return {};
 }
@@ -289,7 +291,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(1u, kMaxSamples));
   }
-  app.add_option("--ao-radius", radius, "how far away something occludes, in metres, or inf")
+  app.add_option("--ao-radius", radius,
+                 "how far away something occludes, in metres, or inf "
+                 "(on the screen 0.5 by default)")
       ->capture_default_str()
       ->check(parsed_by(parse_radius, options));
   auto* angle = app.add_option("--sun-angle", words.sun_angle,
