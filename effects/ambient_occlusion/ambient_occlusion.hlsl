@@ -48,5 +48,6 @@ void AmbientOcclusionKeys() {
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kAmbientOcclusionPair, frame.seed)];
   WriteRayKey(pixel, g_position[pixel].xyz,
               OcclusionDirection(tile, pass_constants.first_sample,
-                                 OctahedralDecode(g_shading_normal[pixel])));
+                                 OctahedralDecode(g_shading_normal[pixel])),
+              pass_constants.radius);
 }

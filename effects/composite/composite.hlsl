@@ -101,3 +101,24 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   }
   radiance[pixel] = float4(sum, 1.0);
 }
+
+// The finished radiance and the view depths, for the next frame. [effects/composite/kept_radiance.h]
+RWTexture2D<float4> kept_radiance : register(u0, space3);
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void KeepRadiance(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  kept_radiance.GetDimensions(width, height);
+  if (id.x >= width || id.y >= height) return;
+  kept_radiance[id.xy] = float4(radiance[id.xy].rgb, g_view_z[id.xy]);
+}
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void ForgetRadiance(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  kept_radiance.GetDimensions(width, height);
+  if (id.x >= width || id.y >= height) return;
+  kept_radiance[id.xy] = float4(0, 0, 0, -1);
+}

@@ -11,6 +11,7 @@ namespace {
 struct DirectConstants {
   std::uint32_t leave_out_strongest = 0;
   std::uint32_t by_minimum = 0;
+  std::uint32_t by_frustum = 0;
 };
 
 }  // namespace
@@ -41,6 +42,21 @@ rtapi::Result<DirectLighting> DirectLighting::create(const rtapi::Device& device
     if (const auto s = out.views_.set_unordered_access(picture.u, *created); !s) return s.error();
   }
   if (const auto s = lighting.bind(out.views_); !s) return s.error();
+  // For as many lights as the atlas of shadow maps may have.
+  rtapi::BufferDesc words;
+  words.SizeInBytes = (kMaxAtlasLights + 1) * sizeof(std::uint32_t);
+  words.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+  words.InitialState = rtapi::ResourceStates::kUnorderedAccess;
+  words.Name = "lights in view";
+  const auto in_view = device.CreateBuffer(words);
+  if (!in_view) return in_view.error();
+  out.in_view_ = *in_view;
+  if (const auto s = out.views_.set_unordered_access(4, out.in_view_, sizeof(std::uint32_t)); !s) {
+    return s.error();
+  }
+  const auto cull = ComputePass::create(device, frame, library, "CullByFrustum");
+  if (!cull) return cull.error();
+  out.cull_ = *cull;
   const auto main = ComputePass::create(device, frame, library, "MainLighting");
   if (!main) return main.error();
   out.main_ = *main;
@@ -51,8 +67,11 @@ rtapi::Result<DirectLighting> DirectLighting::create(const rtapi::Device& device
 }
 
 void DirectLighting::dispatch(rtapi::CommandList& list, const Frame& frame,
-                              bool leave_out_strongest) const {
-  const DirectConstants constants = {.leave_out_strongest = leave_out_strongest ? 1u : 0u};
+                              bool leave_out_strongest, LightCulling culling) const {
+  const bool by_frustum = culling == LightCulling::kFrustum;
+  const DirectConstants constants = {.leave_out_strongest = leave_out_strongest ? 1u : 0u,
+                                     .by_frustum = by_frustum ? 1u : 0u};
+  if (by_frustum) cull_.dispatch_groups(list, frame, {}, PassArguments(views_, constants), 1, 1);
   main_.dispatch(list, frame, {}, PassArguments(views_, constants), frame.width(), frame.height());
 }
 

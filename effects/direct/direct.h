@@ -23,6 +23,13 @@ enum class ContactCombination : std::uint32_t {
   kMinimum,  ///< the darker of the two; where they see different occluders, one of them counts
 };
 
+/// Which lights main lighting looks at for a pixel. What it finds is the same. [effects-spec A19,
+/// A22]
+enum class LightCulling : std::uint32_t {
+  kClusters,  ///< those of the pixel's cluster
+  kFrustum,   ///< all whose reach touches the camera's frustum
+};
+
 /// The two passes of the local lights: all of them, or the two strongest of each pixel later, when
 /// their contact shadows are known.
 class DirectLighting {
@@ -34,7 +41,8 @@ class DirectLighting {
                                               const rtapi::ShaderLibrary& library);
   /// Records the first pass: all lights with their shadow maps; or all but the two strongest of
   /// each pixel, which are named in strongest() and wait for add_strongest.
-  void dispatch(rtapi::CommandList& list, const Frame& frame, bool leave_out_strongest) const;
+  void dispatch(rtapi::CommandList& list, const Frame& frame, bool leave_out_strongest,
+                LightCulling culling = LightCulling::kClusters) const;
   /// Records the second pass: total() = direct() + the two lights, each with shadow map and contact
   /// shadow.
   void add_strongest(rtapi::CommandList& list, const Frame& frame,
@@ -52,12 +60,16 @@ class DirectLighting {
   const rtapi::Texture& direct() const { return direct_; }
   /// R32G32_UINT: the strongest point light and the strongest spot light of each pixel.
   const rtapi::Texture& strongest() const { return strongest_; }
+  /// What LightCulling::kFrustum found in the last dispatch: a word with the count of lights, then
+  /// their numbers.
+  const rtapi::Buffer& lights_in_view() const { return in_view_; }
   /// R32G32B32A32_FLOAT: radiance of all local lights.
   const rtapi::Texture& total() const { return total_; }
 
  private:
   rtapi::Texture direct_, strongest_, total_;
-  ComputePass main_, add_;
+  rtapi::Buffer in_view_;
+  ComputePass cull_, main_, add_;
   PassViews views_;
 };
 

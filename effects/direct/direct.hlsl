@@ -3,6 +3,7 @@
 // light and the strongest spot light can be left to the contact shadow pass; they are only named
 // here. [effects-spec A22, B2.12]
 #include "hit_lighting.hlsli"
+#include "light_reach.hlsli"
 
 RWTexture2D<float4> direct : register(u0, space3);       // radiance
 RWTexture2D<uint2> strongest : register(u1, space3);     // point light, spot light; kNoLight: none
@@ -12,8 +13,34 @@ static const uint kNoLight = 0xFFFFFF;  // exact when stored as a float
 struct DirectConstants {
   uint leave_out_strongest;  // MainLighting
   uint by_minimum;           // AddStrongest: 0 shadow map times contact shadow, 1 the darker one
+  uint by_frustum;           // MainLighting: 1 lights_in_view in place of the clusters
 };
 ConstantBuffer<DirectConstants> constants : register(b0, space3);
+
+// The lights that reach into the picture: how many, and then their numbers, rising.
+RWStructuredBuffer<uint> lights_in_view : register(u4, space3);
+
+groupshared uint g_in_view[64];
+
+// One group. In rising order, so that a sum over these lights adds in the order of a sum over all.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void CullByFrustum(uint thread : SV_GroupIndex) {
+  uint count = 0;
+  for (uint first = 0; first < frame.light_count; first += 64) {
+    const uint light = first + thread;
+    g_in_view[thread] =
+        light < frame.light_count && ReachesPicture(SafeReachOf(lights[light])) ? 1 : 0;
+    GroupMemoryBarrierWithGroupSync();
+    if (thread == 0) {
+      for (uint i = 0; i < 64; ++i) {
+        if (g_in_view[i] != 0) lights_in_view[++count] = first + i;
+      }
+    }
+    GroupMemoryBarrierWithGroupSync();
+  }
+  if (thread == 0) lights_in_view[0] = count;
+}
 
 Brdf PixelBrdf(uint2 pixel) {
   return MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, g_material[pixel].x);
@@ -39,7 +66,14 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   const float3 position = g_position[pixel].xyz;
   const float3 geometric_normal = OctahedralDecode(g_normal[pixel]);
   const BrdfView view = PixelView(pixel, brdf);
-  const ClusterRange range = ClusterLights(position);
+  const bool by_frustum = constants.by_frustum != 0;
+  ClusterRange range;
+  if (by_frustum) {
+    range.count = lights_in_view[0];
+    range.first = 0;
+  } else {
+    range = ClusterLights(position);
+  }
 
   // Reads each light's shadow map once: the strongest light of a kind so far stays out of the sum,
   // and is added when a stronger one replaces it.
@@ -47,7 +81,7 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   float3 best_radiance[2] = {float3(0, 0, 0), float3(0, 0, 0)};
   float3 sum = float3(0, 0, 0);
   for (uint i = 0; i < range.count; ++i) {
-    uint light = ClusterLight(range, i);
+    uint light = by_frustum ? lights_in_view[1 + i] : ClusterLight(range, i);
     const uint kind = lights[light].is_spot;
     float3 radiance = LightRadiance(lights[light], brdf, view, position);
     if (!(RadianceLuminance(radiance) > 0.0)) continue;

@@ -33,4 +33,15 @@ void ComputePass::dispatch_groups(rtapi::CommandList& list, const Frame& frame,
   list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
 }
 
+void ComputePass::dispatch_indirect(rtapi::CommandList& list, const Frame& frame,
+                                    const PassConstants& constants,
+                                    const PassArguments& pass_arguments,
+                                    const rtapi::CommandSignature& signature,
+                                    const rtapi::Buffer& arguments) const {
+  frame.bind(list, constants, pass_arguments);
+  list.SetPipelineState(pipeline_);
+  list.ExecuteIndirect(signature, 1, arguments, 0);
+  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+}
+
 }  // namespace kaamos::effects

@@ -31,6 +31,13 @@ class ComputePass {
                        const PassArguments& arguments, std::uint32_t groups_x,
                        std::uint32_t groups_y) const;
 
+  /// The same for as many groups as `arguments` holds at its start when the list executes: three
+  /// words. `signature`: of dispatches alone. The barrier behind it is recorded too.
+  void dispatch_indirect(rtapi::CommandList& list, const Frame& frame,
+                         const PassConstants& constants, const PassArguments& pass_arguments,
+                         const rtapi::CommandSignature& signature,
+                         const rtapi::Buffer& arguments) const;
+
  private:
   rtapi::PipelineState pipeline_;
 };

@@ -149,6 +149,12 @@ rtapi::Status Frame::create_root_signatures(const Device& device) {
   global.Parameters.push_back(RootParameter::Table({{.RangeType = DescriptorRangeType::kSrv,
                                                      .NumDescriptors = kUnboundedDescriptors,
                                                      .RegisterSpace = 4}}));
+  // s0, space3: passes read smooth pictures of their own with it.
+  StaticSamplerDesc linear;
+  linear.Filter = rtapi::Filter::kMinMagMipLinear;
+  linear.AddressU = linear.AddressV = linear.AddressW = TextureAddressMode::kClamp;
+  linear.RegisterSpace = 3;
+  global.StaticSamplers.push_back(linear);
   global.Flags = RootSignatureFlags::kAllowInputAssemblerInputLayout;
   const auto created = device.CreateRootSignature(global);
   if (!created) return created.error();

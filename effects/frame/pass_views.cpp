@@ -28,6 +28,19 @@ rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Buffe
   return device_.CreateShaderResourceView(buffer, view, heap_.GetCPUDescriptorHandle(first_ + t));
 }
 
+rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Texture& texture,
+                                             const rtapi::ShaderResourceViewDesc& view) {
+  bytes_[t] = picture_bytes(texture);
+  return device_.CreateShaderResourceView(texture, view, heap_.GetCPUDescriptorHandle(first_ + t));
+}
+
+rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Texture& texture,
+                                              const rtapi::UnorderedAccessViewDesc& view) {
+  bytes_[kPassShaderResources + u] = picture_bytes(texture);
+  return device_.CreateUnorderedAccessView(
+      texture, view, heap_.GetCPUDescriptorHandle(first_ + kPassShaderResources + u));
+}
+
 rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Texture& texture) {
   bytes_[kPassShaderResources + u] = picture_bytes(texture);
   return device_.CreateUnorderedAccessView(

@@ -42,6 +42,11 @@ class PassViews {
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_shader_resource(std::uint32_t t, const rtapi::Buffer& buffer,
                                     std::uint32_t stride);
+  /// Register t, 0 to 15: part of a texture, or a texture as a cube. It must outlive the
+  /// dispatches.
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
+  rtapi::Status set_shader_resource(std::uint32_t t, const rtapi::Texture& texture,
+                                    const rtapi::ShaderResourceViewDesc& view);
   /// Register u, 0 to 31: mip 0 of a texture. It must outlive the dispatches.
   /// @errors those of rtapi::Device::CreateUnorderedAccessView.
   rtapi::Status set_unordered_access(std::uint32_t u, const rtapi::Texture& texture);
@@ -50,6 +55,10 @@ class PassViews {
   /// @errors those of rtapi::Device::CreateUnorderedAccessView.
   rtapi::Status set_unordered_access(std::uint32_t u, const rtapi::Buffer& buffer,
                                      std::uint32_t stride);
+  /// Register u, 0 to 31: part of a texture. It must outlive the dispatches.
+  /// @errors those of rtapi::Device::CreateUnorderedAccessView.
+  rtapi::Status set_unordered_access(std::uint32_t u, const rtapi::Texture& texture,
+                                     const rtapi::UnorderedAccessViewDesc& view);
   /// Records that zero is written to a picture of floats, which register u holds.
   void clear(rtapi::CommandList& list, std::uint32_t u, const rtapi::Texture& texture) const;
   /// Bytes of the pictures and buffers that the views name.

@@ -143,5 +143,6 @@ void IndirectKeys() {
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
   WriteRayKey(pixel, g_position[pixel].xyz,
               IndirectDirection(tile, pass_constants.first_sample,
-                                OctahedralDecode(g_shading_normal[pixel])));
+                                OctahedralDecode(g_shading_normal[pixel])),
+              RayLength());
 }

@@ -13,8 +13,6 @@ namespace kaamos::effects {
 
 namespace {
 
-constexpr std::uint32_t kMaxLights = kShadowTilesPerRow * 128;
-
 rtapi::Result<rtapi::Buffer> create_words(const rtapi::Device& device, std::uint64_t count,
                                           const char* name) {
   rtapi::BufferDesc desc;
@@ -45,11 +43,11 @@ rtapi::Result<rtapi::ShaderLibrary> lighting_library() {
 rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Frame& frame,
                                          const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                          std::uint32_t light_count) {
-  if (light_count > kMaxLights) {
+  if (light_count > kMaxAtlasLights) {
     return make_error(ErrorId::kLights,
                       "the scene has " + std::to_string(light_count) +
                           " local lights and the atlas of shadow maps has room for " +
-                          std::to_string(kMaxLights) + "; leave some out");
+                          std::to_string(kMaxAtlasLights) + "; leave some out");
   }
   Lighting out;
   out.light_count_ = light_count;

@@ -16,13 +16,14 @@
 namespace kaamos::effects {
 
 /// Mirrors of hit_lighting.hlsli: cells of clusters along each axis and in all, lights that a
-/// cluster holds, the count of one that has more, and shadow maps in a row of the atlas.
+/// cluster holds, the count of one that has more, shadow maps in a row of the atlas and in all.
 ///@{
 inline constexpr std::uint32_t kClusterCells = 32;
 inline constexpr std::uint32_t kClusterCount = kClusterCells * kClusterCells * kClusterCells;
 inline constexpr std::uint32_t kClusterCapacity = 64;
 inline constexpr std::uint32_t kClusterOverflow = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kShadowTilesPerRow = 32;
+inline constexpr std::uint32_t kMaxAtlasLights = kShadowTilesPerRow * 128;
 ///@}
 
 /// The shaders that are built into the program.

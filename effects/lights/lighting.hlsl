@@ -3,34 +3,12 @@
 // maps, which rays from the lights render from the same top level that all other rays see.
 #include "alpha_test.hlsli"
 #include "hit_lighting.hlsli"
+#include "light_reach.hlsli"
 
 // Squared distance from a box to a point; 0 inside.
 float DistanceSquared(float3 low, float3 high, float3 p) {
   const float3 d = max(max(low - p, p - high), float3(0, 0, 0));
   return dot(d, d);
-}
-
-// A map's cone ends at this cosine; the light's own cone may be wider. [light_constants.cpp]
-static const float kWidestMap = 0.05;
-
-struct Sphere {
-  float3 center;
-  float radius;
-};
-
-// The smallest sphere around all that a light reaches. A spot's cone ends in a cap. If the cone is
-// narrow, the sphere passes through its tip and the rim of the cap; if it is wide, the rim is the
-// sphere's equator.
-Sphere ReachOf(LightConstants light) {
-  Sphere reach;
-  reach.center = light.position;
-  reach.radius = light.range;
-  if (light.is_spot == 0 || light.cos_outer <= kWidestMap) return reach;
-  const bool is_narrow = light.cos_outer > 0.70710678;
-  const float along = is_narrow ? 0.5 / light.cos_outer : light.cos_outer;
-  reach.center += light.direction * (along * light.range);
-  reach.radius *= is_narrow ? along : sqrt(1.0 - light.cos_outer * light.cos_outer);
-  return reach;
 }
 
 // Whether a sphere lies beside a spot's cone, that is, whether its centre is further from the
@@ -56,10 +34,10 @@ void BuildClusters(uint3 id : SV_DispatchThreadID) {
   uint count = 0;
   for (uint i = 0; i < frame.light_count; ++i) {
     const LightConstants light = lights[i];
-    const Sphere reach = ReachOf(light);
-    // A margin for the rounding of positions and bounds.
-    const float radius = reach.radius * 1.0001 + 1e-4 * length(reach.center);
-    if (DistanceSquared(low, high, ClusterSpace(reach.center)) > radius * radius) continue;
+    const Sphere reach = SafeReachOf(light);
+    if (DistanceSquared(low, high, ClusterSpace(reach.center)) > reach.radius * reach.radius) {
+      continue;
+    }
     if (light.is_spot != 0 && light.cos_outer > kWidestMap &&
         IsBesideCone(ClusterSpace(light.position), ClusterSpace(light.direction), light.cos_outer,
                      0.5 * (low + high), 0.5 * length(high - low))) {

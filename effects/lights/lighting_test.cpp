@@ -17,6 +17,7 @@
 #include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lights/light_constants.h"
+#include "effects/scene/light_forest.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/shapes.h"
 
@@ -49,9 +50,10 @@ struct Stage {
     queue.ExecuteAndWait(list).value();
   }
 
-  FloatImage light(bool leave_out_strongest = false) {
+  FloatImage light(bool leave_out_strongest = false,
+                   LightCulling culling = LightCulling::kClusters) {
     rtapi::CommandList list = device.CreateCommandList().value();
-    direct.dispatch(list, frame, leave_out_strongest);
+    direct.dispatch(list, frame, leave_out_strongest, culling);
     queue.ExecuteAndWait(list).value();
     return read_picture(device, queue, direct.direct()).value();
   }
@@ -270,6 +272,51 @@ TEST(Clusters, ThatOverflowLoseNothing) {
     expected += single.values[i];
   }
   EXPECT_NEAR(sum / expected, 1, 0.05);  // the lamps are spread over two metres
+}
+
+// The same bits as with clusters, and the same strongest lights, though most lights are never
+// looked at: those whose reach lies beside or behind the camera's frustum. [effects-spec A22,
+// B2.12]
+TEST(FrustumCulling, LosesNoLightOfThePicture) {
+  for (const bool leave_out_strongest : {false, true}) {
+    Stage stage(make_light_forest({.lights = 300}));
+    const FloatImage clustered = stage.light(leave_out_strongest);
+    const FloatImage strongest =
+        read_picture(stage.device, stage.queue, stage.direct.strongest()).value();
+    const FloatImage culled = stage.light(leave_out_strongest, LightCulling::kFrustum);
+    EXPECT_EQ(clustered.values, culled.values);
+    EXPECT_EQ(strongest.values,
+              read_picture(stage.device, stage.queue, stage.direct.strongest()).value().values);
+    EXPECT_GT(*std::max_element(culled.values.begin(), culled.values.end()), 0.1f);
+    const std::vector<std::byte> bytes =
+        rtapi::ReadbackBuffer(stage.device, stage.queue, stage.direct.lights_in_view()).value();
+    std::vector<std::uint32_t> in_view(bytes.size() / 4);
+    std::memcpy(in_view.data(), bytes.data(), bytes.size());
+    const std::uint32_t count = in_view[0];
+    EXPECT_GT(count, 50u);
+    EXPECT_LT(count, 280u);
+    EXPECT_TRUE(std::is_sorted(in_view.begin() + 1, in_view.begin() + 1 + count));
+  }
+}
+
+// Lights straight ahead and straight behind.
+TEST(FrustumCulling, LeavesOutWhatIsBehind) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  const Camera& camera = scene.cameras.front();
+  const glm::dvec3 eye = camera.position(), ahead = camera.forward();
+  const glm::dvec3 side(camera.camera_to_world[0]);
+  scene.lights = {point_light(eye + 5.0 * ahead, 1), point_light(eye - 5.0 * ahead, 4.9f),
+                  point_light(eye - 5.0 * ahead, 5.2f), point_light(eye + 5.0 * side, 2),
+                  point_light(eye + 2.0 * ahead + 40.0 * side, 1)};
+  Stage stage(scene);
+  stage.light(false, LightCulling::kFrustum);
+  const std::vector<std::byte> bytes =
+      rtapi::ReadbackBuffer(stage.device, stage.queue, stage.direct.lights_in_view()).value();
+  std::uint32_t in_view[3];
+  std::memcpy(in_view, bytes.data(), sizeof(in_view));
+  EXPECT_EQ(in_view[0], 2u);
+  EXPECT_EQ(in_view[1], 0u);
+  EXPECT_EQ(in_view[2], 2u);
 }
 
 // A lamp over a sphere over a plane: the shadow on the plane is a disk of known radius.

@@ -44,12 +44,16 @@ class LineSweepAoPass : public EffectPass {
   LineSweepAo passes_;
 };
 
+constexpr const char* kOneLayer =
+    "what is outside of the picture or behind something; things seem to go on behind what is seen";
+
 // A row whose signal is called `layer`.
 Effect occlusion_row(const char* name, const char* about, const char* layer) {
   Effect row = {.name = name, .about = about};
   row.signals = {{.name = layer, .channels = 1, .is_sum = false, .part = &FrameParts::ambient}};
   row.replaced_by = "gi";
   row.alternative_to = "ao";
+  row.misses = kOneLayer;
   return row;
 }
 

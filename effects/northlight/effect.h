@@ -87,6 +87,9 @@ struct EffectNeeds {
   bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
   bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3
   bool motion = false;        ///< only frames of a sequence have it
+  /// The frame's radiance without reflections, in kRadiance; and the finished radiance of the frame
+  /// before, u19 of space3 [KeptRadiance]. Such effects come behind all others and their denoising.
+  bool radiance = false;
   /// The strongest point and spot light of each pixel, u0 of space3. Main lighting leaves them out,
   /// and adds them with the effect's signal as their visibility. One effect at most.
   bool strongest_lights = false;

@@ -59,7 +59,7 @@ rtapi::Status FrameRenderer::begin_frame(const FrameMoment& moment) {
   moment_ = moment;
   statistics_.clear();
   has_begun_ = true;
-  has_surfaces_ = false;
+  has_surfaces_ = has_effects_ = false;
   const glm::dvec3 origin = moment.camera.position();
   if (structures_) {
     const double start = clock_ms_();
@@ -209,7 +209,7 @@ void FrameRenderer::record_curvature(rtapi::CommandList& list) const {
 
 void FrameRenderer::record_lights(rtapi::CommandList& list) const {
   lighting_->update(list, frame_);
-  if (direct_) direct_->dispatch(list, frame_, has_strongest_effect());
+  if (direct_) direct_->dispatch(list, frame_, has_strongest_effect(), settings_.light_culling);
 }
 
 void FrameRenderer::record_strongest_lights(rtapi::CommandList& list) const {
@@ -235,6 +235,7 @@ void FrameRenderer::record_compose(rtapi::CommandList& list) const {
     effect->compose->dispatch(list, frame_, {}, arguments(*effect, effect->settings),
                               frame_.width(), frame_.height());
   }
+  if (kept_) kept_->record(list, frame_);
 }
 
 std::uint64_t FrameRenderer::compose_bytes() const {
@@ -254,12 +255,24 @@ rtapi::Result<Outcome> FrameRenderer::finish_whole(const Progress& progress) {
       !s) {
     return s.error();
   }
+  if (const auto s = run_effects(false, progress); !is_done(s)) return s;
+  if (!compose_unreflected_) return Outcome::kDone;
+  if (const auto s = run_compute("composite without reflections", compose_unreflected_->bytes(),
+                                 [&](auto& list) { record_unreflected(list); });
+      !s) {
+    return s.error();
+  }
+  return run_effects(true, progress);
+}
+
+rtapi::Result<Outcome> FrameRenderer::run_effects(bool late, const Progress& progress) {
   for (const auto& effect : active_) {
-    if (!has_passes(*effect->row) || comes_first(*effect)) continue;
+    if (!has_passes(*effect->row) || comes_first(*effect) || is_late(*effect) != late) continue;
     const auto s = run_effect(*effect, progress);
     if (!is_done(s)) return s;
   }
   for (SignalFilters::Filter& filter : filters_.filters()) {
+    if (filter.is_late != late) continue;
     const auto s = run_compute(filter.name, filter.bytes(),
                                [&](auto& list) { filters_.record(list, frame_, filter); });
     if (!s) return s.error();
@@ -274,6 +287,9 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
   if (settings_.whole_frame) {
     gpu_volume_.set_origin(moment_.camera.position());
     if (moment_.cut) filters_.reset();
+    if (moment_.cut && kept_) {
+      if (const auto s = forget_radiance(); !s) return s.error();
+    }
   }
   for (const auto& effect : active_) set_samples(*effect, effect->settings.samples);
   if (const auto s = run_gbuffer(progress); !is_done(s)) return s;
@@ -292,7 +308,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
   if (settings_.whole_frame) {
     if (const auto s = finish_whole(progress); !is_done(s)) return s;
   }
-  has_surfaces_ = true;
+  has_surfaces_ = has_effects_ = true;
   if (const auto s =
           run_compute("composite", compose_bytes(), [&](auto& list) { record_compose(list); });
       !s) {

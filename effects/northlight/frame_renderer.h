@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "effects/composite/composite.h"
+#include "effects/composite/kept_radiance.h"
 #include "effects/direct/direct.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/outcome.h"
@@ -170,8 +171,8 @@ class FrameRenderer {
   void record(rtapi::CommandList& list, const std::string& part, const PartOptions& options);
   /// Records the sorting of an effect's rays by settings().order.
   void record_sort(rtapi::CommandList& list, const std::string& effect) const;
-  /// Records the denoising of all signals.
-  void record_filters(rtapi::CommandList& list) { filters_.record_all(list, frame_); }
+  /// Records the denoising of all signals that is not recorded with the parts already.
+  void record_filters(rtapi::CommandList& list);
   /// Records what puts the frame together.
   void record_compose(rtapi::CommandList& list) const;
   /// The strongest lights, added with the visibility that was summed up last.
@@ -274,10 +275,18 @@ class FrameRenderer {
   rtapi::Status run_compute(const std::string& name, std::uint64_t bytes,
                             const std::function<void(rtapi::CommandList&)>& record);
   rtapi::Result<Outcome> finish_whole(const Progress& progress);
+  rtapi::Result<Outcome> run_effects(bool late, const Progress& progress);
   void record_curvature(rtapi::CommandList& list) const;
   void record_lights(rtapi::CommandList& list) const;
   std::uint64_t bytes_of(const Active& effect) const;
   std::uint64_t compose_bytes() const;
+  // frame_renderer_radiance.cpp
+  rtapi::Status create_radiance();
+  rtapi::Status add_radiance(PassViews& views) const;
+  rtapi::Status forget_radiance();
+  rtapi::Status find_radiance();
+  void record_unreflected(rtapi::CommandList& list) const;
+  void record_early(rtapi::CommandList& list);
   // frame_renderer_run.cpp
   void set_samples(Active& effect, std::uint32_t samples);
   rtapi::Result<Active*> runnable(const std::string& effect, const EffectSettings& settings);
@@ -293,6 +302,8 @@ class FrameRenderer {
   std::vector<Layer> find_layers() const;
 
   const Active* active(const std::string& effect) const;
+  // Reads the radiance that all others make.
+  static bool is_late(const Active& effect) { return effect.row->needs.radiance; }
   // Main lighting is no effect with passes.
   static bool has_passes(const Effect& effect) { return effect.pass || effect.make; }
   // Effects whose sums every frame has come before local lights, the others after them.
@@ -316,8 +327,10 @@ class FrameRenderer {
   std::optional<PassStatistics> set_up_;
   std::optional<BakeStatistics> bake_;
   std::vector<std::string> left_out_;
-  bool has_begun_ = false;     // begin_frame was called since the last frame
-  bool has_surfaces_ = false;  // the G-buffer and the lights of this frame are there
+  bool has_begun_ = false;      // begin_frame was called since the last frame
+  bool has_surfaces_ = false;   // the G-buffer and the lights of this frame are there
+  bool has_effects_ = false;    // and all that its radiance is put together from
+  bool is_early_done_ = false;  // what late parts read is recorded
   // Made by prepare.
   bool is_prepared_ = false;
   bool has_own_libraries_ = false;
@@ -332,6 +345,8 @@ class FrameRenderer {
   std::vector<std::unique_ptr<Active>> active_;
   SignalFilters filters_;
   CompositePass composite_;
+  std::optional<ComposePass> compose_unreflected_;  // for late effects
+  std::optional<KeptRadiance> kept_;                // likewise
   std::optional<ComposePass> compose_;
   std::map<std::vector<std::string>, ComposePass> compose_some_;  // by their signals
   rtapi::Texture black_;  // stands for indirect light that is left out

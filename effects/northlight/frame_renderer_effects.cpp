@@ -68,6 +68,9 @@ rtapi::Status FrameRenderer::create_views(Active& effect, const GpuVolume& volum
   if (needs.lights) {
     if (const auto s = lighting_->bind(*views); !s) return s;
   }
+  if (needs.radiance) {
+    if (const auto s = add_radiance(*views); !s) return s;
+  }
   return needs.volume ? volume.bind(*views) : rtapi::Status{};
 }
 

@@ -156,11 +156,13 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   filters_ = {};
   compose_.reset();
   compose_some_.clear();
+  compose_unreflected_.reset();
+  kept_.reset();
   taa_.reset();
   left_out_.clear();
   set_up_.reset();
   bake_.reset();
-  has_surfaces_ = false;
+  has_surfaces_ = has_effects_ = is_early_done_ = false;
   const std::vector<EffectLibrary> wanted = frame_libraries(settings_, effects_);
   if (!has_own_libraries_) {
     auto loaded = load_libraries(wanted);
@@ -206,6 +208,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
 rtapi::Result<Outcome> FrameRenderer::prepare_whole(const Progress& progress) {
   if (const auto s = create_lighting(); !s) return s.error();
   if (const auto s = create_volume(progress); !is_done(s)) return s;
+  if (const auto s = create_radiance(); !s) return s.error();
   for (const auto& effect : active_) {
     if (const auto s = create_effect(*effect); !s) return s.error();
   }
@@ -298,7 +301,7 @@ rtapi::Result<Outcome> FrameRenderer::bake_indirect(IndirectVolume& volume,
 rtapi::Status FrameRenderer::add_signal(SignalFilters& to, const Active& effect,
                                         std::size_t index) const {
   const EffectSignal& signal = effect.row->signals[index];
-  SignalSums sums = {effect.pictures[index], effect.sharpness[index], {}};
+  SignalSums sums = {effect.pictures[index], effect.sharpness[index], {}, is_late(effect)};
   if (effect.row->needs.strongest_lights) sums.lights = direct_->strongest();
   return to.add(device_, frame_, signal, sums, effect.settings);
 }
@@ -339,6 +342,12 @@ rtapi::Status FrameRenderer::create_compose() {
       ComposePass::create(device_, frame_, libraries_.at("composite/composite"), parts);
   if (!compose) return compose.error();
   compose_ = *compose;
+  if (!kept_) return {};
+  parts.reflection = nullptr;
+  const auto unreflected =
+      ComposePass::create(device_, frame_, libraries_.at("composite/composite"), parts);
+  if (!unreflected) return unreflected.error();
+  compose_unreflected_ = *unreflected;
   return {};
 }
 

@@ -44,6 +44,9 @@ rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string&
         "effect \"" + name +
             "\" cannot be run: it is not chosen, has no passes, or the scene has no use for it");
   }
+  if (is_late(*effect)) {
+    if (const auto s = find_radiance(); !s) return s.error();
+  }
   if (!settings.trace_only || effect->trace_views) return effect;
   if (!effect->row->trace)
     return make_error(ErrorId::kFrameRenderer,
@@ -176,8 +179,11 @@ std::vector<std::string> FrameRenderer::parts() const {
     if (comes_first(*effect)) out.push_back(effect->row->name);
   }
   if (settings_.whole_frame) out.push_back("lights");
-  for (const auto& effect : active_) {
-    if (has_passes(*effect->row) && !comes_first(*effect)) out.push_back(effect->row->name);
+  for (const bool late : {false, true}) {
+    for (const auto& effect : active_) {
+      if (!has_passes(*effect->row) || comes_first(*effect) || is_late(*effect) != late) continue;
+      out.push_back(effect->row->name);
+    }
   }
   return out;
 }
@@ -190,6 +196,7 @@ void FrameRenderer::record(rtapi::CommandList& list, const std::string& part,
     record_lights(list);
   } else if (auto* effect = const_cast<Active*>(active(part)); effect && has_passes(*effect->row)) {
     const std::uint32_t samples = options.samples > 0 ? options.samples : effect->settings.samples;
+    if (is_late(*effect)) record_early(list);
     record_pass(list, *effect, effect->settings,
                 {.first_sample = options.first_sample,
                  .sample_count = samples,

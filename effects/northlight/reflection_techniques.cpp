@@ -1,10 +1,136 @@
 // SPDX-License-Identifier: MIT
+#include <string>
+#include <utility>
+
+#include "effects/blurred_reflections/blurred_reflections.h"
+#include "effects/environment_map/environment_map.h"
+#include "effects/hybrid_reflections/hybrid_reflections.h"
 #include "effects/northlight/techniques.h"
+#include "effects/planar_reflections/planar_reflections.h"
+#include "effects/screen_space_reflections/screen_mask.h"
+#include "effects/screen_space_reflections/screen_reflections.h"
+#include "effects/stochastic_reflections/stochastic_reflections.h"
 
 namespace kaamos::effects {
 
+namespace {
+
+// What all of them share: the signal, its place in the composition, and what it replaces.
+Effect row(std::string name, std::string about, const std::string& signal, bool is_sum) {
+  Effect effect;
+  effect.name = std::move(name);
+  effect.about = std::move(about);
+  effect.signals = {{.name = signal,
+                     .is_sum = is_sum,
+                     .of_lobe = is_sum,
+                     .is_light = true,
+                     .part = &FrameParts::reflection}};
+  effect.more_libraries = {{"environment_map/environment_bake", environment_bake_library}};
+  effect.needs = {.lights = true, .volume = true};
+  effect.alternative_to = "reflections";
+  if (is_sum) effect.samples_option = effect.name + "-samples";
+  return effect;
+}
+
+// One that finds hits in the picture, and says where.
+Effect screen_row(std::string name, std::string about, const std::string& signal) {
+  Effect effect = row(std::move(name), std::move(about), signal, true);
+  effect.signals.push_back({.name = signal + "_hits", .channels = 4, .output = 1, .is_sum = false});
+  effect.needs.radiance = true;
+  effect.misses = "what is outside of the picture, behind something or seen from behind";
+  return effect;
+}
+
+// Three marches that differ by their constants alone.
+Effect march_row(std::string name, std::string about, const std::string& signal,
+                 const ScreenReflectionConstants& constants) {
+  Effect effect = screen_row(std::move(name), std::move(about), signal);
+  effect.library = {"screen_space_reflections/screen_reflections", screen_reflections_library};
+  effect.make = make_screen_reflections;
+  effect.defaults.set_constants(constants);
+  return effect;
+}
+
+Effect masked_row() {
+  Effect effect =
+      screen_row("ssr-masked", "screen-space reflections, for pixels alone that may find something",
+                 "ssr_masked");
+  effect.library = {"screen_space_reflections/screen_mask", screen_mask_library};
+  effect.make = make_masked_reflections;
+  effect.defaults.set_constants(ScreenMaskConstants{});
+  return effect;
+}
+
+Effect stochastic_row() {
+  Effect effect = row("ssr-stochastic", "screen-space reflections, rays shared by neighbours",
+                      "ssr_stochastic", true);
+  effect.library = {"stochastic_reflections/stochastic_reflections",
+                    stochastic_reflections_library};
+  effect.make = make_stochastic_reflections;
+  effect.misses = "what ssr misses; light leaks about corners, where neighbours see something else";
+  effect.defaults.set_constants(StochasticConstants{});
+  effect.needs.radiance = true;
+  return effect;
+}
+
+Effect blurred_row() {
+  Effect effect =
+      row("ssr-blurred", "screen-space mirrors, blurred by roughness", "ssr_blurred", false);
+  effect.library = {"blurred_reflections/blurred_reflections", blurred_reflections_library};
+  effect.make = make_blurred_reflections;
+  effect.misses = "what ssr misses; what touches a rough surface is as blurred as what is far away";
+  effect.defaults.set_constants(BlurredConstants{});
+  effect.needs.radiance = true;
+  return effect;
+}
+
+Effect hybrid_row() {
+  Effect effect =
+      screen_row("hybrid-reflections",
+                 "reflections from the picture where it leaves no doubt, else by rays", "hybrid");
+  effect.library = {"hybrid_reflections/hybrid_reflections", hybrid_reflections_library};
+  effect.more_libraries.clear();
+  effect.make = make_hybrid_reflections;
+  effect.defaults.set_constants(default_hybrid_constants());
+  effect.samples_option = "hybrid-samples";
+  effect.misses = "highlights and mirrors of what is reflected are those that the camera sees";
+  return effect;
+}
+
+Effect environment_row() {
+  Effect effect = row("env-map", "reflections from an environment map", "env_map", false);
+  effect.library = {"environment_map/environment_reflections", environment_reflections_library};
+  effect.make = make_environment_reflections;
+  effect.misses = "what moves; everything is seen as from the map's place";
+  return effect;
+}
+
+Effect planar_row() {
+  Effect effect =
+      row("planar", "reflections of flat mirrors, from the mirrored scene", "planar", false);
+  effect.library = {"planar_reflections/planar_reflections", planar_reflections_library};
+  effect.make = make_planar_reflections;
+  effect.misses = "mirrors that are not flat show an environment map";
+  effect.defaults.set_constants(PlanarConstants{});
+  return effect;
+}
+
+}  // namespace
+
 std::vector<Effect> reflection_techniques() {
-  return {};
+  return {
+      march_row("ssr", "screen-space reflections, every pixel of a ray", "ssr", march_of_pixels()),
+      march_row("ssr-metres", "screen-space reflections, points along a ray", "ssr_metres",
+                march_of_metres()),
+      march_row("ssr-line", "screen-space reflections, a few samples up to the picture's edge",
+                "ssr_line", march_of_line()),
+      masked_row(),
+      stochastic_row(),
+      blurred_row(),
+      hybrid_row(),
+      environment_row(),
+      planar_row(),
+  };
 }
 
 }  // namespace kaamos::effects

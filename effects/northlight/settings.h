@@ -46,8 +46,9 @@ struct FrameSettings {
   /// Signals are denoised and put together with local lights and glass. false: only ambient
   /// occlusion and the sun, as they are; an effect with pictures of its own is then an error.
   bool whole_frame = true;
-  DenoiseDesc denoise;    ///< of a whole frame
-  VolumeSettings volume;  ///< for effects that read it
+  DenoiseDesc denoise;                                   ///< of a whole frame
+  VolumeSettings volume;                                 ///< for effects that read it
+  LightCulling light_culling = LightCulling::kClusters;  ///< of main lighting; the same picture
   /// Of the strongest lights' shadow maps and contact shadows.
   ContactCombination contact = ContactCombination::kProduct;
   bool taa = false;     ///< antialiasing over the frames of a sequence

@@ -46,9 +46,19 @@ rtapi::Status SignalFilters::add(const rtapi::Device& device, const Frame& frame
 
 rtapi::Status SignalFilters::create(const rtapi::Device& device, const Frame& frame,
                                     const DenoiseLibraries& libraries, const DenoiseDesc& desc) {
+  for (const bool late : {false, true}) {
+    if (const auto s = create_some(device, frame, libraries, desc, late); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status SignalFilters::create_some(const rtapi::Device& device, const Frame& frame,
+                                         const DenoiseLibraries& libraries, const DenoiseDesc& desc,
+                                         bool late) {
   std::vector<std::size_t> alike, visibilities;
   std::size_t channels = 0;  // of the visibilities
   for (std::size_t i = 0; i < signals_.size(); ++i) {
+    if (signals_[i].sums.is_late != late) continue;
     if (is_temporal(desc.method) && signals_[i].sharpness) {
       if (channels + signals_[i].channels > kMostVisibilityChannels) {
         const auto s = create_visibility_filter(device, frame, libraries, desc, visibilities);
@@ -91,6 +101,7 @@ rtapi::Status SignalFilters::create_filter(const rtapi::Device& device, const Fr
                                            const std::vector<std::size_t>& signals) {
   Filter filter;
   filter.name = filter_name(signals);
+  filter.is_late = signals_[signals[0]].sums.is_late;
   filter.signals = signals;
   std::vector<Denoiser::Signal> inputs;
   for (const std::size_t i : signals) {
@@ -118,6 +129,7 @@ rtapi::Status SignalFilters::create_visibility_filter(const rtapi::Device& devic
                                                       const std::vector<std::size_t>& signals) {
   Filter filter;
   filter.name = filter_name(signals);
+  filter.is_late = signals_[signals[0]].sums.is_late;
   filter.signals = signals;
   std::vector<VisibilityDenoiser::Signal> inputs;
   for (const std::size_t i : signals) {
@@ -159,6 +171,12 @@ void SignalFilters::record(rtapi::CommandList& list, const Frame& frame, Filter&
 
 void SignalFilters::record_all(rtapi::CommandList& list, const Frame& frame) {
   for (Filter& filter : filters_) record(list, frame, filter);
+}
+
+void SignalFilters::record_some(rtapi::CommandList& list, const Frame& frame, bool late) {
+  for (Filter& filter : filters_) {
+    if (filter.is_late == late) record(list, frame, filter);
+  }
 }
 
 void SignalFilters::reset() {

@@ -23,6 +23,7 @@ struct SignalSums {
   rtapi::Texture sum;        ///< of light or visibility
   rtapi::Texture sharpness;  ///< of visibility: EffectSignal::is_visibility; else null
   rtapi::Texture lights;     ///< VisibilityDenoiser::Signal::lights; null: none
+  bool is_late = false;      ///< its effect reads what others' denoised signals make
 };
 
 /// The signals of one frame and the denoisers that they share.
@@ -49,6 +50,7 @@ class SignalFilters {
   /// A denoiser and what it filters.
   struct Filter {
     std::string name;                              ///< "denoise 5 signals"
+    bool is_late = false;                          ///< of signals that are
     std::optional<Denoiser> denoiser;              ///< of all of them, or
     std::optional<VisibilityDenoiser> visibility;  ///< this one
     std::vector<std::size_t> signals;              ///< which of signals()
@@ -72,6 +74,8 @@ class SignalFilters {
   void record(rtapi::CommandList& list, const Frame& frame, Filter& filter) const;
   /// Records all filters, one after the other.
   void record_all(rtapi::CommandList& list, const Frame& frame);
+  /// The same for those of late signals, or of all others.
+  void record_some(rtapi::CommandList& list, const Frame& frame, bool late);
   /// Histories begin anew, as after a cut.
   void reset();
 
@@ -91,6 +95,8 @@ class SignalFilters {
   }
 
  private:
+  rtapi::Status create_some(const rtapi::Device& device, const Frame& frame,
+                            const DenoiseLibraries& libraries, const DenoiseDesc& desc, bool late);
   rtapi::Status create_filter(const rtapi::Device& device, const Frame& frame,
                               const DenoiseLibraries& libraries, const DenoiseDesc& desc,
                               const std::vector<std::size_t>& signals);

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint32_t kTileWidth = 64;
 constexpr std::uint32_t kTileHeight = 128;
 constexpr std::uint32_t kLargestSide = 65535;
-constexpr std::uint32_t kDirectionBits = 8;
+// Where the bits of a key lie. [ray_key.hlsli]
+constexpr std::uint32_t kOriginShift = 8, kEndShift = 16;
 
 /// Mirrors SortConstants in ray_order.hlsl.
 struct SortConstants {
@@ -66,7 +67,7 @@ rtapi::Result<RaySorter> RaySorter::create(const Device& device, const Frame& fr
   RaySorter sorter;
   for (const auto& [buffer, name] :
        {std::pair{&sorter.keys_, "ray keys"}, std::pair{&sorter.order_, "ray order"},
-        std::pair{&sorter.between_, "ray order by direction"}}) {
+        std::pair{&sorter.between_, "ray order of the first pass"}}) {
     auto created = create_words(device, frame, name);
     if (!created) return created.error();
     *buffer = std::move(*created);
@@ -108,9 +109,9 @@ void RaySorter::sort(CommandList& list, const Frame& frame, RayOrder order) cons
     record(once_, 0, 1);
   } else {
     // The sort is stable: pixels with equal keys keep the order of the previous pass.
-    record(first_, 0, 1);
+    record(first_, order == RayOrder::kTermination ? kEndShift : 0, 1);
     change(between_, kWrite, kRead);
-    record(second_, kDirectionBits, 0);
+    record(second_, kOriginShift, 0);
     change(between_, kRead, kWrite);
   }
   change(order_, kWrite, kRead);

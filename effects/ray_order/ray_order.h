@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The order in which a dispatch takes the pixels of a frame: by the direction or origin of their
-/// rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21, B1.5]
+/// The order in which a dispatch takes the pixels of a frame: by the direction, origin or end of
+/// their rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21,
+/// B1.5]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -14,9 +15,10 @@ namespace kaamos::effects {
 
 /// What rays are sorted by.
 enum class RayOrder : std::uint8_t {
-  kPixels,     ///< as they lie in the picture
-  kDirection,  ///< 256 octahedral cells of direction
-  kOrigin,     ///< cells of half a metre, then direction
+  kPixels,       ///< as they lie in the picture
+  kDirection,    ///< 256 octahedral cells of direction
+  kOrigin,       ///< cells of half a metre, then direction
+  kTermination,  ///< cells of half a metre, then cells of where the ray is thought to end
 };
 
 /// The shaders that are built into the program.

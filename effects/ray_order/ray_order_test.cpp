@@ -103,7 +103,7 @@ struct Bench {
     const auto written = std::count_if(plain.values.begin(), plain.values.end(),
                                        [](float value) { return value != 0; });
     EXPECT_GT(written, kWidth * kHeight / 4) << desc.name << " gives next to nothing";
-    for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin}) {
+    for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin, RayOrder::kTermination}) {
       const FloatImage sorted = run(desc, constants, of_frame, order, sorter);
       EXPECT_EQ(0, std::memcmp(plain.values.data(), sorted.values.data(),
                                plain.values.size() * sizeof(float)))
@@ -144,7 +144,7 @@ TEST(RayOrder, CheckedModeFindsNothing) {
   Bench bench(desc);
   const RaySorter sorter =
       RaySorter::create(bench.device, bench.frame, ray_order_library().value()).value();
-  for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin}) {
+  for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin, RayOrder::kTermination}) {
     bench.run(ambient_occlusion_pass(ambient_occlusion_library().value()), kNone,
               kAmbientOcclusionSum, order, sorter);
   }
@@ -194,9 +194,14 @@ TEST(RayOrder, TilesAreSortedAndWhole) {
   Bench bench({});
   std::vector<std::uint32_t> keys(kWidth * kHeight);
   std::uint32_t state = 1;
-  for (std::uint32_t& key : keys) key = (state = state * 1664525u + 1013904223u) >> 16;
-  for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin}) {
-    const std::uint32_t mask = order == RayOrder::kDirection ? 0xFF : 0xFFFF;
+  for (std::uint32_t& key : keys) key = (state = state * 1664525u + 1013904223u) >> 8;
+  for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin, RayOrder::kTermination}) {
+    // Direction; origin and direction; origin and end.
+    const auto rank = [&](std::uint32_t key) {
+      if (order == RayOrder::kDirection) return key & 0xFF;
+      if (order == RayOrder::kOrigin) return key & 0xFFFF;
+      return (key & 0xFF00) | (key >> 16);
+    };
     const std::vector<std::uint32_t> pixels = sorted_pixels(bench, keys, order);
     std::set<std::uint32_t> seen(pixels.begin(), pixels.end());
     EXPECT_EQ(seen.size(), keys.size()) << "each pixel once";
@@ -207,7 +212,7 @@ TEST(RayOrder, TilesAreSortedAndWhole) {
           const std::uint32_t x = pixel & 0xFFFF;
           const std::uint32_t y = pixel >> 16;
           ASSERT_TRUE(x / 64 * 64 == left && y / 128 * 128 == top) << x << ", " << y;
-          const std::uint32_t key = keys[y * kWidth + x] & mask;
+          const std::uint32_t key = rank(keys[y * kWidth + x]);
           ASSERT_GE(key, before) << "tile at " << left << ", " << top;
           before = key;
         }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Opaque reflections: one ray per sample, in a direction drawn from the GGX facets that the camera
 // sees, shaded where it hits. [effects-spec B4.10; Control]
-#include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
-#include "sampling.hlsli"
+#include "reflection_shading.hlsli"
 
 // Sums over samples: radiance / ReflectionScale, and the length of the ray (0: no ray).
 RWTexture2D<float4> reflection : register(u0, space3);
@@ -20,7 +19,7 @@ struct ReflectionConstants {
 };
 ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
-static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
+bool IsSunAtHits() { return constants.sun_at_hits != 0; }
 
 // What is done about fireflies. [effects/reflections/reflections.h]
 static const uint kKeep = 0;
@@ -30,40 +29,6 @@ static const float kTooBright = 2.0;  // times white [GDC 2018 talk]
 // Added to the frame's seed, so that pilots and further rays are independent of the samples.
 static const uint kPilotSeed = 0x9E3779B9;
 static const uint kFurtherSeed = 0x85EBCA6B;
-// Above this roughness reflections are noisy and filtered anyway, so reading a single cell of the
-// volume per ray adds little noise. In a mirror it would show. The value lies between two of the
-// 8-bit values in g_material (53.55 of 255), so rounding never decides.
-static const float kNoisyRoughness = 0.21;
-
-struct ReflectionPayload {
-  float3 radiance;
-  float distance;        // of the hit, metres; negative: a miss
-  float3 volume_jitter;  // of the ray's reads of the volume [VolumeTowards]
-};
-
-[shader("miss")]
-void ReflectionMiss(inout ReflectionPayload payload) {
-  // At the end of the ray: the volume holds the light that arrives from beyond.
-  const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-  payload.radiance = VolumeRadiance(end, payload.volume_jitter, WorldRayDirection());
-  payload.distance = -1.0;
-}
-
-[shader("anyhit")]
-void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  if (IsOpenAt(hit.barycentrics)) {
-    IgnoreHit();
-  }
-}
-
-[shader("closesthit")]
-void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
-  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     IndirectAtHit(surface, payload.volume_jitter, -WorldRayDirection());
-  payload.distance = RayTCurrent();
-}
-
 // Traces the rays without any shading, to measure what shading costs.
 [shader("miss")]
 void ReflectionTraceMiss(inout ReflectionPayload payload) {
@@ -75,46 +40,12 @@ void ReflectionTraceHit(inout ReflectionPayload payload, in BuiltInTriangleInter
   payload.distance = RayTCurrent();
 }
 
-// Rough surfaces blur what is far away, and the volume gives such a blur too, so their rays can be
-// shorter. [Control: 200 m to 3 m]
-float ReflectionLength(float roughness, float u) {
-  const float longest = Contain(constants.longest, kLongestRay);
-  if (constants.single_length != 0 || longest == 0.0) return longest;
-  const float ratio = clamp(Contain(constants.shortest, kLongestRay) / longest, 1e-30, 1e30);
-  const float length = Contain(longest * pow(ratio, saturate(roughness)), kLongestRay);
-  return length * (1.0 - Contain(constants.length_jitter, 1.0) * u);
-}
-
-// What the rays of a pixel have in common.
-struct ReflectionPoint {
-  float3 origin;
-  float3 normal;
-  float3 shading_normal;
-  float roughness;
-  Brdf brdf;
-  float cosine_view;
-  float3 local_view;
-};
-
-ReflectionPoint LoadReflectionPoint(uint2 pixel) {
-  const float4 position = g_position[pixel];
-  const float3 view = normalize(-position.xyz);
-  ReflectionPoint surface;
-  surface.normal = OctahedralDecode(g_normal[pixel]);
-  surface.shading_normal = OctahedralDecode(g_shading_normal[pixel]);
-  surface.origin = position.xyz + surface.normal * position.w;
-  surface.roughness = g_material[pixel].x;
-  surface.brdf =
-      MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, surface.roughness);
-  surface.cosine_view = max(dot(surface.shading_normal, view), 1e-4);
-  surface.local_view = ToLocal(view, surface.shading_normal);
-  return surface;
-}
-
-// In the surface's own frame, about +Z.
-float3 SampleHalfVector(ReflectionPoint surface, float2 u) {
-  if (IsMirror(surface.roughness)) return float3(0, 0, 1);
-  return SampleGgxHalfVector(u, surface.local_view, surface.brdf.alpha);
+ReflectionLengths Lengths() {
+  ReflectionLengths lengths;
+  lengths.longest = constants.longest;
+  lengths.shortest = constants.single_length != 0 ? constants.longest : constants.shortest;
+  lengths.jitter = constants.single_length != 0 ? 0.0 : constants.length_jitter;
+  return lengths;
 }
 
 // Radiance that the pixel shows of a reflection, and whether it is a firefly.
@@ -124,36 +55,14 @@ bool IsTooBright(float3 light, float3 scale) {
 
 // The light of one ray over `scale`, and the ray's length. `seed` and `index` choose the ray.
 float4 TraceReflection(uint2 pixel, ReflectionPoint surface, float3 scale, uint index, uint seed) {
-  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, seed)];
-  const float3 half_vector =
-      SampleHalfVector(surface, PixelSample(tile, index, kReflectionPair, seed));
-  const float3 local_light = reflect(-surface.local_view, half_vector);
-  const float3 direction = ToWorld(local_light, surface.shading_normal);
-  // Below the surface, either the geometric or the normal-mapped one, there is no light.
-  if (!(local_light.z > 0.0) || !(dot(direction, surface.normal) > 0.0)) return float4(0, 0, 0, 0);
-  const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, seed)];
-  const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, seed);
-  RayDesc ray;
-  ray.Origin = surface.origin;
-  ray.TMin = 0.0;
-  ray.Direction = direction;
-  ray.TMax = ReflectionLength(surface.roughness, v.x);
-  ReflectionPayload payload;
-  payload.radiance = float3(0, 0, 0);
-  payload.distance = -1.0;
-  payload.volume_jitter = kEveryCell;
-  if (surface.roughness > kNoisyRoughness) {
-    payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, seed);
-  }
-  TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(surface.roughness), kRayTypeSurface, kRayTypeCount,
-           kRayTypeSurface, ray, payload);
-  const float3 weight = GgxSampleWeight(surface.brdf, surface.cosine_view, local_light.z,
-                                        dot(surface.local_view, half_vector));
-  float3 light = payload.radiance * weight / scale;
+  const ReflectionRay sample = SampleReflectionRay(pixel, surface, Lengths(), index, seed);
+  if (!sample.exists) return float4(0, 0, 0, 0);
+  const ReflectionPayload payload = FollowReflectionRay(pixel, surface, sample, index, seed);
+  float3 light = payload.radiance * sample.weight / scale;
   const float luminance = RadianceLuminance(light * scale);
   const float limit = constants.firefly_limit * frame.white;
   if (limit > 0.0 && luminance > limit) light *= limit / luminance;
-  return float4(light, payload.distance >= 0.0 ? payload.distance : ray.TMax);
+  return float4(light, payload.distance >= 0.0 ? payload.distance : sample.length);
 }
 
 [shader("raygeneration")]
@@ -164,8 +73,7 @@ void ReflectionRayGen() {
     return;
   }
   const ReflectionPoint surface = LoadReflectionPoint(pixel);
-  const float3 scale = ReflectionScale(
-      SpecularAlbedo(surface.brdf.f0, surface.brdf.roughness, surface.cosine_view));
+  const float3 scale = ReflectionScaleAt(surface);
   uint rays_per_sample = 1;
   if (constants.fireflies == kRetrace && !IsMirror(surface.roughness)) {
     const float4 pilot = TraceReflection(pixel, surface, scale, pass_constants.first_sample,
@@ -204,5 +112,6 @@ void ReflectionKeys() {
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
   const float2 u = PixelSample(tile, pass_constants.first_sample, kReflectionPair, frame.seed);
   const float3 local_light = reflect(-surface.local_view, SampleHalfVector(surface, u));
-  WriteRayKey(pixel, surface.origin, ToWorld(local_light, surface.shading_normal));
+  WriteRayKey(pixel, surface.origin, ToWorld(local_light, surface.shading_normal),
+              ReflectionLength(Lengths(), surface.roughness, 0.0));
 }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "effects/scene/built_in.h"
 
+#include "effects/scene/crown.h"
+#include "effects/scene/destruction.h"
+#include "effects/scene/foliage.h"
 #include "effects/scene/glass_scenes.h"
 #include "effects/scene/leak_scenes.h"
+#include "effects/scene/light_forest.h"
 #include "effects/scene/lounge.h"
 #include "effects/scene/matched_scenes.h"
 #include "effects/scene/mirror_hall.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/peter_panning.h"
 #include "effects/scene/runner.h"
+#include "effects/scene/stress_scenes.h"
+#include "effects/scene/terrain.h"
 
 namespace kaamos::effects {
 namespace {
@@ -24,9 +30,59 @@ constexpr BuiltInScene kScenes[] = {
     {"lit-hall", [] { return make_sealed_hall({.lit = true}); }},
     {"thin-dome", [] { return make_thin_dome({}); }},
     {"peter-panning", [] { return make_peter_panning({}); }},
+    {"foliage", [] { return make_foliage({}); }},
+    {"crown", [] { return make_crown(); }},
+    {"light-forest", [] { return make_light_forest({}); }},
+    {"terrain", [] { return make_terrain({}); }},
+    {"pub", [] { return make_stress_scene({StressKind::kPub}); }},
+    {"resort", [] { return make_stress_scene({StressKind::kResort}); }},
+    {"breakfast", [] { return make_stress_scene({StressKind::kBreakfast}); }},
+    {"destruction", [] { return make_destruction(); }},
     {"matched-box", [] { return make_matched_box(); }},
     {"matched-metal", [] { return make_matched_metal(); }},
     {"matched-yard", [] { return make_matched_yard(); }},
+};
+
+// The others in other sizes and with other lights. Not listed in help.
+constexpr BuiltInScene kVariants[] = {
+    {"foliage-tessellated", [] { return make_foliage({.tessellated = true}); }},
+    {"destruction-updated", [] { return make_destruction(BuildClass::kDeformable); }},
+    {"pub-1",
+     [] {
+       return make_stress_scene({StressKind::kPub, 1});
+     }},
+    {"resort-1",
+     [] {
+       return make_stress_scene({StressKind::kResort, 1});
+     }},
+    {"breakfast-1",
+     [] {
+       return make_stress_scene({StressKind::kBreakfast, 1});
+     }},
+    {"pub-full",
+     [] {
+       return make_stress_scene({StressKind::kPub, 4, 1.0});
+     }},
+    {"resort-full",
+     [] {
+       return make_stress_scene({StressKind::kResort, 4, 1.0});
+     }},
+    {"breakfast-full",
+     [] {
+       return make_stress_scene({StressKind::kBreakfast, 4, 1.0});
+     }},
+    {"pub-full-1",
+     [] {
+       return make_stress_scene({StressKind::kPub, 1, 1.0});
+     }},
+    {"resort-full-1",
+     [] {
+       return make_stress_scene({StressKind::kResort, 1, 1.0});
+     }},
+    {"breakfast-full-1",
+     [] {
+       return make_stress_scene({StressKind::kBreakfast, 1, 1.0});
+     }},
 };
 
 }  // namespace
@@ -36,10 +92,16 @@ std::span<const BuiltInScene> built_in_scenes() {
 }
 
 const BuiltInScene* find_built_in_scene(std::string_view name) {
-  for (const BuiltInScene& scene : kScenes) {
-    if (name == scene.name) return &scene;
+  for (const auto scenes : {built_in_scenes(), scene_variants()}) {
+    for (const BuiltInScene& scene : scenes) {
+      if (name == scene.name) return &scene;
+    }
   }
   return nullptr;
+}
+
+std::span<const BuiltInScene> scene_variants() {
+  return kVariants;
 }
 
 std::string built_in_scene_names() {

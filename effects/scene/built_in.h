@@ -19,7 +19,9 @@ struct BuiltInScene {
 
 /// All of them, in the order of their names in help. Valid for the whole run.
 std::span<const BuiltInScene> built_in_scenes();
-/// Null where no scene has the name.
+/// Some of them in other sizes, with other lights, or made otherwise: found by their names too.
+std::span<const BuiltInScene> scene_variants();
+/// Null where no scene and no variant has the name.
 const BuiltInScene* find_built_in_scene(std::string_view name);
 /// "lounge, glass-stack, ...", for help and errors.
 std::string built_in_scene_names();

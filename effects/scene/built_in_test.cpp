@@ -26,6 +26,11 @@ TEST(BuiltInScenes, AreValidAndFoundByName) {
     EXPECT_TRUE(status.ok()) << entry.name << ": " << (status.ok() ? "" : status.error().message);
     EXPECT_NE(built_in_scene_names().find(entry.name), std::string::npos);
   }
+  for (const BuiltInScene& entry : scene_variants()) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    ASSERT_EQ(find_built_in_scene(entry.name), &entry);
+    EXPECT_EQ(entry.make().name, entry.name);
+  }
   EXPECT_EQ(find_built_in_scene("attic"), nullptr);
 }
 

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "effects/common/file.h"
+#include "effects/scene/stress_scenes.h"
 
 namespace kaamos::effects {
 namespace {
@@ -123,8 +124,15 @@ T curve(const T& a, const T& b, const T& c, const T& d, const double (&t)[4], do
 
 Result<CameraPath> make_camera_path(const Scene& scene, const std::string& name) {
   const Camera& camera = scene.cameras.front();
+  const auto stress = stress_kind(scene);
+  if (stress && (name.empty() || name == "own")) return stress_camera_path(*stress);
   CameraPath path;
   path.name = name.empty() ? (scene.animations.empty() ? "dolly" : "still") : name;
+  if (name == "own") {
+    return make_error(ErrorId::kCameraPath,
+                      "scene \"" + scene.name +
+                          "\" has no camera path of its own; pub, resort and breakfast have one");
+  }
   if (path.name == "still") {
     path.keys = {{.eye = camera.position(), .target = camera.position() + camera.forward()}};
   } else if (path.name == "dolly") {

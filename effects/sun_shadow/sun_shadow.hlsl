@@ -54,5 +54,6 @@ void SunShadowKeys() {
     return;
   }
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kSunPair, frame.seed)];
-  WriteRayKey(pixel, g_position[pixel].xyz, SunDirection(tile, pass_constants.first_sample));
+  WriteRayKey(pixel, g_position[pixel].xyz, SunDirection(tile, pass_constants.first_sample),
+              kSunDistance);
 }

@@ -190,12 +190,12 @@ int render_once(FrameRenderer& renderer, const Options& options) {
   return is_done(done) ? write_frame(renderer, options, frame, seen) : report(done, options);
 }
 
-int render_frames(FrameRenderer& renderer, const Options& options) {
+int render_frames(FrameRenderer& renderer, Scene& scene, const Options& options) {
   StagedFiles files(options.out);
   std::string error = files.create();
   if (error.empty()) {
     SequenceResult sequence;
-    const auto done = render_sequence(renderer, options, show_progress, files, sequence);
+    const auto done = render_sequence(renderer, scene, options, show_progress, files, sequence);
     if (!is_done(done)) return report(done, options);
     error = add_results(options, renderer.scene(), renderer, sequence, files);
     if (error.empty()) error = files.publish();
@@ -290,6 +290,6 @@ int main(int argc, char** argv) {
     std::fputs(print_tables(*tables, options->tables == "json").c_str(), stdout);
     return 0;
   }
-  if (options->frames > 0) return render_frames(**renderer, *options);
+  if (options->frames > 0) return render_frames(**renderer, scene, *options);
   return render_once(**renderer, *options);
 }

@@ -48,6 +48,7 @@ struct Words {
   float contact_length = ContactShadowConstants().length;
   std::string fireflies = "retrace";
   std::string contact_combine = "product";
+  std::string light_culling = "clusters";
   float firefly_limit = 0;
   float gi_length = IndirectConstants().length;
   float reflection_length = ReflectionConstants().longest;
@@ -142,9 +143,11 @@ CLI::Validator parsed_by(Parse parse, Options& options) {
 }
 
 void add_engine(CLI::App& app, Options& options, Words& words) {
-  app.add_option("--sort-rays", words.sort_rays,
-                 "sort rays by direction or by origin; the picture stays the same")
-      ->check(CLI::IsMember({"direction", "origin"}));
+  app.add_option(
+         "--sort-rays", words.sort_rays,
+         "sort rays by direction, by origin, or by origin and where they are thought to end "
+         "(termination); the picture stays the same")
+      ->check(CLI::IsMember({"direction", "origin", "termination"}));
   app.add_option("--primary", words.primary,
                  "what finds the surfaces that pixels show: rays, or the rasterizer (raster)")
       ->capture_default_str()
@@ -229,10 +232,14 @@ void apply(const Words& words, Options& options) {
   frame.ray_cones = words.texture_lod == "cone";
   frame.primary = words.primary == "raster" ? Primary::kRaster : Primary::kRays;
   if (!words.sort_rays.empty()) {
-    frame.order = words.sort_rays == "origin" ? RayOrder::kOrigin : RayOrder::kDirection;
+    frame.order = words.sort_rays == "origin"        ? RayOrder::kOrigin
+                  : words.sort_rays == "termination" ? RayOrder::kTermination
+                                                     : RayOrder::kDirection;
   }
   frame.contact =
       words.contact_combine == "min" ? ContactCombination::kMinimum : ContactCombination::kProduct;
+  frame.light_culling =
+      words.light_culling == "frustum" ? LightCulling::kFrustum : LightCulling::kClusters;
   frame.moving = options.frames > 0;
   choose(options, words.effects);
 }
@@ -319,6 +326,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "a light's shadow map and contact shadow: product, min (the darker of the two)")
       ->capture_default_str()
       ->check(CLI::IsMember({"product", "min"}));
+  app.add_option("--light-culling", words.light_culling,
+                 "local lights that a pixel looks at: clusters (its cluster's), frustum (all that "
+                 "reach into the picture); the picture stays the same")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"clusters", "frustum"}));
   app.add_option("--contact-length", words.contact_length, "length of these rays, in metres")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e6f));

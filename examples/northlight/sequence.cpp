@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "effects/scene/light_forest.h"
+
 namespace northlight {
 
 using namespace kaamos::effects;
@@ -181,10 +183,9 @@ kaamos::effects::Result<CameraPath> choose_path(const Options& options, const Sc
   return load_camera_path(options.camera_path);
 }
 
-rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, const Options& options,
-                                       const Progress& progress, StagedFiles& files,
-                                       SequenceResult& out) {
-  const Scene& scene = renderer.scene();
+rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
+                                       const Options& options, const Progress& progress,
+                                       StagedFiles& files, SequenceResult& out) {
   const auto path = choose_path(options, scene);
   if (!path.ok()) return path.error();
   out.path = path.value().name;
@@ -198,6 +199,7 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, const Options& o
     moment.camera = evaluate_camera(path.value(), scene.cameras.front(), moment.seconds);
     moment.cut = i > 0 && has_cut(path.value(), before, moment.seconds);
     before = moment.seconds;
+    kaamos::effects::move_lights(scene, moment.seconds);
     const auto start = Clock::now();
     if (const auto s = renderer.begin_frame(moment); !s) return s.error();
     if (const auto s = renderer.render(progress_of_frame(progress, i, options.frames));

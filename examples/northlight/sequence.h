@@ -42,10 +42,12 @@ kaamos::effects::Result<kaamos::effects::CameraPath> choose_path(
     const Options& options, const kaamos::effects::Scene& scene);
 
 // Renders options.frames frames and adds frame_0000.png ... to `files` without publishing them.
-// yet. Errors: those of the path, of rendering, and of files.
+// `scene` is the renderer's; lights that move (light_forest.h) move in it. Errors: those of the
+// path, of rendering, and of files.
 rtapi::Result<Outcome> render_sequence(kaamos::effects::FrameRenderer& renderer,
-                                       const Options& options, const Progress& progress,
-                                       StagedFiles& files, SequenceResult& out);
+                                       kaamos::effects::Scene& scene, const Options& options,
+                                       const Progress& progress, StagedFiles& files,
+                                       SequenceResult& out);
 
 // Adds what a still writes, for the last frame; stats.json gets a table with a row for each frame.
 // Returns an error text, empty on success.

@@ -83,6 +83,8 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
       setting.setting.effect = row.name;
       setting.setting.settings = step.settings;
       setting.reference = plan.references.front().name;
+      // All answer the same question.
+      setting.setting.settings.radius = plan.references.front().setting.settings.radius;
       plan.settings.push_back(setting);
     }
   }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Reflections of what the picture shows: the rays of effects/reflections, followed over the depths
+// of the picture instead of through the scene. [effects-spec B4.3, B4.4, B4.9; GDC 2018 talk]
+#include "screen_follow.hlsli"
+
+ConstantBuffer<ScreenReflectionConstants> constants : register(b0, space3);
+
+// Sums over samples, as those of effects/reflections: radiance / ReflectionScale, and the length of
+// the ray (0: no ray).
+RWTexture2D<float4> reflection : register(u0, space3);
+// Of the last sample: where in the picture the ray hit (pixels), how far away (metres), and how the
+// march ended.
+RWTexture2D<float4> hits : register(u1, space3);
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void ScreenReflections(uint3 id : SV_DispatchThreadID) {
+  const uint2 pixel = id.xy * pass_constants.pixel_step;
+  const float2 size = PictureSize();
+  if (any(float2(pixel) >= size)) return;
+  ScreenHit hit;
+  const float4 sum = ReflectionSum(pixel, constants, true, size, hit);
+  reflection[pixel] = SumBefore(reflection, pixel) + sum;
+  hits[pixel] = float4(hit.place, hit.distance, float(hit.outcome));
+}
