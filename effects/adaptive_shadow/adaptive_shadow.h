@@ -23,6 +23,8 @@ enum AdaptiveShadowFlags : std::uint32_t {
   /// surfaces, and three equal counts are calm. Else, as the text says, that of the four frames
   /// before, carried along, and four equal counts.
   kAdaptiveReleasedHistory = 1u << 0,
+  /// The newest of the former variations takes the place of all older ones.
+  kAdaptiveReleasedShift = 1u << 1,
   /// A box of 9 pixels in place of the tent of 13.
   kAdaptiveReleasedLowPass = 1u << 2,
   kAdaptiveUniform = 1u << 3,     ///< all pixels take the most rays: to compare with

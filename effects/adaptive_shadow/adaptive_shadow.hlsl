@@ -35,6 +35,7 @@ struct AdaptiveShadowConstants {
 ConstantBuffer<AdaptiveShadowConstants> constants : register(b0, space3);
 
 static const uint kReleasedHistory = 1;
+static const uint kReleasedShift = 2;
 static const uint kReleasedLowPass = 4;
 static const uint kUniform = 8;
 static const uint kUnfiltered = 16;
@@ -312,7 +313,8 @@ void AdaptiveShadowRayGen() {
   // three before it where they lie in the picture, wherever their surface has gone.
   const float newest =
       Has(kReleasedHistory) ? Range(float4(now, visibility_before[pixel].xyz)) : state.z;
-  variation_now[pixel] = float4(newest, variations.xyz);
+  variation_now[pixel] =
+      Has(kReleasedShift) ? float4(newest, variations.xxx) : float4(newest, variations.xyz);
 }
 
 // Averages neighbours, the more of them the more the visibility varies: a Gaussian 1 to 9 pixels

@@ -35,6 +35,7 @@ struct Sequence {
     settings.effects[kName].samples = most;
     settings.effects[kName].set_constants(constants);
     settings.denoise = default_denoise(DenoiseMethod::kNone);
+    settings.moving = true;
     scene.sky = {};
     renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
   }
@@ -164,18 +165,41 @@ TEST(AdaptiveShadowMask, LooksAtAQuarterOfWhatIsCalm) {
   EXPECT_EQ(std::count(times.begin(), times.end(), 1), 64 * 64);
 }
 
+// Counts go down from a mean variation on that the budget allows.
+TEST(AdaptiveShadowBudget, LimitsWhatMuchPenumbraCosts) {
+  // So low that the whole picture lies in the penumbra.
+  const auto steady = [](float budget) {
+    Sequence s("embree", 8, {.budget = budget}, 48, 32);
+    s.scene.cameras.front().camera_to_world = look_at({0.02, 0.15, 0}, {0, 0, 0.001});
+    double rays = 0;
+    for (int i = 0; i < 12; ++i) rays = s.go();
+    return rays;
+  };
+  const double free = steady(0.0f), limited = steady(0.05f);
+  EXPECT_GT(free, 4.0);
+  EXPECT_LT(limited, 0.75 * free);
+}
+
 // E3: the two readings of the history differ: the released one looks at this frame too, and so
-// knows of a change one frame earlier.
+// knows of a change one frame earlier. The released shift forgets all but the newest of the
+// variations.
 TEST(AdaptiveShadowHistory, ReadingsDiffer) {
-  const auto rays_after_a_change = [](std::uint32_t flags) {
+  // Of every pixel, in the frames after the sun has moved.
+  const auto variations = [](std::uint32_t flags) {
     Sequence s("embree", 5, {.flags = flags}, 48, 32);
     for (int i = 0; i < 12; ++i) s.go();
     s.scene.sun->direction_to_sun = glm::normalize(glm::vec3(0.35f, 1.0f, 0.0f));
-    std::vector<double> rays;
-    for (int i = 0; i < 10; ++i) rays.push_back(s.go());
-    return rays;
+    std::vector<float> out;
+    for (int i = 0; i < 10; ++i) {
+      s.go();
+      const FloatImage taken = s.renderer->read("adaptive_sun_rays").value();
+      for (std::size_t k = 0; k < taken.values.size(); k += 4) out.push_back(taken.values[k + 1]);
+    }
+    return out;
   };
-  EXPECT_NE(rays_after_a_change(0), rays_after_a_change(kAdaptiveReleasedHistory));
+  const auto text = variations(0);
+  EXPECT_NE(text, variations(kAdaptiveReleasedHistory));
+  EXPECT_NE(text, variations(kAdaptiveReleasedShift));
 }
 
 }  // namespace
