@@ -16,6 +16,7 @@ glm::dquat quaternion(const glm::dvec4& v) {
 
 glm::dvec4 interpolate_linear(ChannelPath path, const glm::dvec4& a, const glm::dvec4& b,
                               double u) {
+  if (a == b) return a;  // to the bit: what stands still need not be built again
   if (path != ChannelPath::kRotation) return glm::mix(a, b, u);
   const glm::dquat q = glm::slerp(quaternion(a), quaternion(b), u);  // takes the shorter arc
   return {q.x, q.y, q.z, q.w};
