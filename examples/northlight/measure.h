@@ -78,9 +78,9 @@ kaamos::effects::Plot as_plot(const MeasuredTable& table);
 
 // Takes the picture of a setting's last run, what it is compared with, and the truth of that; null:
 // there is none.
-using LookAt = std::function<rtapi::Status(std::size_t setting,
-                                           const kaamos::effects::FloatImage& image,
-                                           const Target& target, const Target* truth)>;
+using LookAt =
+    std::function<rtapi::Status(std::size_t setting, const kaamos::effects::FloatImage& image,
+                                const Target& target, const Target* truth)>;
 // Measures the settings of a plan; fills all of the table but its title.
 rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
                                 const kaamos::effects::Scene& scene, const Progress& progress,
