@@ -66,7 +66,7 @@ expect_error 1 'folder.gltf.*cannot read' --scene "$work/folder.gltf"
 expect_error 1 'no camera path "roundabout".*still, dolly, orbit' --frames 2 --size 16x9 --camera-path roundabout
 printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
-expect_error 2 'not in {direction,origin}' --sort-rays length
+expect_error 2 'not in {direction,origin,termination}' --sort-rays length
 expect_error 2 'not in {rays,raster}' --primary points
 expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
 expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
