@@ -124,6 +124,8 @@ class World {
     const std::vector<uint64_t> attributes(4);
     switch (code.stage) {
       case Stage::kLibrary:
+      case Stage::kVertex:  // these two run over columns of values, which draws alone have
+      case Stage::kPixel:
         return;
       case Stage::kCompute:
         return run_compute(*code.compute, invocation);
