@@ -5,15 +5,7 @@
 #define KAAMOS_GBUFFER_DRAWS_HLSLI
 
 #include "frame.hlsli"
-
-// A geometry of an instance: one draw.
-struct SceneDraw {
-  float4 object_to_world[3];  // rows, relative to the camera
-  float4 world_to_object[3];
-  uint instance;  // InstanceIndex() of a ray that hits it
-  uint geometry;  // in `geometries`
-  uint2 padding;
-};
+#include "scene_draw.hlsli"
 
 struct DrawConstants {
   uint draw;         // in `draws`
@@ -28,12 +20,5 @@ StructuredBuffer<HitConstants> geometries : register(t1, space3);
 Texture2D<uint2> visibility : register(t2, space3);
 // Vertices and indices of geometry i are number 2 * i and 2 * i + 1.
 ByteAddressBuffer geometry_buffers[] : register(t0, space4);
-
-float3x4 ObjectToWorld(SceneDraw draw) {
-  return float3x4(draw.object_to_world[0], draw.object_to_world[1], draw.object_to_world[2]);
-}
-float3x4 WorldToObject(SceneDraw draw) {
-  return float3x4(draw.world_to_object[0], draw.world_to_object[1], draw.world_to_object[2]);
-}
 
 #endif

@@ -12,7 +12,7 @@
 
 namespace kaamos::effects {
 
-/// A geometry of an instance; mirrors SceneDraw of effects/gbuffer/draws.hlsli.
+/// A geometry of an instance; mirrors SceneDraw of effects/gbuffer/scene_draw.hlsli.
 struct SceneDraw {
   glm::mat3x4 object_to_world{0.0f};  ///< rows, relative to the camera
   glm::mat3x4 world_to_object{0.0f};  ///< its inverse, rounded once from double

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "effects/shadow_map/shadow_map.h"
+
+#include <shaders/shadow_draws.h>
+#include <shaders/shadow_map.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "effects/common/errors.h"
+#include "effects/frame/compute_pass.h"
+#include "effects/shadow_map/disk_points.h"
+#include "effects/shadow_map/map_draws.h"
+
+namespace kaamos::effects {
+namespace {
+
+constexpr std::uint32_t kDiskPoints = 64;  // of shadow_map.hlsli
+constexpr std::uint32_t kMostTexels = 16384, kMostCascades = 4;
+
+constexpr const char* kEntryPoints[kShadowMapMethodCount] = {"ShadowMapHard", "ShadowMapPcf",
+                                                             "ShadowMapPcss"};
+
+rtapi::Status check(const char* what, std::uint32_t value, std::uint32_t least,
+                    std::uint32_t most) {
+  if (value >= least && value <= most) return {};
+  return make_error(ErrorId::kShadowMap, std::string(what) + " is " + std::to_string(value) +
+                                             "; choose " + std::to_string(least) + " to " +
+                                             std::to_string(most));
+}
+
+rtapi::Status check(const char* what, float value, float least, float most) {
+  if (value >= least && value <= most) return {};
+  return make_error(ErrorId::kShadowMap, std::string(what) + " is " + std::to_string(value) +
+                                             "; choose " + std::to_string(least) + " to " +
+                                             std::to_string(most));
+}
+
+rtapi::Status check(const ShadowMapConstants& c) {
+  constexpr float kAny = 1e9f;
+  for (const rtapi::Status& status :
+       {check("ShadowMapConstants::method", c.method, 0, kShadowMapMethodCount - 1),
+        check("ShadowMapConstants::size", c.size, 4, kMostTexels),
+        check("ShadowMapConstants::cascades", c.cascades, 0, kMostCascades),
+        check("ShadowMapConstants::taps", c.taps, 1, kDiskPoints),
+        check("ShadowMapConstants::blocker_taps", c.blocker_taps, 1, kDiskPoints),
+        check("ShadowMapConstants::constant_bias", c.constant_bias, -kAny, kAny),
+        check("ShadowMapConstants::slope_bias", c.slope_bias, -kAny, kAny),
+        check("ShadowMapConstants::normal_offset", c.normal_offset, -kAny, kAny),
+        check("ShadowMapConstants::most_bias", c.most_bias, 0.0f, kAny),
+        check("ShadowMapConstants::radius", c.radius, 0.0f, kAny),
+        check("ShadowMapConstants::blend", c.blend, 0.0f, 1.0f),
+        check("ShadowMapConstants::split_share", c.split_share, 0.0f, 1.0f),
+        check("ShadowMapConstants::reach", c.reach, 0.0f, kAny)}) {
+    if (!status) return status;
+  }
+  return {};
+}
+
+class ShadowMapPass : public EffectPass {
+ public:
+  explicit ShadowMapPass(const EffectScope& scope)
+      : frame_(scope.frame),
+        scene_(scope.scene),
+        views_(scope.views),
+        made_(scope.settings.get_constants<ShadowMapConstants>()) {}
+
+  rtapi::Status create(const EffectScope& scope) {
+    if (const auto s = check(made_); !s) return s;
+    const auto& draws = scope.library("shadow_map/shadow_draws");
+    if (const auto s = draws_.create(scope, draws, made_.size, map_count()); !s) return s;
+    const auto disk = rtapi::CreateUploadBuffer(scope.device, disk_points(kDiskPoints), "disk");
+    if (!disk) return disk.error();
+    disk_ = *disk;
+    if (const auto s = views_.set_shader_resource(3, disk_, sizeof(glm::vec2)); !s) return s;
+    auto look_up = ComputePass::create(scope.device, frame_, scope.library("shadow_map/shadow_map"),
+                                       kEntryPoints[made_.method]);
+    if (!look_up) return look_up.error();
+    look_up_ = std::move(*look_up);
+    return {};
+  }
+
+  rtapi::Status begin_frame(const Camera& camera) override {
+    draws_.see_instances(camera.position());
+    SunMapsDesc desc;
+    if (scene_.sun)
+      desc.direction_to_sun = glm::normalize(glm::dvec3(scene_.sun->direction_to_sun));
+    desc.bounds = draws_.bounds();
+    desc.size = made_.size;
+    desc.cascades = made_.cascades;
+    desc.aspect = static_cast<double>(frame_.width()) / frame_.height();
+    desc.split_share = made_.split_share;
+    desc.reach = made_.reach;
+    desc.stable = (made_.flags & kShadowMapTight) == 0;
+    draws_.set_maps(sun_maps(desc, camera));
+    return {};
+  }
+
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override {
+    auto own = settings.get_constants<ShadowMapConstants>();
+    own.size = made_.size;
+    own.cascades = map_count();
+    draws_.record(list, own);
+    look_up_.dispatch(list, frame_, constants, PassArguments(views_, own), frame_.width(),
+                      frame_.height());
+  }
+
+  std::uint64_t bytes() const override { return draws_.bytes() + disk_.size(); }
+
+ private:
+  std::uint32_t map_count() const { return std::max(made_.cascades, 1u); }
+
+  const Frame& frame_;
+  const Scene& scene_;
+  PassViews& views_;
+  const ShadowMapConstants made_;
+  ShadowMapDraws draws_;
+  rtapi::Buffer disk_;
+  ComputePass look_up_;
+};
+
+}  // namespace
+
+rtapi::Result<rtapi::ShaderLibrary> shadow_draws_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_shadow_draws());
+}
+
+rtapi::Result<rtapi::ShaderLibrary> shadow_map_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_shadow_map());
+}
+
+rtapi::Result<std::unique_ptr<EffectPass>> make_shadow_map(const EffectScope& scope) {
+  auto pass = std::make_unique<ShadowMapPass>(scope);
+  if (const auto s = pass->create(scope); !s) return s.error();
+  return std::unique_ptr<EffectPass>(std::move(pass));
+}
+
+}  // namespace kaamos::effects
