@@ -16,6 +16,8 @@ struct HybridConstants {
 };
 ConstantBuffer<HybridConstants> constants : register(b0, space3);
 
+static const float kMostMetal = 0.5;
+
 bool IsSunAtHits() { return constants.sun_at_hits != 0; }
 
 // The light of one ray over `scale`, and the ray's length.
@@ -28,6 +30,8 @@ float4 FollowRay(uint2 pixel, ReflectionPoint surface, float3 scale, uint index,
   hit.outcome = kNotLookedFor;
   if (surface.roughness <= constants.roughest_screen) {
     hit = MarchReflection(surface, sample, g_ids[pixel].x, constants.screen, size);
+    // The picture has no reflections yet: a metal that is hit would be black.
+    if (hit.outcome == kHit && g_material[hit.pixel].y > kMostMetal) hit.outcome = kNotLookedFor;
     if (hit.outcome == kHit) {
       const float3 light = LightOfHit(hit, constants.screen, int2(size));
       if (hit.outcome == kHit) return float4(light * sample.weight / scale, hit.distance);

@@ -93,7 +93,7 @@ Effect hybrid_row() {
   effect.make = make_hybrid_reflections;
   effect.defaults.set_constants(default_hybrid_constants());
   effect.samples_option = "hybrid-samples";
-  effect.misses = "highlights and mirrors of what is reflected are those that the camera sees";
+  effect.misses = "highlights of what is reflected are those that the camera sees";
   return effect;
 }
 

@@ -26,7 +26,7 @@ enum MarchOutcome : std::uint32_t {
   kSky,           ///< it ended in front of the sky: sky, or something that is not in the picture
   kStale,         ///< it hit what the previous frame does not show
   kOutOfSteps,    ///< the march ended before the ray did
-  kNotLookedFor,  ///< the surface is too rough for a march [effects/hybrid_reflections]
+  kNotLookedFor,  ///< no march was sent, or its hit is not to be used
   kMarchOutcomes
 };
 

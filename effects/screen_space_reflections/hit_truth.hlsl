@@ -21,7 +21,7 @@ static const uint kCovered = 4;     // something else is in front of it
 static const uint kTurnedAway = 5;  // the ray hits a side that the camera cannot see
 
 static const float kSameDistance = 0.02;  // of the distance [effects-spec B4.9]
-static const float kSameViewDepth = 0.02;
+static const float kSamePlace = 0.01;     // of the view depth: how far off a pixel's plane
 
 struct TruthPayload {
   float distance;  // negative: a miss
@@ -49,14 +49,13 @@ void TruthHit(inout TruthPayload payload, in BuiltInTriangleIntersectionAttribut
   payload.normal = found.side * found.spawn.normal;
 }
 
-// The pixel about a place whose surface is the instance at that view depth. At edges it may be a
-// neighbour.
-bool ShowsPlace(float2 place, float view_z, uint instance, float2 size) {
+// Whether a pixel shows a point of an instance. At edges it may be a neighbour.
+bool ShowsPlace(float2 place, float3 position, float view_z, uint instance, float2 size) {
   for (int i = 0; i < 9; ++i) {
     const int2 pixel = clamp(int2(place) + int2(i % 3 - 1, i / 3 - 1), int2(0, 0), int2(size) - 1);
-    if (g_ids[pixel].x == instance && abs(g_view_z[pixel] - view_z) <= kSameViewDepth * view_z) {
-      return true;
-    }
+    if (g_ids[pixel].x != instance) continue;
+    const float3 apart = position - g_position[pixel].xyz;
+    if (abs(dot(apart, OctahedralDecode(g_normal[pixel]))) <= kSamePlace * view_z) return true;
   }
   return false;
 }
@@ -67,7 +66,7 @@ uint HowSeen(float3 position, float3 normal, uint instance, float2 size) {
   const float2 place = PlaceOf(position, size);
   if (!IsInPicture(place, size)) return kOutside;
   if (!(dot(normal, position) < 0.0)) return kTurnedAway;
-  return ShowsPlace(place, view_z, instance, size) ? kSeen : kCovered;
+  return ShowsPlace(place, position, view_z, instance, size) ? kSeen : kCovered;
 }
 
 [shader("raygeneration")]

@@ -16,7 +16,7 @@ static const uint kEnded = 5;       // it ended over a surface, in front of it
 static const uint kSky = 6;         // it ended over the sky, or in front of nothing else
 static const uint kStale = 7;       // it hit what the previous frame does not show
 static const uint kOutOfSteps = 8;  // the march ended before the ray did
-static const uint kNotLookedFor = 9;  // the surface is too rough for a march
+static const uint kNotLookedFor = 9;  // no march was sent, or its hit is not to be used
 
 static const float kSkyZ = 1e30;  // view depth of the sky, metres
 

@@ -53,7 +53,8 @@ TEST_P(ScreenReflections, MostHitsAreWhatTheRaysHit) {
   EXPECT_GT(found.confusion.hits(), 100u);
   EXPECT_GT(part(found.confusion.correct(), found.confusion.hits()), 0.85);
   // Of what the picture shows, nearly all is found.
-  EXPECT_LT(part(found.confusion.missed(), found.confusion.hits()), 0.1);
+  EXPECT_GT(part(found.confusion.correct(), found.confusion.correct() + found.confusion.missed()),
+            0.85);
 }
 
 TEST(ScreenMarches, StrictHitsLeaveNoDoubt) {
@@ -81,10 +82,10 @@ TEST(ScreenMarches, FewSamplesMissWhatLiesBetweenThem) {
   line.constants.steps = 8;
   const HitConfusion few = look(kEmbree, make_screen_boxes(), line).confusion;
   const HitConfusion all = look(kEmbree, make_screen_boxes(), with_sky(kPixels)).confusion;
-  EXPECT_GT(few.missed(), 3 * all.missed());
+  EXPECT_GT(few.missed(), 2 * all.missed());
   March metres = with_sky(kMetres);
   metres.constants.steps = 8;
-  EXPECT_GT(look(kEmbree, make_screen_boxes(), metres).confusion.missed(), 3 * all.missed());
+  EXPECT_GT(look(kEmbree, make_screen_boxes(), metres).confusion.missed(), 2 * all.missed());
 }
 
 // [effects-spec B4.9: off-screen] Northlight's has no fallback: what is missing is black.
