@@ -91,7 +91,8 @@ struct EffectNeeds {
   /// before, u19 of space3 [KeptRadiance]. Such effects come behind all others and their denoising.
   bool radiance = false;
   /// The strongest point and spot light of each pixel, u0 of space3. Main lighting leaves them out,
-  /// and adds them with the effect's signal as their visibility. One effect at most.
+  /// and adds them with the effect's first signal as their visibility (r, g); with that of the last
+  /// row where several are chosen.
   bool strongest_lights = false;
 };
 

@@ -328,12 +328,12 @@ rtapi::Status FrameRenderer::create_filters() {
 rtapi::Status FrameRenderer::create_compose() {
   FrameParts parts;
   for (const auto& effect : active_) {
+    // Of several, the last one stays: alternatives stand behind what they are alternatives to.
+    if (effect->row->needs.strongest_lights) {
+      if (const auto s = direct_->set_contact(*composed(*effect, 0)); !s) return s;
+    }
     for (std::size_t i = 0; i < effect->row->signals.size(); ++i) {
       const EffectSignal& signal = effect->row->signals[i];
-      const SignalFilters::Signal* filtered = filters_.find(signal.name);
-      if (effect->row->needs.strongest_lights && filtered != nullptr) {
-        if (const auto s = direct_->set_contact(filters_.denoised(*filtered)); !s) return s;
-      }
       if (signal.part == nullptr) continue;
       parts.*signal.part = composed(*effect, i);
     }

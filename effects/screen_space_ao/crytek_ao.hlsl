@@ -2,8 +2,8 @@
 // Crysis' ambient occlusion: the part of a sphere about each point that is not behind the depth
 // picture. Half of the sphere is inside of an open wall, so walls are grey. [Mittring 2007, Finding
 // Next Gen; effects-spec B3.1]
+#include "occlusion.hlsli"
 #include "sampling.hlsli"
-#include "view_space.hlsli"
 
 struct CrytekConstants {
   uint filter_passes;  // of occlusion_filter.hlsl, for the host

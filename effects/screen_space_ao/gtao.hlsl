@@ -3,8 +3,8 @@
 // finds both horizons and integrates the cosine between them in closed form. The defaults are those
 // of XeGTAO 1.30. [Jimenez et al. 2016; effects-spec B3.4]
 #include "horizons.hlsli"
+#include "occlusion.hlsli"
 #include "sampling.hlsli"
-#include "view_space.hlsli"
 
 struct GtaoConstants {
   uint filter_passes;  // of occlusion_filter.hlsl, for the host

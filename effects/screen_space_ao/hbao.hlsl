@@ -3,8 +3,8 @@
 // how far the sine of the horizon rises above that of the surface itself. [Bavoil, Sainz and
 // Dimitrov 2008; effects-spec B3.3]
 #include "horizons.hlsli"
+#include "occlusion.hlsli"
 #include "sampling.hlsli"
-#include "view_space.hlsli"
 
 struct HbaoConstants {
   uint filter_passes;  // of occlusion_filter.hlsl, for the host

@@ -2,8 +2,8 @@
 // Ambient occlusion by points in the hemisphere above each surface, compared with the depth
 // picture. An open wall is white, but what is low over the surface counts as much as what is above
 // it. [effects-spec B3.2]
+#include "occlusion.hlsli"
 #include "sampling.hlsli"
-#include "view_space.hlsli"
 
 struct HemisphereConstants {
   uint filter_passes;  // of occlusion_filter.hlsl, for the host

@@ -4,7 +4,7 @@
 // horizon after a few steps, however far away it is. [Timonen 2013, Line-Sweep Ambient Obscurance;
 // effects-spec B3.5]
 #include "horizons.hlsli"
-#include "view_space.hlsli"
+#include "occlusion.hlsli"
 
 struct LineSweepConstants {
   uint column_wise;  // 1: a line takes a pixel of every row, 0: of every column

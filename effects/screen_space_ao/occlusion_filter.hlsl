@@ -2,7 +2,7 @@
 // The small filters of screen-space ambient occlusion: the mean of 4 x 4 pixels, which sees every
 // pixel of the tile of noise once, or of 5 x 5, both without what lies at another depth.
 // [effects-spec B3.1, B3.4]
-#include "view_space.hlsli"
+#include "occlusion.hlsli"
 
 struct FilterConstants {
   int before;       // pixels that the filter reaches to the left and up
