@@ -53,7 +53,7 @@ void EnvironmentAnyHit(inout EnvironmentPayload payload,
 void EnvironmentClosestHit(inout EnvironmentPayload payload,
                            in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, 0.0);
-  payload.radiance = ShadeHit(surface, -WorldRayDirection(), true) +
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), kSunAtHitsByRay) +
                      IndirectAtHit(surface, kEveryCell, -WorldRayDirection());
 }
 

@@ -274,6 +274,8 @@ rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Sc
                                    const FrameDesc& desc) {
   Frame frame;
   frame.desc_ = desc;
+  if (desc.sun_map != 0) frame.bounds_ = scene_bounds(scene);
+  if (!scene.sun || frame.bounds_.empty()) frame.desc_.sun_map = 0;
   frame.pass_views_ = std::make_shared<std::uint32_t>(0);
   if (const auto s = frame.set_camera(device, scene, camera, {.previous_camera = camera}); !s) {
     return s.error();
@@ -298,6 +300,10 @@ rtapi::Status Frame::set_camera(const Device& device, const Scene& scene, const 
   std::vector<std::byte> constants(256);
   FrameConstants values = frame_constants(scene, camera, desc_, time);
   values.light_count = static_cast<std::uint32_t>(lights.size());
+  if (desc_.sun_map != 0) {
+    values.sun_map =
+        sun_map_constants(bounds_, values.direction_to_sun, desc_.sun_map, camera.position());
+  }
   std::memcpy(constants.data(), &values, sizeof values);
   auto buffer = CreateUploadBuffer(device, constants, "frame constants");
   if (!buffer) return buffer.error();

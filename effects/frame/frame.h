@@ -13,6 +13,7 @@
 
 #include "effects/frame/pass_views.h"
 #include "effects/image/image.h"
+#include "effects/lights/light_constants.h"
 #include "effects/scene/gpu_scene.h"
 #include "effects/scene/scene.h"
 
@@ -49,8 +50,9 @@ struct FrameConstants {
   float padding5;             ///< 0
   glm::vec2 jitter;           ///< pixels, added to the primary rays
   glm::vec2 previous_jitter;  ///< that of the frame before
+  SunMapConstants sun_map;    ///< in the atlas of shadow maps
 };
-static_assert(sizeof(FrameConstants) == 208);
+static_assert(sizeof(FrameConstants) == 256);
 
 /// Mirrors PassConstants of frame.hlsli.
 struct PassConstants {
@@ -103,6 +105,9 @@ struct FrameDesc {
   /// Rays are cones that choose the level of detail of textures; false: level 0 is read
   /// everywhere, as the deck does.
   bool ray_cones = true;
+  /// Texels along the side of the sun's map in the atlas of shadow maps, which covers the scene as
+  /// it is at time 0; 0: none, at most kMaxSunMap.
+  std::uint32_t sun_map = 0;
   /// How many passes of a frame's life may have views of their own.
   std::uint32_t max_pass_views = 256;
 };
@@ -134,6 +139,8 @@ class Frame {
   ///@{
   std::uint32_t width() const { return desc_.width; }
   std::uint32_t height() const { return desc_.height; }
+  /// Texels along the side of the sun's map; 0: there is none, as in scenes without a sun.
+  std::uint32_t sun_map() const { return desc_.sun_map; }
   ///@}
 
   /// Goes on to the next frame of a sequence, which the next dispatches render: another camera, and
@@ -189,6 +196,7 @@ class Frame {
   rtapi::Status create_samplers(const rtapi::Device& device, const Scene& scene);
 
   FrameDesc desc_;
+  Bounds bounds_;  // of the scene, where it has a map of the sun
   rtapi::RootSignature root_signature_;
   rtapi::RootSignature local_root_signature_;
   rtapi::DescriptorHeap views_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "effects/lights/lighting.h"
 #include "effects/northlight/effect_pass.h"
 #include "effects/screen_space_reflections/screen_reflections.h"
 
@@ -14,8 +15,8 @@ namespace kaamos::effects {
 /// Constants b0, space3.
 struct HybridConstants {
   ScreenReflectionConstants screen;  ///< `fallback` and `edge_fade` are not used: rays go on
-  std::uint32_t sun_at_hits = 1;     ///< ReflectionConstants::sun_at_hits
-  float roughest_screen = 1;         ///< rougher surfaces are traced at once
+  SunAtHits sun_at_hits = SunAtHits::kByRay;  ///< ReflectionConstants::sun_at_hits
+  float roughest_screen = 1;                  ///< rougher surfaces are traced at once
 };
 
 /// Strict hits of surfaces that are 2 cm thick.

@@ -18,7 +18,7 @@ ConstantBuffer<HybridConstants> constants : register(b0, space3);
 
 static const float kMostMetal = 0.5;
 
-bool IsSunAtHits() { return constants.sun_at_hits != 0; }
+uint SunAtHits() { return constants.sun_at_hits; }
 
 // The light of one ray over `scale`, and the ray's length.
 float4 FollowRay(uint2 pixel, ReflectionPoint surface, float3 scale, uint index, float2 size,

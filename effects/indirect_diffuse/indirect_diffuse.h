@@ -5,6 +5,7 @@
 
 #include "effects/frame/ray_pass.h"
 #include "effects/indirect_diffuse/volume.h"
+#include "effects/lights/lighting.h"
 
 namespace kaamos::effects {
 
@@ -27,7 +28,7 @@ enum class IndirectMode : std::uint32_t {
 struct IndirectConstants {
   IndirectMode mode = IndirectMode::kNearField;  ///< where light comes from
   float length = 3.0f;                           ///< of the rays, metres; at least two cells
-  std::uint32_t sun_at_hits = 1;  ///< 1: what rays hit is lit by the sun, by a ray; 0: it is not
+  SunAtHits sun_at_hits = SunAtHits::kByRay;     ///< how what rays hit is lit by the sun
 };
 
 }  // namespace kaamos::effects

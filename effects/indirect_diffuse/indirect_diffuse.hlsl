@@ -61,14 +61,14 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
   float3 position, normal;
   if (constants.mode == kModeNearFieldGlossy) {
     const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
-    payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
+    payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits) +
                        IndirectAtHit(surface, jitter, -WorldRayDirection());
     position = surface.position;
     normal = surface.normal;
   } else {
     const MatteSurface surface = LoadMatteSurface(hit.barycentrics, RayTCurrent());
     payload.radiance =
-        ShadeMatteHit(surface, constants.sun_at_hits != 0) + IndirectAtMatteHit(surface, jitter);
+        ShadeMatteHit(surface, constants.sun_at_hits) + IndirectAtMatteHit(surface, jitter);
     position = surface.position;
     normal = surface.normal;
   }

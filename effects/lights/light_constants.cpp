@@ -53,7 +53,7 @@ void set_cone(LightConstants& out, const Light& light) {
 }
 
 // Computes what follows from the rest, so that shaders need not compute it at every point.
-void derive(LightConstants& light) {
+void derive(LightConstants& light, const glm::vec3& up) {
   constexpr float kLeast = std::numeric_limits<float>::min();  // 1 / kLeast is still a float
   light.over_range = 1.0f / std::max(light.range, kLeast);
   light.over_least_distance = 1.0f / std::max({light.radius, kLeastRadius * light.range, kLeast});
@@ -65,8 +65,15 @@ void derive(LightConstants& light) {
   }
   const float cosine = light.cos_outer;
   const float tangent = std::max(std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) / cosine, 1e-6f);
-  light.map_right = to_world({1, 0, 0}, light.direction) / tangent;
-  light.map_up = glm::cross(light.direction, light.map_right);
+  const glm::vec3 right = glm::cross(light.direction, up);
+  const float length = glm::length(right);
+  if (length > 1e-3f) {
+    light.map_right = right / (length * tangent);
+    light.map_up = glm::cross(light.map_right, light.direction);
+  } else {
+    light.map_right = to_world({1, 0, 0}, light.direction) / tangent;
+    light.map_up = glm::cross(light.direction, light.map_right);
+  }
   light.map_texel = 2.0f * tangent / kShadowTile;
 }
 
@@ -91,12 +98,51 @@ std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3
                     ? light.range
                     : std::sqrt(strongest / kCutOffIlluminance);
     out.spot_offset = 1.0f;
+    out.projection = -1;
+    if (light.projection) {
+      out.projection = static_cast<std::int32_t>(light.projection->image);
+      out.projection_sampler = light.projection->sampler;
+    }
     if (light.type == LightType::kSpot) set_cone(out, light);
     if (!is_whole(out)) darken(out);
-    derive(out);
+    derive(out, light.projection ? light.projection->up : glm::vec3(0.0f));
     lights.push_back(out);
   }
   return lights;
+}
+
+AtlasLayout atlas_layout(std::uint32_t light_count, std::uint32_t sun_map) {
+  AtlasLayout out;
+  const std::uint32_t columns = std::clamp<std::uint32_t>(light_count, 1, kShadowTilesPerRow);
+  const std::uint32_t rows =
+      std::max<std::uint32_t>((light_count + kShadowTilesPerRow - 1) / kShadowTilesPerRow, 1);
+  out.tile_width = columns * kShadowTile;
+  out.tile_height = rows * kShadowTile;
+  out.sun = sun_map;
+  out.width = out.tile_width + sun_map;
+  out.height = std::max(out.tile_height, sun_map);
+  return out;
+}
+
+SunMapConstants sun_map_constants(const Bounds& bounds, const glm::vec3& direction_to_sun,
+                                  std::uint32_t size, const glm::dvec3& origin) {
+  SunMapConstants out;
+  const glm::vec3 right = to_world({1, 0, 0}, direction_to_sun);
+  const glm::vec3 up = glm::cross(direction_to_sun, right);
+  const glm::dvec3 centre = 0.5 * (bounds.min + bounds.max);
+  const glm::dvec3 half = 0.5 * (bounds.max - bounds.min);
+  const auto extent = [&](const glm::vec3& axis) {
+    return glm::dot(glm::abs(glm::dvec3(axis)), half);
+  };
+  // A little more than all of it: what lies on the boundary is seen too.
+  const double side = std::max({1.001 * extent(right), 1.001 * extent(up), 1e-30});
+  out.centre = glm::vec3(centre - origin);
+  out.reach = static_cast<float>(1.001 * extent(direction_to_sun) + 1e-3 * side);
+  out.right = right / static_cast<float>(side);
+  out.up = up / static_cast<float>(side);
+  out.texel = static_cast<float>(2 * side / size);
+  out.size = size;
+  return out;
 }
 
 }  // namespace kaamos::effects

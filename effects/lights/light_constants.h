@@ -28,11 +28,47 @@ struct LightConstants {
   float over_least_distance;  ///< 1 / metres; a nearer point is lit as one that far away
   glm::vec3 map_up;           ///< as map_right, the other axis
   float map_texel;            ///< radians that a texel of the shadow map covers
+  std::int32_t projection;    ///< a spot's projection map, of the bindless textures; -1: none
+  std::uint32_t projection_sampler;  ///< of the bindless samplers
+  glm::vec2 padding;                 ///< to 112 bytes
 };
-static_assert(sizeof(LightConstants) == 96);
+static_assert(sizeof(LightConstants) == 112);
 
 /// Texels, of the side of a light's shadow map.
 inline constexpr std::uint32_t kShadowTile = 128;
+
+/// Tiles of lights in a row of the atlas of shadow maps.
+inline constexpr std::uint32_t kShadowTilesPerRow = 32;
+
+/// Texels of the side of the largest map of the sun.
+inline constexpr std::uint32_t kMaxSunMap = 8192;
+
+/// The atlas of shadow maps, in texels: the lights' tiles, and right of them the sun's map.
+struct AtlasLayout {
+  std::uint32_t tile_width = 0;   ///< of all tiles
+  std::uint32_t tile_height = 0;  ///< of all tiles
+  std::uint32_t sun = 0;          ///< side of the sun's map; 0: it has none
+  std::uint32_t width = 0;        ///< of the atlas
+  std::uint32_t height = 0;       ///< of the atlas
+};
+
+/// The atlas for so many local lights and a map of the sun of that side.
+AtlasLayout atlas_layout(std::uint32_t light_count, std::uint32_t sun_map);
+
+/// The sun's map in the atlas, as FrameConstants have it. Positions are relative to the camera.
+struct SunMapConstants {
+  glm::vec3 centre{0.0f};  ///< of all that casts shadows
+  float reach = 0;         ///< metres from there to where its rays begin, and to their end
+  glm::vec3 right{0.0f};   ///< a point p stands at dot(p - centre, right), from -1 to 1
+  float texel = 0;         ///< metres
+  glm::vec3 up{0.0f};      ///< as `right`, the other axis
+  std::uint32_t size = 0;  ///< texels along its side; 0: there is no map
+};
+
+/// A map of that many texels a side over `bounds` (world space, not empty), for a camera at
+/// `origin`. It stays where it is in the world when the camera moves.
+SunMapConstants sun_map_constants(const Bounds& bounds, const glm::vec3& direction_to_sun,
+                                  std::uint32_t size, const glm::dvec3& origin);
 
 /// Illuminance, in lux, that a light without a range of its own is cut off at.
 inline constexpr float kCutOffIlluminance = 1e-3f;

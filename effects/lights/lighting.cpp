@@ -34,6 +34,14 @@ RayPassDesc shadow_map_pass(const rtapi::ShaderLibrary& library) {
   return desc;
 }
 
+RayPassDesc sun_map_pass(const rtapi::ShaderLibrary& library) {
+  RayPassDesc desc = shadow_map_pass(library);
+  desc.name = "map of the sun";
+  desc.ray_generation = "SunMapRayGen";
+  desc.hit[kRayTypeSurface].closest_hit = "SunMapClosestHit";
+  return desc;
+}
+
 }  // namespace
 
 rtapi::Result<rtapi::ShaderLibrary> lighting_library() {
@@ -51,11 +59,9 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
   }
   Lighting out;
   out.light_count_ = light_count;
-  const std::uint32_t columns = std::clamp<std::uint32_t>(light_count, 1, kShadowTilesPerRow);
-  const std::uint32_t rows =
-      std::max<std::uint32_t>((light_count + kShadowTilesPerRow - 1) / kShadowTilesPerRow, 1);
+  out.layout_ = atlas_layout(light_count, frame.sun_map());
   const auto atlas = create_picture(device, "shadow atlas", rtapi::Format::kR32G32B32A32Float,
-                                    columns * kShadowTile, rows * kShadowTile);
+                                    out.layout_.width, out.layout_.height);
   if (!atlas) return atlas.error();
   out.atlas_ = *atlas;
   const auto counts = create_words(device, kClusterCount, "cluster counts");
@@ -75,16 +81,23 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
   const auto maps = RayPass::create(device, frame, scene, shadow_map_pass(library));
   if (!maps) return maps.error();
   out.shadow_maps_ = *maps;
+  if (out.layout_.sun == 0) return out;
+  const auto sun = RayPass::create(device, frame, scene, sun_map_pass(library));
+  if (!sun) return sun.error();
+  out.sun_map_ = *sun;
   return out;
 }
 
 void Lighting::update(rtapi::CommandList& list, const Frame& frame) const {
   clusters_.dispatch(list, frame, {}, PassArguments(views_), kClusterCells,
                      kClusterCount / kClusterCells);
-  if (light_count_ == 0) return;
-  const rtapi::TextureDesc& atlas = atlas_.GetDesc();
-  shadow_maps_.dispatch_grid(list, frame, {}, static_cast<std::uint32_t>(atlas.Width), atlas.Height,
-                             PassArguments(views_));
+  if (light_count_ != 0) {
+    shadow_maps_.dispatch_grid(list, frame, {}, layout_.tile_width, layout_.tile_height,
+                               PassArguments(views_));
+  }
+  if (layout_.sun != 0) {
+    sun_map_.dispatch_grid(list, frame, {}, layout_.sun, layout_.sun, PassArguments(views_));
+  }
 }
 
 rtapi::Status Lighting::bind(PassViews& views) const {

@@ -22,9 +22,16 @@ inline constexpr std::uint32_t kClusterCells = 32;
 inline constexpr std::uint32_t kClusterCount = kClusterCells * kClusterCells * kClusterCells;
 inline constexpr std::uint32_t kClusterCapacity = 64;
 inline constexpr std::uint32_t kClusterOverflow = 0xFFFFFFFFu;
-inline constexpr std::uint32_t kShadowTilesPerRow = 32;
 inline constexpr std::uint32_t kMaxAtlasLights = kShadowTilesPerRow * 128;
 ///@}
+
+/// Whether what rays hit is lit by the sun, and how its shadows are found there. Mirrors
+/// hit_shading.hlsli.
+enum class SunAtHits : std::uint32_t {
+  kNone,   ///< it is not
+  kByRay,  ///< by a ray to the sun's centre
+  kByMap,  ///< by the sun's map in the atlas; by a ray beside it, and where FrameDesc has none
+};
 
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
@@ -48,7 +55,8 @@ class Lighting {
 
   /// Bytes of the atlas and the lists.
   std::uint64_t bytes() const { return views_.bytes(); }
-  /// Shadow maps of all lights, kShadowTile texels on a side, kShadowTilesPerRow in a row.
+  /// Shadow maps of all lights, kShadowTile texels on a side, kShadowTilesPerRow in a row, and
+  /// right of them the sun's [AtlasLayout].
   const rtapi::Texture& atlas() const { return atlas_; }
   /// Lights of each cluster, a word each, x fastest; kClusterOverflow: more than fit, all count.
   const rtapi::Buffer& cluster_counts() const { return counts_; }
@@ -57,10 +65,11 @@ class Lighting {
 
  private:
   std::uint32_t light_count_ = 0;
+  AtlasLayout layout_;
   rtapi::Texture atlas_;
   rtapi::Buffer counts_, indices_;
   ComputePass clusters_;
-  RayPass shadow_maps_;
+  RayPass shadow_maps_, sun_map_;
   PassViews views_;
 };
 

@@ -102,3 +102,44 @@ void ShadowAtlasRayGen() {
            ray, payload);
   shadow_atlas[texel] = payload.occluder;
 }
+
+// The sun's map: parallel rays from where nothing can lie in front of them.
+[shader("closesthit")]
+void SunMapClosestHit(inout OccluderPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
+  const float3 normal =
+      MakeSpawnPoint(LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.x),
+                     LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.y),
+                     LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.z),
+                     hit.barycentrics, ObjectToWorld3x4(), WorldToObject3x4()).normal;
+  const float3 direction = WorldRayDirection();
+  const float cosine = dot(normal, direction);
+  float2 slope = float2(0, 0);
+  if (abs(cosine) > kLeastCosine) {
+    // map_right and map_up are shorter than unit by half the side, which 2 / size of them are.
+    const float step = frame.sun_map_texel * 0.5 * float(frame.sun_map_size) * frame.sun_map_texel;
+    slope = float2(dot(normal, frame.sun_map_right), dot(normal, frame.sun_map_up)) *
+            (-step / cosine);
+  }
+  payload.occluder = float4(RayTCurrent() - frame.sun_map_reach, slope, 1.0);
+}
+
+[shader("raygeneration")]
+void SunMapRayGen() {
+  const uint2 texel = uint2(DispatchRaysIndex().x, DispatchRaysIndex().y + pass_constants.first_row);
+  if (max(texel.x, texel.y) >= frame.sun_map_size) return;
+  const float half_side = 0.5 * frame.sun_map_texel * float(frame.sun_map_size);
+  const float2 at = ((float2(texel) + 0.5) / float(frame.sun_map_size) * 2.0 - 1.0) *
+                    (half_side * half_side);
+  RayDesc ray;
+  ray.Direction = -frame.direction_to_sun;
+  ray.Origin = frame.sun_map_centre + frame.sun_map_right * at.x + frame.sun_map_up * at.y -
+               ray.Direction * frame.sun_map_reach;
+  ray.TMin = 0.0;
+  ray.TMax = 2.0 * frame.sun_map_reach;
+  OccluderPayload payload;
+  payload.occluder = float4(0, 0, 0, 0);
+  TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount, kRayTypeSurface,
+           ray, payload);
+  shadow_atlas[SunMapOrigin() + texel] = payload.occluder;
+}

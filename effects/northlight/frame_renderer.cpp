@@ -50,6 +50,11 @@ std::vector<InstanceState> FrameRenderer::states_at(const FrameMoment& moment) c
 }
 
 rtapi::Status FrameRenderer::begin_frame(const FrameMoment& moment) {
+  if (!structures_ && moment.camera.position() != scene_.cameras.front().position()) {
+    return make_error(ErrorId::kFrameRenderer,
+                      "the camera moves, and the scene on the device stays where it was for the "
+                      "first one: set FrameSettings::moving");
+  }
   FrameTime time;
   time.index = moment.index;
   time.previous_camera = moment.index == 0 ? moment.camera : moment_.camera;

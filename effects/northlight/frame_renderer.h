@@ -103,7 +103,8 @@ class FrameRenderer {
   /// cannot be read or written.
   rtapi::Result<Outcome> prepare(const Progress& progress = {});
   /// Moves on to another frame of a sequence: poses, structures, camera.
-  /// @errors those of the device.
+  /// @errors KA3046 the camera is elsewhere than the scene's first and FrameSettings::moving is not
+  /// set; others of the device.
   rtapi::Status begin_frame(const FrameMoment& moment);
   /// Where the instances are at a moment, and at which level of detail.
   std::vector<InstanceState> states_at(const FrameMoment& moment) const;
@@ -240,7 +241,7 @@ class FrameRenderer {
                 std::vector<Effect> effects);
   // frame_renderer_prepare.cpp
   rtapi::Status create_scene();
-  rtapi::Status check_effects() const;
+  rtapi::Status check_settings() const;
   rtapi::Result<Outcome> prepare_whole(const Progress& progress);
   rtapi::Status create_lighting();
   rtapi::Result<Outcome> create_volume(const Progress& progress);

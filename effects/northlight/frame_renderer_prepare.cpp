@@ -90,7 +90,7 @@ rtapi::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const rtapi:
                                                                     std::vector<Effect> effects) {
   std::unique_ptr<FrameRenderer> out(
       new FrameRenderer(device, scene, settings, std::move(effects)));
-  if (const auto s = out->check_effects(); !s) return s.error();
+  if (const auto s = out->check_settings(); !s) return s.error();
   const auto queue = device.CreateCommandQueue();
   if (!queue) return queue.error();
   out->queue_ = *queue;
@@ -98,7 +98,12 @@ rtapi::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const rtapi:
   return out;
 }
 
-rtapi::Status FrameRenderer::check_effects() const {
+rtapi::Status FrameRenderer::check_settings() const {
+  if (settings_.sun_map > kMaxSunMap) {
+    return make_error(ErrorId::kFrameRenderer,
+                      "a map of the sun of " + std::to_string(settings_.sun_map) +
+                          " texels a side; 0 to " + std::to_string(kMaxSunMap) + " are allowed");
+  }
   for (const auto& [name, ignored] : settings_.effects) {
     const Effect* effect = find_effect(effects_, name);
     if (effect == nullptr) {
@@ -133,6 +138,7 @@ rtapi::Status FrameRenderer::create_scene() {
   desc.seed = settings_.seed;
   desc.ray_cones = settings_.ray_cones;
   desc.sun_angular_radius = settings_.sun_angular_radius;
+  desc.sun_map = settings_.sun_map;
   desc.max_pass_views = settings_.max_pass_views;
   auto frame = Frame::create(device_, queue_, scene_, gpu_, camera, desc);
   if (!frame) return frame.error();

@@ -58,7 +58,8 @@ struct FrameSettings {
   bool ray_cones = true;                ///< [FrameDesc]
   bool curvature_to_roughness = false;  ///< [curvature_pass]
   float sun_angular_radius = -1.0f;     ///< [FrameDesc]
-  std::uint32_t max_pass_views = 256;   ///< [FrameDesc]
+  std::uint32_t sun_map = 0;  ///< texels, 0 to kMaxSunMap; for SunAtHits::kByMap [FrameDesc]
+  std::uint32_t max_pass_views = 256;  ///< [FrameDesc]
   /// Rows per dispatch. 0: as many as take a quarter of a second.
   std::uint32_t rows = 0;
 };

@@ -119,8 +119,17 @@ SeenLamp SeeLamp(LightConstants lamp, float3 position) {
   if (lamp.is_spot != 0) {
     cone = saturate(-dot(seen.axis, lamp.direction) * lamp.spot_scale + lamp.spot_offset);
   }
+  float3 slide = float3(1, 1, 1);
+  if (lamp.projection >= 0) {
+    // The slide at distance 1 along the spot's axis.
+    const float depth = max(-dot(seen.axis, lamp.direction), 1e-6f);
+    const float2 place = float2(-dot(seen.axis, lamp.map_right), dot(seen.axis, lamp.map_up));
+    slide = textures[NonUniformResourceIndex(lamp.projection)].SampleLevel(
+        samplers[NonUniformResourceIndex(lamp.projection_sampler)],
+        (place / depth + 1.0f) * 0.5f, 0.0f).rgb;
+  }
   const float nearest = max(seen.distance, max(lamp.radius, 1.0f / lamp.over_least_distance));
-  seen.irradiance = lamp.intensity * ((window * window) * (cone * cone) / (nearest * nearest));
+  seen.irradiance = slide * lamp.intensity * ((window * window) * (cone * cone) / (nearest * nearest));
   const float sine = seen.distance > lamp.radius ? lamp.radius / seen.distance : 0.0f;
   seen.sine_squared = sine * sine;
   return seen;

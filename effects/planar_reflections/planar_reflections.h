@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "effects/lights/lighting.h"
 #include "effects/northlight/effect_pass.h"
 
 namespace kaamos::effects {
@@ -29,13 +30,13 @@ std::vector<MirrorPlane> find_mirror_planes(const Scene& scene);
 
 /// Constants b0, space3. The last four words are the pass's own.
 struct PlanarConstants {
-  float longest = 200.0f;         ///< metres behind the plane that are seen
-  std::uint32_t sun_at_hits = 1;  ///< ReflectionConstants::sun_at_hits
-  std::uint32_t plane_count = 0;  ///< set by the pass
-  std::uint32_t fallback = 2;     ///< of other surfaces: 0: none, 2: the environment map
-  std::uint32_t plane = 0;        ///< set by the pass
-  std::uint32_t width = 0;        ///< of a plane's picture; 0: the frame's
-  std::uint32_t height = 0;       ///< likewise
+  float longest = 200.0f;                     ///< metres behind the plane that are seen
+  SunAtHits sun_at_hits = SunAtHits::kByRay;  ///< ReflectionConstants::sun_at_hits
+  std::uint32_t plane_count = 0;              ///< set by the pass
+  std::uint32_t fallback = 2;  ///< of other surfaces: 0: none, 2: the environment map
+  std::uint32_t plane = 0;     ///< set by the pass
+  std::uint32_t width = 0;     ///< of a plane's picture; 0: the frame's
+  std::uint32_t height = 0;    ///< likewise
 };
 
 /// The pass: a ray for each texel of each plane's picture, then a look-up. Register u0 of space3 is

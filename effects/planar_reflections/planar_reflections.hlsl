@@ -29,7 +29,7 @@ static const float kAlong = 0.999;    // cosine between a surface's normal and i
 // How far off the plane rays start, in its distance from the camera: what is nearer is cut off.
 static const float kClip = 1e-5;
 
-bool IsSunAtHits() { return constants.sun_at_hits != 0; }
+uint SunAtHits() { return constants.sun_at_hits; }
 
 // A ray of the mirrored camera starts where it passes the plane, which clips all in front of it.
 [shader("raygeneration")]

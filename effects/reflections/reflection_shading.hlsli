@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What the rays of reflections see: their hit shaders, and the ray itself. Whoever includes this
-// defines IsSunAtHits(): whether what rays hit is lit by the sun, by a ray. [effects-spec B4.10]
+// defines SunAtHits(): whether what rays hit is lit by the sun, and how [hit_shading.hlsli].
+// [effects-spec B4.10]
 #ifndef KAAMOS_REFLECTION_SHADING_HLSLI
 #define KAAMOS_REFLECTION_SHADING_HLSLI
 
 #include "hit_indirect.hlsli"
 #include "reflection_ray.hlsli"
 
-bool IsSunAtHits();
+uint SunAtHits();
 
 // Above this roughness reflections are noisy and filtered anyway, so reading a single cell of the
 // volume per ray adds little noise. In a mirror it would show. The value lies between two of the
@@ -38,7 +39,7 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
-  payload.radiance = ShadeHit(surface, -WorldRayDirection(), IsSunAtHits()) +
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), SunAtHits()) +
                      IndirectAtHit(surface, payload.volume_jitter, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "effects/frame/ray_pass.h"
+#include "effects/lights/lighting.h"
 
 namespace kaamos::effects {
 
@@ -37,8 +38,8 @@ struct ReflectionConstants {
   /// Luminance that a sample is clamped to, as the pixel shows it, in multiples of white; 0: none.
   /// The talk has 10. The energy above is lost.
   float firefly_limit = 0.0f;
-  std::uint32_t sun_at_hits = 1;    ///< 1: what rays hit is lit by the sun, by a ray; 0: it is not
-  std::uint32_t single_length = 0;  ///< 1: `longest` at every roughness
+  SunAtHits sun_at_hits = SunAtHits::kByRay;  ///< how what rays hit is lit by the sun
+  std::uint32_t single_length = 0;            ///< 1: `longest` at every roughness
   Fireflies fireflies = Fireflies::kRetrace;  ///< what is done about them
   std::uint32_t more_rays = 4;                ///< with which a bright sample is averaged
 };

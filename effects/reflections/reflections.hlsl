@@ -19,7 +19,7 @@ struct ReflectionConstants {
 };
 ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
-bool IsSunAtHits() { return constants.sun_at_hits != 0; }
+uint SunAtHits() { return constants.sun_at_hits; }
 
 // What is done about fireflies. [effects/reflections/reflections.h]
 static const uint kKeep = 0;

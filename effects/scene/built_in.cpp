@@ -12,6 +12,7 @@
 #include "effects/scene/mirror_hall.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/peter_panning.h"
+#include "effects/scene/projector.h"
 #include "effects/scene/runner.h"
 #include "effects/scene/stress_scenes.h"
 #include "effects/scene/terrain.h"
@@ -33,6 +34,7 @@ constexpr BuiltInScene kScenes[] = {
     {"foliage", [] { return make_foliage({}); }},
     {"crown", [] { return make_crown(); }},
     {"light-forest", [] { return make_light_forest({}); }},
+    {"projector", [] { return make_projector(); }},
     {"terrain", [] { return make_terrain({}); }},
     {"pub", [] { return make_stress_scene({StressKind::kPub}); }},
     {"resort", [] { return make_stress_scene({StressKind::kResort}); }},

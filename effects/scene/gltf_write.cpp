@@ -353,7 +353,14 @@ Result<std::vector<std::uint8_t>> Writer::run() {
   for (const Instance& instance : scene_.instances) add_instance(instance);
   for (const Camera& camera : scene_.cameras) add_camera(camera);
   if (scene_.sun) add_sun(*scene_.sun);
-  for (const Light& light : scene_.lights) add_light(light);
+  for (const Light& light : scene_.lights) {
+    if (light.projection) {
+      return make_error(ErrorId::kGltfWrite,
+                        "light \"" + light.name +
+                            "\" has a projection map, for which glTF has no place; leave it out");
+    }
+    add_light(light);
+  }
   if (data_.size() > 0xF0000000u)
     return make_error(ErrorId::kGltfWrite, "needs " + std::to_string(data_.size()) +
                                                " bytes, a .glb holds less than 4 GB");

@@ -117,6 +117,7 @@ class Checker {
   void motion(const Instance& instance, const std::string& where);
   void animation(const Animation& animation);
   void skeleton();
+  void light(const Light& light);
   void rest();
   void require(bool rule, const std::string& where, const std::string& what) {
     if (!rule && first_.empty()) first_ = where + ": " + what;
@@ -284,6 +285,19 @@ void Checker::skeleton() {
   }
 }
 
+void Checker::light(const Light& light) {
+  const std::string where = quoted("light", light.name);
+  require(unit(light.direction), where, "direction is not a unit vector");
+  if (!light.projection) return;
+  const ProjectionMap& map = *light.projection;
+  require(light.type == LightType::kSpot, where, "has a projection map and is no spot");
+  require(map.image < scene_.images.size(), where,
+          "projection map: image " + of(map.image, scene_.images.size()));
+  require(map.sampler < scene_.samplers.size(), where,
+          "projection map: sampler " + of(map.sampler, scene_.samplers.size()));
+  require(std::isfinite(map.up.x + map.up.y + map.up.z), where, "projection map: up is not finite");
+}
+
 void Checker::rest() {
   require(!scene_.materials.empty(), "scene", "has no material");
   require(!scene_.samplers.empty(), "scene", "has no sampler");
@@ -294,8 +308,7 @@ void Checker::rest() {
     require(camera.vertical_fov > 0.0 && camera.vertical_fov < 3.14159, where,
             "field of view is " + std::to_string(camera.vertical_fov) + ", 0..pi is allowed");
   }
-  for (const Light& light : scene_.lights)
-    require(unit(light.direction), quoted("light", light.name), "direction is not a unit vector");
+  for (const Light& light : scene_.lights) this->light(light);
   if (scene_.sun)
     require(unit(scene_.sun->direction_to_sun) && scene_.sun->angular_radius >= 0.0f, "sun",
             "direction is not a unit vector or angular radius is negative");

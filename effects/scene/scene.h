@@ -77,6 +77,13 @@ glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin = g
 /// flag than the rest, but glTF's fronts of a mirrored node are the other side.
 bool is_mirrored(const Instance& instance);
 
+/// What a spot throws on what it lights.
+struct ProjectionMap {
+  std::uint32_t image = 0;    ///< in Scene::images
+  std::uint32_t sampler = 0;  ///< in Scene::samplers
+  glm::vec3 up{0, 1, 0};      ///< where its upper edge points, as far as it is across the light
+};
+
 /// A local light, or a directional one besides the sun. [KHR_lights_punctual]
 struct Light {
   std::string name;                    ///< for people
@@ -93,6 +100,9 @@ struct Light {
   ///@}
   float radius = 0.02f;  ///< of the sphere that soft shadows sample, metres
   bool baked = true;     ///< indirect light has it; false for one that is switched or moves
+  /// A spot's picture, as a slide in a projector: its colours times the light's. It fills the
+  /// square around the cone.
+  std::optional<ProjectionMap> projection = {};
 };
 
 /// Angular radius of the real sun as seen from the earth. [effects-spec B0.4]

@@ -7,7 +7,6 @@
 
 #include "encoding.hlsli"
 #include "geometry.hlsli"
-#include "lights.hlsli"
 #include "material.hlsli"
 #include "sky.hlsli"
 
@@ -40,6 +39,13 @@ struct FrameConstants {
   float padding5;
   float2 jitter;           // pixels, added to the primary rays
   float2 previous_jitter;  // the previous frame's
+  // The sun's map in the atlas. A point p stands at dot(p - sun_map_centre, axis), from -1 to 1.
+  float3 sun_map_centre;
+  float sun_map_reach;  // metres from the centre to where its rays begin, and to their end
+  float3 sun_map_right;
+  float sun_map_texel;  // metres
+  float3 sun_map_up;
+  uint sun_map_size;    // texels along its side; 0: there is no map
 };
 
 // Root constants of a dispatch.
@@ -68,7 +74,6 @@ ConstantBuffer<PassConstants> pass_constants : register(b1);
 RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<MaterialConstants> materials : register(t1);
 StructuredBuffer<float2> blue_noise : register(t2);
-StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of them
 StructuredBuffer<PreviousInstance> previous_instances : register(t4);  // by InstanceIndex()
 // The pixel of each place in the dispatch, row by row: x + 65536 * y. [effects/ray_order]
 StructuredBuffer<uint> ray_order : register(t5);
@@ -79,6 +84,9 @@ static const uint kSpecularAlbedoCosines = 32;
 static const uint kSpecularAlbedoRoughnesses = 32;
 Texture2D<float4> textures[] : register(t0, space1);
 SamplerState samplers[] : register(s0, space1);
+
+#include "lights.hlsli"
+StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of them
 
 // The G-buffer. [effects-spec B0.2]
 RWTexture2D<float> g_depth : register(u0);       // reversed-Z, infinite far: near / view_z; 0: a miss

@@ -130,6 +130,45 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
   return visible;
 }
 
+// Whether the sun's map covers a point.
+bool IsInSunMap(float3 position) {
+  const float3 p = position - frame.sun_map_centre;
+  return frame.sun_map_size != 0 &&
+         max(abs(dot(p, frame.sun_map_right)), abs(dot(p, frame.sun_map_up))) <= 1.0;
+}
+
+// The corner of the sun's map: right of the tiles.
+uint2 SunMapOrigin() {
+  return uint2(clamp(frame.light_count, 1u, kShadowTilesPerRow) * kShadowTile, 0);
+}
+
+// Visibility of the sun's centre by its map, as ShadowMapVisibility. A texel stores where along the
+// sunlight it saw a surface, metres from the map's centre; how much that changes from texel to
+// texel to the right and up; and 1. All are 0 if nothing was hit.
+float SunMapVisibility(float3 position, float3 normal) {
+  const float3 p = position + normal * (kShadowOffset * frame.sun_map_texel) - frame.sun_map_centre;
+  const float receiver = -dot(p, frame.direction_to_sun);
+  const float2 at = float2(dot(p, frame.sun_map_right), dot(p, frame.sun_map_up)) *
+                        (0.5 * float(frame.sun_map_size)) + (0.5 * float(frame.sun_map_size) - 0.5);
+  const int2 corner = int2(floor(at));
+  const float2 part = at - floor(at);
+  const uint2 origin = SunMapOrigin();
+  const int last = int(frame.sun_map_size) - 1;
+  float visible = 0.0;
+  [unroll] for (int i = 0; i < 4; ++i) {
+    const int2 offset = int2(i & 1, i >> 1);
+    const int2 texel_at = clamp(corner + offset, int2(0, 0), int2(last, last));
+    const float4 occluder = shadow_atlas[origin + uint2(texel_at)];
+    const float weight = (offset.x == 1 ? part.x : 1.0 - part.x) *
+                         (offset.y == 1 ? part.y : 1.0 - part.y);
+    const float plane = occluder.x + dot(occluder.yz, at - float2(texel_at));
+    const bool is_behind =
+        occluder.w > 0.0 && receiver > plane + kShadowTolerance * frame.sun_map_texel;
+    visible += is_behind ? 0.0 : weight;
+  }
+  return visible;
+}
+
 // Radiance of one light reflected towards `view`, without shadow.
 float3 LightRadiance(LightConstants light, Brdf brdf, BrdfView view, float3 position) {
   const LightSample s = SampleLight(light, position);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Local lights: what arrives at a point, without shadows. The layout is that of
-// effects/lights/light_constants.h.
+// effects/lights/light_constants.h. frame.hlsli includes this behind its textures and samplers.
 #ifndef KAAMOS_LIGHTS_HLSLI
 #define KAAMOS_LIGHTS_HLSLI
 
@@ -20,6 +20,9 @@ struct LightConstants {
   float over_least_distance;  // 1 / metres; closer points are lit as if at that distance
   float3 map_up;
   float map_texel;  // radians that a texel of the map covers
+  int projection;   // a spot's projection map, of the textures; -1: none
+  uint projection_sampler;
+  float2 padding;
 };
 
 struct LightSample {
@@ -27,6 +30,15 @@ struct LightSample {
   float distance;      // metres to its centre
   float3 irradiance;   // on a surface that faces the light
 };
+
+// What a spot's projection map lets through towards a unit direction from the light.
+float3 ProjectionTowards(LightConstants light, float3 direction) {
+  const float along = max(dot(direction, light.direction), 1e-6f);
+  const float2 at = float2(dot(direction, light.map_right), dot(direction, light.map_up)) / along;
+  return textures[NonUniformResourceIndex(light.projection)].SampleLevel(
+      samplers[NonUniformResourceIndex(light.projection_sampler)],
+      at * float2(0.5f, -0.5f) + 0.5f, 0.0f).rgb;
+}
 
 // Inverse square law with a smooth cutoff at the range. Inside the light's sphere, a point is lit
 // as if it were on the sphere. [KHR_lights_punctual; effects-spec B1.3]
@@ -47,6 +59,7 @@ LightSample SampleLight(LightConstants light, float3 position) {
   if (!(window * cone > 0.0f)) return result;
   const float root = window * cone * min(over_distance, light.over_least_distance);
   result.irradiance = light.intensity * (root * root);
+  if (light.projection >= 0) result.irradiance *= ProjectionTowards(light, -result.direction);
   return result;
 }
 

@@ -200,7 +200,7 @@ float3 MirrorImage(Surface surface, float3 direction) {
 }
 
 void ShadeMirrored(inout GlassPayload payload, Surface surface) {
-  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun != 0) +
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun) +
                      IndirectAtHit(surface, kEveryCell, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }

@@ -116,7 +116,8 @@ rtapi::Result<Plan> make_plan(EffectRuns& runs, const Options& options) {
   reflection.change<ReflectionConstants>(
       [](auto& constants) { constants.fireflies = Fireflies::kKeep; });
   Setting without_sun = reflection;
-  without_sun.change<ReflectionConstants>([](auto& constants) { constants.sun_at_hits = 0; });
+  without_sun.change<ReflectionConstants>(
+      [](auto& constants) { constants.sun_at_hits = SunAtHits::kNone; });
   Setting trace = reflection;
   trace.settings.trace_only = true;
   plan.runs.push_back({kReflectionTrace, trace});

@@ -49,6 +49,7 @@ struct Words {
   std::string fireflies = "retrace";
   std::string contact_combine = "product";
   std::string light_culling = "clusters";
+  std::string sun_at_hits = "ray";
   float firefly_limit = 0;
   float gi_length = IndirectConstants().length;
   float reflection_length = ReflectionConstants().longest;
@@ -197,6 +198,11 @@ IndirectMode indirect_mode(const std::string& name) {
   return IndirectMode::kNearField;
 }
 
+SunAtHits sun_at_hits(const std::string& name) {
+  if (name == "none") return SunAtHits::kNone;
+  return name == "map" ? SunAtHits::kByMap : SunAtHits::kByRay;
+}
+
 Fireflies fireflies(const std::string& name) {
   if (name == "keep") return Fireflies::kKeep;
   if (name == "average") return Fireflies::kAverage;
@@ -210,11 +216,13 @@ void apply(const Words& words, Options& options) {
   IndirectConstants indirect;
   indirect.mode = indirect_mode(words.gi_mode);
   indirect.length = words.gi_length;
+  indirect.sun_at_hits = sun_at_hits(words.sun_at_hits);
   if (!words.bake_lights.empty()) frame.volume.lights = baked_lights(words.bake_lights);
   options.effects.at("gi").set_constants(indirect);
   ReflectionConstants reflection;
   reflection.firefly_limit = words.firefly_limit;
   reflection.fireflies = fireflies(words.fireflies);
+  reflection.sun_at_hits = indirect.sun_at_hits;
   reflection.longest = words.reflection_length;
   reflection.shortest = words.reflection_length_rough;
   options.effects.at("reflections").set_constants(reflection);
@@ -240,6 +248,11 @@ void apply(const Words& words, Options& options) {
       words.contact_combine == "min" ? ContactCombination::kMinimum : ContactCombination::kProduct;
   frame.light_culling =
       words.light_culling == "frustum" ? LightCulling::kFrustum : LightCulling::kClusters;
+  if (words.sun_at_hits != "map") {
+    frame.sun_map = 0;
+  } else if (frame.sun_map == 0) {
+    frame.sun_map = 2048;
+  }
   frame.moving = options.frames > 0;
   choose(options, words.effects);
 }
@@ -331,6 +344,15 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "reach into the picture); the picture stays the same")
       ->capture_default_str()
       ->check(CLI::IsMember({"clusters", "frustum"}));
+  app.add_option(
+         "--sun-at-hits", words.sun_at_hits,
+         "the sun where rays of reflections and indirect light hit: ray (a shadow ray), map "
+         "(a shadow map of the whole scene), none")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"ray", "map", "none"}));
+  app.add_option("--sun-map-size", options.frame.sun_map,
+                 "texels along the side of that map (2048)")
+      ->check(CLI::Range(1u, kMaxSunMap));
   app.add_option("--contact-length", words.contact_length, "length of these rays, in metres")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e6f));
