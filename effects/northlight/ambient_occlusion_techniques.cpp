@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Ambient occlusion from the depth picture, as effects of a frame.
+#include <fmt/format.h>
+
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "effects/northlight/effect_pass.h"
 #include "effects/northlight/techniques.h"
@@ -58,9 +62,70 @@ Effect occlusion_row(const char* name, const char* about, const char* layer) {
 }
 
 template <class Constants>
+EffectStep step(std::string label, const Constants& constants) {
+  EffectStep out{std::move(label), EffectSettings().set_constants(constants)};
+  out.settings.radius = kDefaultScreenSpaceRadius;
+  return out;
+}
+
+// More and more points.
+template <class Constants>
+std::vector<EffectStep> steps_of_points(Constants constants) {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t count : {4u, 8u, 16u, 32u, 64u}) {
+    constants.samples = count;
+    out.push_back(step(fmt::format("{} points", count), constants));
+  }
+  return out;
+}
+
+std::vector<EffectStep> hbao_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t count : {3u, 6u, 8u, 16u}) {
+    HbaoConstants constants;
+    constants.directions = constants.steps = count;
+    out.push_back(step(fmt::format("{0} directions, {0} steps", count), constants));
+  }
+  return out;
+}
+
+// XeGTAO's low, medium, high and ultra quality.
+std::vector<EffectStep> gtao_steps() {
+  std::vector<EffectStep> out;
+  for (const auto& [slices, steps] : {std::pair(1u, 2u), {2u, 2u}, {3u, 3u}, {9u, 3u}}) {
+    GtaoConstants constants;
+    constants.slices = slices;
+    constants.steps = steps;
+    out.push_back(
+        step(fmt::format("{} {}, {} steps", slices, slices == 1 ? "slice" : "slices", steps),
+             constants));
+  }
+  return out;
+}
+
+std::vector<EffectStep> accurate_gtao_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t slices : {4u, 8u, 16u}) {
+    out.push_back(step(fmt::format("{} slices, {} steps", slices, 2 * slices),
+                       accurate_gtao(slices, 2 * slices)));
+  }
+  return out;
+}
+
+std::vector<EffectStep> line_sweep_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t count : {4u, 8u, 16u, 32u}) {
+    out.push_back(step(fmt::format("lines of {} directions", count), LineSweepSettings{count}));
+  }
+  return out;
+}
+
+template <class Constants>
 Effect screen_space_row(const char* name, const char* about, const char* layer,
-                        EffectLibrary library, ScreenSpaceAoKind kind, const Constants& constants) {
+                        EffectLibrary library, ScreenSpaceAoKind kind, const Constants& constants,
+                        std::vector<EffectStep> steps) {
   Effect row = occlusion_row(name, about, layer);
+  row.steps = std::move(steps);
   row.library = library;
   row.more_libraries = {{kFilter, occlusion_filter_library}};
   row.make = [kind, file = library.file](
@@ -78,6 +143,7 @@ Effect screen_space_row(const char* name, const char* about, const char* layer,
 
 Effect line_sweep_row() {
   Effect row = occlusion_row("line-sweep-ao", "line-sweep ambient occlusion", "line_sweep_ao");
+  row.steps = line_sweep_steps();
   row.library = {kLineSweep, line_sweep_ao_library};
   row.make = [](const EffectScope& scope) -> rtapi::Result<std::unique_ptr<EffectPass>> {
     auto passes =
@@ -98,20 +164,24 @@ std::vector<Effect> ambient_occlusion_techniques() {
   const EffectLibrary hemisphere = {"screen_space_ao/hemisphere_ao", hemisphere_ao_library};
   const EffectLibrary hbao = {"screen_space_ao/hbao", hbao_library};
   const EffectLibrary gtao = {"screen_space_ao/gtao", gtao_library};
-  return {screen_space_row("crytek-ao", "Crytek's ambient occlusion", "crytek_ao", crytek,
-                           ScreenSpaceAoKind::kCrytek, CrytekConstants{}),
-          screen_space_row("crytek-ao-remapped", "Crytek's ambient occlusion, open walls white",
-                           "crytek_ao_remapped", crytek, ScreenSpaceAoKind::kCrytek,
-                           CrytekConstants{.remap = 1}),
-          screen_space_row("hemisphere-ao", "hemisphere ambient occlusion", "hemisphere_ao",
-                           hemisphere, ScreenSpaceAoKind::kHemisphere, HemisphereConstants{}),
-          screen_space_row("hbao", "horizon-based ambient occlusion", "hbao", hbao,
-                           ScreenSpaceAoKind::kHbao, HbaoConstants{}),
-          screen_space_row("gtao", "ground-truth ambient occlusion", "gtao", gtao,
-                           ScreenSpaceAoKind::kGtao, GtaoConstants{}),
-          screen_space_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode",
-                           "gtao_accurate", gtao, ScreenSpaceAoKind::kGtao, accurate_gtao(16, 32)),
-          line_sweep_row()};
+  return {
+      screen_space_row("crytek-ao", "Crytek's ambient occlusion", "crytek_ao", crytek,
+                       ScreenSpaceAoKind::kCrytek, CrytekConstants{},
+                       steps_of_points(CrytekConstants{})),
+      screen_space_row("crytek-ao-remapped", "Crytek's ambient occlusion, open walls white",
+                       "crytek_ao_remapped", crytek, ScreenSpaceAoKind::kCrytek,
+                       CrytekConstants{.remap = 1}, steps_of_points(CrytekConstants{.remap = 1})),
+      screen_space_row("hemisphere-ao", "hemisphere ambient occlusion", "hemisphere_ao", hemisphere,
+                       ScreenSpaceAoKind::kHemisphere, HemisphereConstants{},
+                       steps_of_points(HemisphereConstants{})),
+      screen_space_row("hbao", "horizon-based ambient occlusion", "hbao", hbao,
+                       ScreenSpaceAoKind::kHbao, HbaoConstants{}, hbao_steps()),
+      screen_space_row("gtao", "ground-truth ambient occlusion", "gtao", gtao,
+                       ScreenSpaceAoKind::kGtao, GtaoConstants{}, gtao_steps()),
+      screen_space_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode",
+                       "gtao_accurate", gtao, ScreenSpaceAoKind::kGtao, accurate_gtao(16, 32),
+                       accurate_gtao_steps()),
+      line_sweep_row()};
 }
 
 }  // namespace kaamos::effects

@@ -77,6 +77,9 @@ rtapi::Status FrameRenderer::begin_frame(const FrameMoment& moment) {
   for (const auto& effect : active_) {
     if (!effect->own) continue;
     if (const auto s = effect->own->begin_frame(moment.camera); !s) return s;
+    for (const auto& other : effect->others) {
+      if (const auto s = other->own->begin_frame(moment.camera); !s) return s;
+    }
   }
   return {};
 }

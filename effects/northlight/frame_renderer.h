@@ -116,7 +116,9 @@ class FrameRenderer {
   /// anew. One dispatch.
   /// @errors those of prepare and of the device; KA3046 an effect that this frame does not have.
   rtapi::Result<RunStatistics> run(const std::string& effect, std::uint32_t samples);
-  /// The same with all settings. `first_sample`: of each pixel's sequence.
+  /// The same with all settings. `first_sample`: of each pixel's sequence. An effect with passes of
+  /// its own gets some for each set of constants, and each number of samples where it is no sum:
+  /// what they keep from frame to frame is theirs alone.
   /// @errors as above; KA3046 settings.trace_only of an effect without Effect::trace.
   rtapi::Result<RunStatistics> run(const std::string& effect, const EffectSettings& settings,
                                    std::uint32_t first_sample = 0);
@@ -222,6 +224,13 @@ class FrameRenderer {
   rtapi::Result<std::vector<std::pair<std::string, RayPass>>> ray_passes() const;
 
  private:
+  // Passes of an effect that were made from other settings than the frame's, for run().
+  struct OtherPasses {
+    EffectSettings settings;
+    std::optional<PassViews> views;
+    std::unique_ptr<EffectPass> own;
+  };
+
   // An effect of this frame.
   struct Active {
     const Effect* row = nullptr;
@@ -229,7 +238,8 @@ class FrameRenderer {
     std::string title;  // of its pass
     RayPass pass, trace;
     std::unique_ptr<EffectPass> own;  // instead of `pass`
-    std::optional<RayPass> keys;      // sorts its rays
+    std::vector<std::unique_ptr<OtherPasses>> others;
+    std::optional<RayPass> keys;  // sorts its rays
     std::optional<PassViews> views, trace_views;
     std::optional<ComputePass> compose;
     std::vector<rtapi::Texture> pictures;   // by signal
@@ -259,7 +269,12 @@ class FrameRenderer {
   rtapi::Status create_views(Active& effect, const GpuVolume& volume,
                              std::optional<PassViews>& views) const;
   rtapi::Status create_pictures(Active& effect) const;
+  rtapi::Result<std::unique_ptr<EffectPass>> make_own(const Active& effect,
+                                                      const EffectSettings& settings,
+                                                      PassViews& views);
   rtapi::Status create_own(Active& effect);
+  static EffectPass* own_of(const Active& effect, const EffectSettings& settings);
+  rtapi::Status find_own(Active& effect, const EffectSettings& settings);
   rtapi::Status create_effect(Active& effect);
   // frame_renderer_surfaces.cpp
   rtapi::Status create_gbuffer();

@@ -97,16 +97,49 @@ rtapi::Status FrameRenderer::create_pictures(Active& effect) const {
   return {};
 }
 
-rtapi::Status FrameRenderer::create_own(Active& effect) {
+rtapi::Result<std::unique_ptr<EffectPass>> FrameRenderer::make_own(const Active& effect,
+                                                                   const EffectSettings& settings,
+                                                                   PassViews& views) {
   const auto library = [this](const std::string& file) -> const rtapi::ShaderLibrary& {
     return libraries_.at(file);
   };
-  auto own = effect.row->make(
-      {device_, queue_, frame_, scene_, gpu_, library, *effect.views, effect.settings});
+  auto own = effect.row->make({device_, queue_, frame_, scene_, gpu_, library, views, settings});
+  if (!own) return own.error();
+  if (const auto s = (*own)->begin_frame(moment_.camera); !s) return s.error();
+  return own;
+}
+
+rtapi::Status FrameRenderer::create_own(Active& effect) {
+  auto own = make_own(effect, effect.settings, *effect.views);
   if (!own) return own.error();
   effect.own = std::move(*own);
   effect.title = effect.row->about;
-  return effect.own->begin_frame(moment_.camera);
+  return {};
+}
+
+// Null: there is none yet.
+EffectPass* FrameRenderer::own_of(const Active& effect, const EffectSettings& settings) {
+  const auto fits = [&](const EffectSettings& made) {
+    return made.constants == settings.constants &&
+           (effect.row->signals.front().is_sum || made.samples == settings.samples);
+  };
+  if (fits(effect.settings)) return effect.own.get();
+  for (const auto& other : effect.others) {
+    if (fits(other->settings)) return other->own.get();
+  }
+  return nullptr;
+}
+
+rtapi::Status FrameRenderer::find_own(Active& effect, const EffectSettings& settings) {
+  if (!effect.own || own_of(effect, settings) != nullptr) return {};
+  auto other = std::make_unique<OtherPasses>();
+  other->settings = settings;
+  if (const auto s = create_views(effect, gpu_volume_, other->views); !s) return s;
+  auto own = make_own(effect, settings, *other->views);
+  if (!own) return own.error();
+  other->own = std::move(*own);
+  effect.others.push_back(std::move(other));
+  return {};
 }
 
 rtapi::Status FrameRenderer::create_effect(Active& effect) {

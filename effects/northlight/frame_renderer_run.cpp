@@ -47,6 +47,7 @@ rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string&
   if (is_late(*effect)) {
     if (const auto s = find_radiance(); !s) return s.error();
   }
+  if (const auto s = find_own(*effect, settings); !s) return s.error();
   if (!settings.trace_only || effect->trace_views) return effect;
   if (!effect->row->trace)
     return make_error(ErrorId::kFrameRenderer,
@@ -63,7 +64,7 @@ void FrameRenderer::record_pass(rtapi::CommandList& list, const Active& effect,
                                 const EffectSettings& settings, PassConstants constants) const {
   constants.radius = settings.radius;
   constants.pixel_step = settings.pixel_step;
-  if (effect.own) return effect.own->record(list, settings, constants);
+  if (effect.own) return own_of(effect, settings)->record(list, settings, constants);
   const PassArguments words = arguments(effect, settings);
   const std::uint32_t step = settings.pixel_step;
   const RayPass& pass = settings.trace_only ? effect.trace : effect.pass;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -32,6 +35,31 @@ Effect row(std::string name, std::string about, const std::string& signal, bool 
   return effect;
 }
 
+template <class Constants>
+EffectStep step(std::string label, std::uint32_t rays, const Constants& constants) {
+  EffectSettings settings;
+  settings.samples = rays;
+  return {std::move(label) + (rays == 1 ? ", 1 ray" : fmt::format(", {} rays", rays)),
+          settings.set_constants(constants)};
+}
+
+// The same marches with more and more rays, the first ones coarser.
+template <class Constants>
+std::vector<EffectStep> steps_of_rays(const std::string& coarse_label, const Constants& coarse,
+                                      const std::string& label, const Constants& constants) {
+  std::vector<EffectStep> out = {step(coarse_label, 1, coarse)};
+  for (const std::uint32_t rays : {1u, 4u, 16u}) out.push_back(step(label, rays, constants));
+  return out;
+}
+
+// Every fourth pixel, then every pixel.
+template <class Constants>
+std::vector<EffectStep> steps_of_pixels(const Constants& constants) {
+  Constants coarse = constants;
+  coarse.screen.stride = 4;
+  return steps_of_rays("every fourth pixel", coarse, "every pixel", constants);
+}
+
 // One that finds hits in the picture, and says where.
 Effect screen_row(std::string name, std::string about, const std::string& signal) {
   Effect effect = row(std::move(name), std::move(about), signal, true);
@@ -48,6 +76,15 @@ Effect march_row(std::string name, std::string about, const std::string& signal,
   effect.library = {"screen_space_reflections/screen_reflections", screen_reflections_library};
   effect.make = make_screen_reflections;
   effect.defaults.set_constants(constants);
+  ScreenReflectionConstants coarse = constants;
+  if (constants.march == ScreenMarch::kPixels) {
+    coarse.stride = 4;
+    effect.steps = steps_of_rays("every fourth pixel", coarse, "every pixel", constants);
+  } else {
+    coarse.steps = std::max(constants.steps / 4, 1u);
+    effect.steps = steps_of_rays(fmt::format("{} samples", coarse.steps), coarse,
+                                 fmt::format("{} samples", constants.steps), constants);
+  }
   return effect;
 }
 
@@ -58,6 +95,7 @@ Effect masked_row() {
   effect.library = {"screen_space_reflections/screen_mask", screen_mask_library};
   effect.make = make_masked_reflections;
   effect.defaults.set_constants(ScreenMaskConstants{});
+  effect.steps = steps_of_pixels(ScreenMaskConstants{});
   return effect;
 }
 
@@ -69,6 +107,9 @@ Effect stochastic_row() {
   effect.make = make_stochastic_reflections;
   effect.misses = "what ssr misses; light leaks about corners, where neighbours see something else";
   effect.defaults.set_constants(StochasticConstants{});
+  const StochasticConstants alone{.neighbours = 1};
+  effect.steps =
+      steps_of_rays("rays of 1 neighbour", alone, "rays of 9 neighbours", StochasticConstants{});
   effect.needs.radiance = true;
   return effect;
 }
@@ -80,6 +121,11 @@ Effect blurred_row() {
   effect.make = make_blurred_reflections;
   effect.misses = "what ssr misses; what touches a rough surface is as blurred as what is far away";
   effect.defaults.set_constants(BlurredConstants{});
+  for (const float fresh : {1.0f, 0.5f, 0.125f}) {
+    effect.steps.push_back(
+        {fresh == 1 ? "no frames before" : fmt::format("new rays weigh {}", fresh),
+         EffectSettings().set_constants(BlurredConstants{.fresh = fresh})});
+  }
   effect.needs.radiance = true;
   return effect;
 }
@@ -92,6 +138,7 @@ Effect hybrid_row() {
   effect.more_libraries.clear();
   effect.make = make_hybrid_reflections;
   effect.defaults.set_constants(default_hybrid_constants());
+  effect.steps = steps_of_pixels(default_hybrid_constants());
   effect.samples_option = "hybrid-samples";
   effect.misses = "highlights of what is reflected are those that the camera sees";
   return effect;
@@ -112,6 +159,9 @@ Effect planar_row() {
   effect.make = make_planar_reflections;
   effect.misses = "mirrors that are not flat show an environment map";
   effect.defaults.set_constants(PlanarConstants{});
+  effect.steps = {{"hits without the sun", EffectSettings().set_constants(
+                                               PlanarConstants{.sun_at_hits = SunAtHits::kNone})},
+                  {"hits with the sun", EffectSettings().set_constants(PlanarConstants{})}};
   return effect;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include "effects/adaptive_shadow/adaptive_shadow.h"
 #include "effects/northlight/techniques.h"
 #include "effects/shadow_map/shadow_map.h"
@@ -34,6 +36,15 @@ Effect sun_map_row() {
   return row;
 }
 
+std::vector<EffectStep> adaptive_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t rays : {kAdaptiveStandardSamples, kAdaptiveHighSamples, 16u}) {
+    out.push_back({fmt::format("{} rays at most", rays),
+                   EffectSettings{.samples = rays}.set_constants(AdaptiveShadowConstants{})});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Effect> shadow_techniques() {
@@ -53,6 +64,7 @@ std::vector<Effect> shadow_techniques() {
           .needs = {.sun = true},
           .alternative_to = "sun",
           .samples_option = "adaptive-sun-samples",
+          .steps = adaptive_steps(),
           .misses = "for up to four frames what moves, and thin shadows on calm ground",
       },
       sun_map_row(),

@@ -230,6 +230,31 @@ constexpr std::pair<const char*, const char*> kTexts[] = {
     {"contact shadows: trace, %", "53, 36"},
     {"contact shadows: denoise, %", "47, 64"}};
 
+// The passes of Control that are timed here too. [effects-spec A.6: Table 1]
+const std::vector<ControlPass> kControl = {
+    {"reflections: trace", {1.0, 1.4}, {}},      {"reflections: shade", {1.4, 1.1}, {}},
+    {"reflections: denoise", {0.8, 0.8}, {}},    {"indirect diffuse: trace", {0.8, 0.7}, {}},
+    {"indirect diffuse: shade", {0.8, 0.6}, {}}, {"indirect diffuse: denoise", {1.1, 1.0}, {}},
+    {"contact shadows: trace", {0.8, 0.4}, {}},  {"contact shadows: denoise", {0.7, 0.7}, {}}};
+
+// In the order of kControl.
+std::vector<std::optional<double>> control_costs(const std::vector<Round>& rounds) {
+  const auto cost = [&](Cost which) {
+    return over(rounds, {which}, [=](const Round& round) { return round[which]; });
+  };
+  const auto more = [&](Cost all, Cost part) {
+    return over(rounds, {all, part}, [=](const Round& round) { return round[all] - round[part]; });
+  };
+  return {cost(kReflectionTrace),
+          more(kReflection, kReflectionTrace),
+          cost(kReflectionFilter),
+          cost(kIndirectTrace),
+          more(kIndirect, kIndirectTrace),
+          cost(kIndirectFilter),
+          cost(kContactTrace),
+          cost(kContactFilter)};
+}
+
 rtapi::Result<Outcome> run_rounds(const Options& options, const Scene& scene,
                                   const std::string& cache, const Progress& progress,
                                   std::vector<Round>& rounds) {
@@ -273,6 +298,7 @@ rtapi::Result<Outcome> measure_claims(const Options& options, const Scene& scene
   std::filesystem::create_directories(cache, failed);
   if (failed) return failure("cannot make the folder " + cache + ": " + failed.message());
   for (const auto& [text, seed] : kTexts) table.claims.push_back({text, seed, {}});
+  table.control = kControl;
   // In this order, so that the second run finds the volume that the first one bakes.
   for (const std::string& backend : {std::string("embree"), std::string("vulkan")}) {
     if (backend == "vulkan" && !has_vulkan()) continue;
@@ -288,6 +314,8 @@ rtapi::Result<Outcome> measure_claims(const Options& options, const Scene& scene
     table.backends.push_back(fmt::format("{} {} x {}", backend, own.frame.width, own.frame.height));
     const auto values = numbers(rounds);
     for (std::size_t i = 0; i < values.size(); ++i) table.claims[i].here.push_back(values[i]);
+    const auto costs = control_costs(rounds);
+    for (std::size_t i = 0; i < costs.size(); ++i) table.control[i].here.push_back(costs[i]);
   }
   return Outcome::kDone;
 }

@@ -21,9 +21,17 @@ struct Claim {
   std::vector<std::optional<double>> here;
 };
 
+// A pass of the survey's Table 1, in milliseconds.
+struct ControlPass {
+  std::string name;
+  double frames[2];                         // Control's
+  std::vector<std::optional<double>> here;  // by backend, as above
+};
+
 struct ClaimTable {
   std::vector<std::string> backends;  // name and picture size
   std::vector<Claim> claims;
+  std::vector<ControlPass> control;
 };
 
 std::string as_text(const ClaimTable& table);

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "effects/common/file.h"
 #include "failure.h"
@@ -55,30 +57,6 @@ rtapi::Result<FloatImage> run_setting(EffectRuns& runs, const Setting& setting,
   return image;
 }
 
-// The truth of each of the plan's references, as far as it has one.
-rtapi::Result<Outcome> make_truths(EffectRuns& runs, const MeasurePlan& plan,
-                                   const Options& options, const Progress& progress,
-                                   const std::map<std::string, Target>& targets,
-                                   std::map<std::string, Target>& truths) {
-  if (options.measure_truth == 0) return Outcome::kDone;
-  PathSums sums;
-  const auto traced =
-      trace_truth(options, runs.renderer().scene(), cache_folder(options), progress, sums);
-  if (!is_done(traced)) return traced;
-  for (const auto& reference : plan.references) {
-    auto truth = truth_of(runs, reference.setting, sums);
-    if (!truth) return truth.error();
-    if (!*truth) continue;
-    const Target& target = targets.at(reference.name);
-    (*truth)->exposure = target.exposure;
-    for (std::size_t i = 0; i < target.mask.size(); ++i) {
-      if (target.mask[i] == 0) (*truth)->mask[i] = 0;
-    }
-    truths.emplace(reference.name, std::move(**truth));
-  }
-  return Outcome::kDone;
-}
-
 rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
                                    const MeasurePlan::Reference& reference, const Options& options,
                                    const Progress& progress, Target& target) {
@@ -101,6 +79,64 @@ rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
     if (!is_done(made)) return made;
   }
   if (reference.light) target.exposure = runs.renderer().scene().exposure;
+  return Outcome::kDone;
+}
+
+// What the settings of a reference are compared with.
+struct Compared {
+  Target target;
+  std::optional<Target> truth;
+};
+
+void apply_mask(const std::vector<std::uint8_t>& mask, Target& target) {
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 0) target.mask[i] = 0;
+  }
+}
+
+// `sums`: null where there is no truth.
+rtapi::Result<Outcome> make_compared(EffectRuns& runs, const MeasurePlan& plan,
+                                     const MeasurePlan::Reference& reference,
+                                     const Options& options, const PathSums* sums,
+                                     const Progress& progress, Compared& out,
+                                     std::vector<std::string>& about) {
+  const auto find_truth = [&]() -> rtapi::Status {
+    if (sums == nullptr) return {};
+    auto truth = truth_of(runs, reference.setting, *sums);
+    if (!truth) return truth.error();
+    out.truth = std::move(*truth);
+    return {};
+  };
+  if (plan.against_truth) {
+    if (const auto s = find_truth(); !s) return s.error();
+  }
+  if (plan.against_truth && out.truth) {
+    // Any run draws the surfaces.
+    if (const auto ran = runs.run(reference.setting); !ran) return ran.error();
+    const auto mask = runs.mask(plan.glass);
+    if (!mask) return mask.error();
+    apply_mask(*mask, *out.truth);
+    if (reference.light) out.truth->exposure = runs.renderer().scene().exposure;
+    out.target = *out.truth;
+  } else {
+    const auto made = make_target(runs, plan, reference, options, progress, out.target);
+    if (!is_done(made)) return made;
+    about.push_back(fmt::format("reference {}: {}, {}", reference.name, reference.about,
+                                reference.exact
+                                    ? std::string("exact")
+                                    : fmt::format("{} samples, its own RMSE {:.2g}",
+                                                  options.measure_reference, out.target.own_rmse)));
+    if (const auto s = find_truth(); !s) return s.error();
+    if (out.truth) {
+      out.truth->exposure = out.target.exposure;
+      apply_mask(out.target.mask, *out.truth);
+    }
+  }
+  if (out.truth) {
+    about.push_back(fmt::format("truth of {}: path-traced, {} samples, its own RMSE {:.2g}",
+                                reference.name, sums->samples[0] + sums->samples[1],
+                                out.truth->own_rmse));
+  }
   return Outcome::kDone;
 }
 
@@ -149,29 +185,22 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
   if (!is_done(created)) return created;
   table.subtitle = fmt::format("{}; {}; median of {} interleaved runs{}", scene_text(options),
                                plan.signal, options.repeats, clock_text(options));
-  std::map<std::string, Target> targets;
+  PathSums sums;
+  if (options.measure_truth > 0) {
+    const auto traced = trace_truth(options, scene, cache_folder(options), progress, sums);
+    if (!is_done(traced)) return traced;
+  }
+  std::map<std::string, Compared> compared;  // by reference
   for (const auto& reference : plan.references) {
-    Target target;
-    const auto made = make_target(*runs, plan, reference, options, progress, target);
+    const auto made =
+        make_compared(*runs, plan, reference, options, options.measure_truth > 0 ? &sums : nullptr,
+                      progress, compared[reference.name], table.about);
     if (!is_done(made)) return made;
-    table.about.push_back(
-        fmt::format("reference {}: {}, {}", reference.name, reference.about,
-                    reference.exact ? std::string("exact")
-                                    : fmt::format("{} samples, its own RMSE {:.2g}",
-                                                  options.measure_reference, target.own_rmse)));
-    targets.emplace(reference.name, std::move(target));
   }
-  std::map<std::string, Target> truths;
-  const auto traced = make_truths(*runs, plan, options, progress, targets, truths);
-  if (!is_done(traced)) return traced;
   const auto truth_for = [&](const MeasuredSetting& measured) -> const Target* {
-    const auto found = truths.find(measured.reference);
-    return found == truths.end() ? nullptr : &found->second;
+    const Compared& with = compared.at(measured.reference);
+    return with.truth ? &*with.truth : nullptr;
   };
-  for (const auto& [name, truth] : truths) {
-    table.about.push_back(fmt::format("truth of {}: path-traced, {} samples, its own RMSE {:.2g}",
-                                      name, options.measure_truth, truth.own_rmse));
-  }
   // One uncounted run of everything first, which warms up pipelines and caches.
   std::vector<Record> records(plan.settings.size());
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
@@ -179,7 +208,7 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
     if (repeat == 1) records.assign(plan.settings.size(), {});
     for (std::size_t i = 0; i < records.size(); ++i) {
       const MeasuredSetting& measured = plan.settings[i];
-      const Target& target = targets.at(measured.reference);
+      const Target& target = compared.at(measured.reference).target;
       const Target* truth = truth_for(measured);
       const auto image = run_setting(*runs, measured.setting, target, truth, records[i]);
       if (!image) return image.error();
@@ -193,7 +222,7 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
   }
   for (std::size_t i = 0; i < records.size(); ++i) {
     const MeasuredSetting& measured = plan.settings[i];
-    const Target& target = targets.at(measured.reference);
+    const Target& target = compared.at(measured.reference).target;
     MeasuredRow row{measured.group, measured.label, measured.reference};
     row.rays = std::max(measured.setting.settings.samples, measured.setting.times_ao);
     if (plan.glass) row.rays = 1;

@@ -38,6 +38,8 @@ struct MeasurePlan {
   std::vector<MeasuredSetting> settings;
   std::vector<std::string> effects;  // that run
   bool glass = false;                // only pixels that show glass count
+  // What has a path-traced truth is compared with that alone, and references are not rendered.
+  bool against_truth = false;
 };
 
 // What --measure takes, in the order of --help: every effect of the registry that traces rays,
@@ -87,9 +89,11 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
                                 MeasuredTable& table, const LookAt& look_at = {});
 rtapi::Result<Outcome> measure_effect(const Options& options, const kaamos::effects::Scene& scene,
                                       const Progress& progress, MeasuredTable& table);
+// `look_at` gets the last frames of the last seed, with the number of the row in the table.
 rtapi::Result<Outcome> measure_denoisers(const Options& options,
                                          const kaamos::effects::Scene& scene,
-                                         const Progress& progress, MeasuredTable& table);
+                                         const Progress& progress, MeasuredTable& table,
+                                         const LookAt& look_at = {});
 
 rtapi::Result<Outcome> measure_frame(const Options& options, const kaamos::effects::Scene& scene,
                                      const Progress& progress, MeasuredTable& table);

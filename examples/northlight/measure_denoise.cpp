@@ -49,6 +49,7 @@ struct Place {
   Errors errors;
   double flicker = 0;
   std::uint32_t flicker_count = 0;
+  FloatImage image;  // of the last seed
 };
 
 struct Subject {
@@ -84,7 +85,7 @@ class Motion {
   rtapi::Result<Outcome> create(const std::vector<MeasuredSignal>& signals,
                                 const Progress& progress);
   rtapi::Result<Outcome> measure(const Progress& progress);
-  void add_rows(MeasuredTable& table) const;
+  rtapi::Status add_rows(MeasuredTable& table, const LookAt& look_at) const;
 
  private:
   FrameMoment moment(std::uint32_t frame) const;
@@ -93,8 +94,8 @@ class Motion {
   rtapi::Result<FloatImage> read(const Subject& subject, const MeasuredSignal& signal);
   rtapi::Status look(Subject& subject, std::uint32_t frame, double ms);
   rtapi::Status run_frame(std::uint32_t frame);
-  void add_row(const MeasuredSignal& signal, const Subject& subject, bool is_last,
-               MeasuredTable& table) const;
+  rtapi::Status add_row(const MeasuredSignal& signal, const Subject& subject, bool is_last,
+                        MeasuredTable& table, const LookAt& look_at) const;
   void add_summary(const MeasuredSignal& signal, bool is_last, MeasuredTable& table) const;
 
   EffectRuns& runs_;
@@ -189,6 +190,7 @@ rtapi::Status Motion::look(Subject& subject, std::uint32_t frame, double ms) {
     const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
     place.ms.push_back(ms);
     if (const auto error = place.errors.add(*image, target); !error.empty()) return failure(error);
+    place.image = *image;
     if (!is_last || !is_still_) continue;
     const auto change = flicker(subject.before[signal.name], *image, target.image, target.image);
     if (!change.ok()) return change.error();
@@ -230,8 +232,8 @@ rtapi::Result<Outcome> Motion::measure(const Progress& progress) {
   return Outcome::kDone;
 }
 
-void Motion::add_row(const MeasuredSignal& signal, const Subject& subject, bool is_last,
-                     MeasuredTable& table) const {
+rtapi::Status Motion::add_row(const MeasuredSignal& signal, const Subject& subject, bool is_last,
+                              MeasuredTable& table, const LookAt& look_at) const {
   const Place& place = (is_last ? subject.last : subject.first).at(signal.name);
   const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
   MeasuredRow row{fmt::format("{}, {}, frame {}", signal.name, name(), is_last ? kFrames : 1),
@@ -247,6 +249,7 @@ void Motion::add_row(const MeasuredSignal& signal, const Subject& subject, bool 
   if (place.flicker_count > 0) row.flicker = place.flicker / place.flicker_count;
   row.steps = false;
   table.rows.push_back(row);
+  return look_at ? look_at(table.rows.size() - 1, place.image, target, nullptr) : rtapi::Status();
 }
 
 // A line of RMSE of all methods but those of other numbers of passes.
@@ -270,12 +273,14 @@ void Motion::add_summary(const MeasuredSignal& signal, bool is_last, MeasuredTab
   table.summary += "\n";
 }
 
-void Motion::add_rows(MeasuredTable& table) const {
+rtapi::Status Motion::add_rows(MeasuredTable& table, const LookAt& look_at) const {
   for (const MeasuredSignal& signal : signals_) {
     // The first frame of a path is as good as that of a camera at rest.
     for (const bool is_last : {false, true}) {
       if (!is_last && !is_still_) continue;
-      for (const Subject& subject : subjects_) add_row(signal, subject, is_last, table);
+      for (const Subject& subject : subjects_) {
+        if (const auto s = add_row(signal, subject, is_last, table, look_at); !s) return s;
+      }
       add_summary(signal, is_last, table);
       const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
       if (is_last && is_still_) continue;  // it is that of the first frame
@@ -284,6 +289,7 @@ void Motion::add_rows(MeasuredTable& table) const {
                       name(), is_last ? kFrames : 1, options_.measure_reference, target.own_rmse));
     }
   }
+  return {};
 }
 
 // The signals of the chosen effects that a denoiser has work with.
@@ -307,7 +313,8 @@ std::vector<MeasuredSignal> measured_signals(const Options& options, const Scene
 }  // namespace
 
 rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& scene,
-                                         const Progress& progress, MeasuredTable& table) {
+                                         const Progress& progress, MeasuredTable& table,
+                                         const LookAt& look_at) {
   std::vector<std::string> effects;
   for (const auto& [name, ignored] : options.frame.effects) effects.push_back(name);
   const auto path = choose_path(options, scene);
@@ -331,7 +338,7 @@ rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& sc
     Motion motion(*runs, options, path.value(), is_still);
     if (const auto s = motion.create(signals, progress); !is_done(s)) return s;
     if (const auto s = motion.measure(progress); !is_done(s)) return s;
-    motion.add_rows(table);
+    if (const auto s = motion.add_rows(table, look_at); !s) return s.error();
   }
   return Outcome::kDone;
 }

@@ -290,7 +290,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "change a material, as in Window:alpha=0.3,roughness=0; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--backend", options.backend, "the backend that runs the shaders: embree, vulkan")
+  app.add_option("--backend", options.backend,
+                 "the backend that runs the shaders: embree, vulkan; --study: both")
       ->capture_default_str();
   app.add_flag("--checked", options.checked, "checked mode: report what DXR leaves undefined");
   app.add_option("--precision", options.precision,

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "study/family_study.h"
+
 namespace northlight {
 
 using namespace kaamos::effects;
@@ -19,8 +21,12 @@ std::string conflict(const Options& options) {
     return "--heatmap overdraw counts the pixel shaders of draws, and rays draw nothing: add "
            "--primary raster";
   }
-  if (!options.camera_path.empty() && options.frames == 0 && options.measure != "svgf") {
-    return "--camera-path requires --frames or --measure svgf";
+  if (!options.camera_path.empty() && options.frames == 0 && options.measure != "svgf" &&
+      !options.study) {
+    return "--camera-path requires --frames, --measure svgf or --study";
+  }
+  if (options.backend == kBothBackends && !options.study) {
+    return "--backend both is for --study: give embree or vulkan";
   }
   // Each of these prints or writes something instead of everything else.
   std::string instead;

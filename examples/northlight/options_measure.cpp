@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "committed_truth.h"
 #include "measure.h"
 #include "study/plans.h"
 
@@ -59,7 +60,8 @@ void add_measuring(CLI::App& app, Options& options, MeasureWords& words) {
       ->delimiter(',')
       ->needs(study)
       ->check(CLI::IsMember(study_family_names()));
-  app.add_flag("--quick", options.quick, "of --study: three settings of each technique")
+  app.add_flag("--quick", options.quick,
+               "of --study: three settings of each technique, at rest, on one backend")
       ->needs(study);
   app.add_option("--measure-reference", options.measure_reference,
                  "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
@@ -98,12 +100,14 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& op
   }
   if (!words.study.empty()) {
     options.scene = words.study;
-    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(160u, 90u);
-    if (options.quick) {
-      if (app.count("--repeats") == 0) options.repeats = 3;
-      if (app.count("--measure-reference") == 0) options.measure_reference = 1024;
-      if (app.count("--measure-truth") == 0) options.measure_truth = 256;
+    if (app.count("--size") == 0) {
+      const auto committed = committed_size(options.scene);
+      std::tie(frame.width, frame.height) = committed.value_or(std::pair(160u, 90u));
     }
+    if (app.count("--repeats") == 0) options.repeats = options.quick ? 2 : 5;
+    if (app.count("--measure-reference") == 0) options.measure_reference = 256;
+    if (app.count("--measure-truth") == 0) options.measure_truth = 256;
+    if (app.count("--seeds") == 0) options.seeds = options.quick ? 2 : 4;
   }
   if (options.claims) {
     if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(320u, 180u);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "committed_truth.h"
 #include "path_reference.h"
 
 namespace northlight {
@@ -16,6 +17,10 @@ using namespace kaamos::effects;
 rtapi::Result<Outcome> trace_truth(const Options& options, const Scene& scene,
                                    const std::string& cache, const Progress& progress,
                                    PathSums& sums) {
+  if (auto kept = committed_truth(options)) {
+    sums = std::move(*kept);
+    return Outcome::kDone;
+  }
   const auto device = create_device(options, [](const std::string&) {});
   if (!device) return device.error();
   auto created = PathReference::create(*device, scene, describe_reference(options));

@@ -14,7 +14,8 @@
 
 namespace northlight {
 
-// Traces options.measure_truth samples a pixel of the scene's first camera, at options.seconds.
+// Traces options.measure_truth samples a pixel of the scene's first camera, at options.seconds, or
+// takes a committed reference of at least as many.
 // What is done is kept in `cache`, so that an interrupted measurement goes on there.
 rtapi::Result<Outcome> trace_truth(const Options& options, const kaamos::effects::Scene& scene,
                                    const std::string& cache, const Progress& progress,

@@ -15,19 +15,21 @@ fail() {
 
 study=(--study lounge --quick --size 32x18 --repeats 1 --measure-reference 16 --measure-truth 4
   --gi-cell 2 --gi-bake-samples 1 --out "$work/out")
-"$northlight" "${study[@]}" --families shadows,ao > "$work/log" 2>&1 || fail "a study: $(cat "$work/log")"
-for file in study.html study.csv study.json study-shadows.svg study-ao.svg study/ao-truth.png; do
+"$northlight" "${study[@]}" --families shadows,contact,ao > "$work/log" 2>&1 || fail "a study: $(cat "$work/log")"
+for file in study.html study.csv study.json study-shadows.svg study-ao.svg study/ao-truth.png study-figure-18.csv; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
 grep -q 'Ambient occlusion: .* settings are worth their time' "$work/log" || fail "no findings: $(cat "$work/log")"
 head -1 "$work/out/study.csv" | grep -q '^family,technique,setting,ms' || fail "study.csv has other columns"
+grep -q '^contact,screen-space contact shadows,' "$work/out/study.csv" || fail "study.csv lacks marches of contact shadows"
+grep -q '<h2>The survey.s figure 18' "$work/out/study.html" || fail "the report lacks the survey's figure 18"
 grep -q '^shadows,sun shadow,' "$work/out/study.csv" || fail "study.csv lacks the ray traced sun"
 # What is there is not measured again.
 cp "$work/out/study.csv" "$work/before.csv"
-"$northlight" "${study[@]}" --families shadows,ao > /dev/null 2>&1 || fail "the study again"
+"$northlight" "${study[@]}" --families shadows,contact,ao > /dev/null 2>&1 || fail "the study again"
 cmp -s "$work/before.csv" "$work/out/study.csv" || fail "families were measured again"
 rm "$work/out/study/ao.json"
-"$northlight" "${study[@]}" --families shadows,ao > /dev/null 2>&1 || fail "the study with a family left"
+"$northlight" "${study[@]}" --families shadows,contact,ao > /dev/null 2>&1 || fail "the study with a family left"
 diff <(grep ^shadows "$work/before.csv") <(grep ^shadows "$work/out/study.csv") > /dev/null || fail "shadows were measured again"
 cmp -s "$work/before.csv" "$work/out/study.csv" && fail "the family that was missing was not measured"
 "$northlight" --study lounge --scene runner > /dev/null 2> "$work/log" && fail "--study and --scene"
@@ -92,5 +94,5 @@ timeout 120 "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$w
   --virtual-time-budget=20000 --dump-dom "file://$work/probed.html" > "$work/dom" 2> "$work/log"
 grep -q '^end of probe' "$work/dom" || fail "the page's probe did not run: $(tail -3 "$work/log")"
 grep -E '^(BAD|error): ' "$work/dom" && fail "the report"
-[ "$(grep -c '^ok: ' "$work/dom")" = 14 ] || fail "not all was probed: $(grep '^ok: ' "$work/dom")"
+[ "$(grep -c '^ok: ' "$work/dom")" = 21 ] || fail "not all was probed: $(grep '^ok: ' "$work/dom")"
 [ "$failures" = 0 ]

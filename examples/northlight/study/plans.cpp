@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/screen_space_shadow/screen_space_shadow.h"
+
 namespace northlight {
 
 using namespace kaamos::effects;
@@ -43,6 +46,16 @@ void name_modes(MeasurePlan& plan) {
   }
 }
 
+// Marches and rays look equally far.
+void match_length(const Setting& reference, Setting& setting) {
+  const float length = reference.settings.get_constants<ContactShadowConstants>().length;
+  if (setting.effect == reference.effect) {
+    setting.change<ContactShadowConstants>([&](auto& constants) { constants.length = length; });
+  } else {
+    setting.change<ScreenSpaceShadowConstants>([&](auto& constants) { constants.length = length; });
+  }
+}
+
 bool belongs_to(const Effect& row, const StudyFamily& family) {
   return row.name == family.effect || row.alternative_to == family.effect;
 }
@@ -51,15 +64,18 @@ bool belongs_to(const Effect& row, const StudyFamily& family) {
 
 const std::vector<StudyFamily>& study_families() {
   static const std::vector<StudyFamily> families = {{"shadows", "Shadows of the sun", "sun"},
+                                                    {"contact", "Contact shadows", "contact"},
                                                     {"ao", "Ambient occlusion", "ao"},
                                                     {"reflections", "Reflections", "reflections"},
-                                                    {"indirect", "Indirect diffuse light", "gi"}};
+                                                    {"indirect", "Indirect diffuse light", "gi"},
+                                                    {"denoise", "Denoising", ""}};
   return families;
 }
 
 std::vector<std::string> study_family_names() {
   std::vector<std::string> out;
   for (const StudyFamily& family : study_families()) out.push_back(family.name);
+  out.push_back("claims");
   return out;
 }
 
@@ -68,10 +84,12 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   own.measure = family.effect;
   MeasurePlan plan = measure_plan(own);
   plan.title = family.title;
+  plan.against_truth = true;
   if (family.effect == "gi") {
     name_modes(plan);
   } else {
     plan.settings.clear();
+    plan.references.resize(1);
   }
   for (const Effect& row : northlight_effects()) {
     if (!belongs_to(row, family)) continue;
@@ -85,15 +103,17 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
       setting.reference = plan.references.front().name;
       // All answer the same question.
       setting.setting.settings.radius = plan.references.front().setting.settings.radius;
+      if (family.effect == "contact")
+        match_length(plan.references.front().setting, setting.setting);
       plan.settings.push_back(setting);
     }
   }
   return plan;
 }
 
-std::string what_it_misses(const StudyFamily& family, const std::string& group) {
+std::string what_it_misses(const std::string& group) {
   for (const Effect& row : northlight_effects()) {
-    if (belongs_to(row, family) && row.about == group) return row.misses;
+    if (row.about == group) return row.misses;
   }
   return {};
 }

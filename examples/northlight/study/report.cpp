@@ -10,6 +10,7 @@
 #include <set>
 
 #include "../failure.h"
+#include "findings.h"
 #include "page.h"
 #include "plans.h"
 
@@ -64,7 +65,7 @@ rtapi::Result<std::string> as_script(const std::string& folder,
                                      const std::vector<StudyResult>& results) {
   auto all = nlohmann::ordered_json::array();
   for (const StudyResult& result : results) {
-    auto one = nlohmann::ordered_json::parse(to_json(result));
+    auto one = nlohmann::ordered_json::parse(to_json(std::vector{result})).front();
     const auto inline_picture = [&](nlohmann::ordered_json& name) -> rtapi::Status {
       if (name.get<std::string>().empty()) return {};
       const auto url = as_url(folder + "/" + name.get<std::string>());
@@ -88,38 +89,36 @@ rtapi::Result<std::string> as_script(const std::string& folder,
   return text;
 }
 
-std::string setting_name(const StudyRow& row) {
-  return row.technique + ", " + row.label;
-}
-
 std::string table_of(const StudyResult& result) {
   std::set<std::size_t> front;
   for (const std::size_t i : pareto_front(result.trades())) front.insert(i);
-  std::string out =
+  const bool has_flicker = std::any_of(result.rows.begin(), result.rows.end(),
+                                       [](const StudyRow& row) { return row.flicker >= 0; });
+  std::string out = fmt::format(
       "<table><thead><tr><th>technique</th><th>setting</th><th>ms</th><th>rays a pixel</th>"
-      "<th>RMSE</th><th>FLIP</th><th>SSIM</th><th>energy</th></tr></thead>"
-      "<tbody class=\"settings\">\n";
+      "<th>RMSE</th><th>FLIP</th><th>SSIM</th><th>energy</th>{}</tr></thead>"
+      "<tbody class=\"settings\">\n",
+      has_flicker ? "<th>flicker</th>" : "");
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyRow& row = result.rows[i];
     out += fmt::format(
         "<tr{}><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.2f}</td><td>{:.3g}</td><td>{:.4f}</td>"
-        "<td>{:.4f}</td><td>{:.3f}</td></tr>\n",
+        "<td>{:.4f}</td><td>{:.3f}</td>{}</tr>\n",
         front.count(i) != 0 ? " class=\"front\"" : "", escaped(row.technique), escaped(row.label),
-        row.ms, row.traced, row.error, row.flip, row.ssim, row.energy);
+        row.ms, row.traced, row.error, row.flip, row.ssim, row.energy,
+        !has_flicker       ? std::string()
+        : row.flicker >= 0 ? fmt::format("<td>{:.4f}</td>", row.flicker)
+                           : std::string("<td></td>"));
   }
   return out + "</tbody></table>\n";
 }
 
 std::string misses_of(const StudyResult& result) {
-  const auto& families = study_families();
-  const auto family = std::find_if(families.begin(), families.end(),
-                                   [&](const auto& each) { return each.name == result.family; });
-  if (family == families.end()) return {};
   std::string out;
   std::set<std::string> seen;
   for (const StudyRow& row : result.rows) {
     if (!seen.insert(row.technique).second) continue;
-    const std::string misses = what_it_misses(*family, row.technique);
+    const std::string misses = what_it_misses(row.technique);
     if (misses.empty()) continue;
     out += "<tr><td>" + escaped(row.technique) + "</td><td>" + escaped(misses) + "</td></tr>\n";
   }
@@ -143,8 +142,10 @@ std::string pictures_of(const StudyResult& result) {
          "<div class=\"line\"></div></div>\n"
          "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"border\">"
          "<figcaption>" +
-         escaped(result.title + ": " + result.signal +
-                 ", of the first camera. Grey: not compared") +
+         escaped(
+             result.title + ": " + result.signal +
+             ". The slider moves the border between the two pictures; \"4 x |error|\" is how far "
+             "each pixel is from the truth, black where it is right. Grey: not compared.") +
          "</figcaption></figure>\n";
 }
 
@@ -179,44 +180,27 @@ std::string section_of(const StudyResult& result) {
   return out + misses_of(result) + "</section>\n";
 }
 
-}  // namespace
-
-std::vector<std::string> study_findings(const std::vector<StudyResult>& results) {
-  std::vector<std::string> out;
-  for (const StudyResult& result : results) {
-    if (!result.skipped.empty()) {
-      out.push_back(result.title + ": not measured, " + result.skipped);
-      continue;
-    }
-    const auto trades = result.trades();
-    const auto front = pareto_front(trades);
-    if (front.empty()) {
-      out.push_back(result.title + ": no setting gave finite numbers");
-      continue;
-    }
-    std::vector<std::string> techniques;
-    for (const std::size_t i : front) {
-      const std::string& name = result.rows[i].technique;
-      if (std::find(techniques.begin(), techniques.end(), name) == techniques.end()) {
-        techniques.push_back(name);
-      }
-    }
-    const StudyRow& fastest = result.rows[front.front()];
-    const StudyRow& best = result.rows[front.back()];
-    out.push_back(
-        fmt::format("{}: {} of {} settings are worth their time, from {} ({:.3g} ms, "
-                    "error {:.3g}) to {} ({:.3g} ms, error {:.3g})",
-                    result.title, front.size(), trades.size(), setting_name(fastest), fastest.ms,
-                    fastest.error, setting_name(best), best.ms, best.error));
-    if (techniques.size() == 1) continue;
-    out.push_back(fmt::format("  on the front: {}", fmt::join(techniques, "; ")));
+// No section: those have plots and pictures.
+std::string article_of(const StudyTable& table) {
+  std::string out = fmt::format("<article id=\"{}\"><h2>{}</h2>\n<table><thead><tr>",
+                                escaped(table.name), escaped(table.title));
+  for (const std::string& column : table.cells.columns) out += "<th>" + escaped(column) + "</th>";
+  out += "</tr></thead><tbody>\n";
+  for (const auto& row : table.cells.rows) {
+    out += "<tr>";
+    for (const std::string& cell : row) out += "<td>" + escaped(cell) + "</td>";
+    out += "</tr>\n";
   }
-  if (out.size() > 10) out.resize(10);
-  return out;
+  out += "</tbody></table>\n";
+  for (const std::string& line : table.about) out += "<p>" + escaped(line) + ".</p>\n";
+  return out + "</article>\n";
 }
 
+}  // namespace
+
 rtapi::Result<std::string> study_page(const std::string& scene, const std::string& folder,
-                                      const std::vector<StudyResult>& results) {
+                                      const std::vector<StudyResult>& results,
+                                      const std::vector<StudyTable>& tables) {
   const auto data = as_script(folder, results);
   if (!data) return data.error();
   std::string out =
@@ -229,6 +213,7 @@ rtapi::Result<std::string> study_page(const std::string& scene, const std::strin
   }
   out += "</ul>\n";
   for (const StudyResult& result : results) out += section_of(result);
+  for (const StudyTable& table : tables) out += article_of(table);
   return out + "<script>const study = " + *data + ";</script>\n<script>" + kPageScript +
          "</script>\n</body></html>\n";
 }

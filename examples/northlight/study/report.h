@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "result.h"
+#include "tables.h"
 
 namespace northlight {
 
-// What was found, in ten lines at most.
-std::vector<std::string> study_findings(const std::vector<StudyResult>& results);
-
 // The page. `folder`: of the pictures that the results name.
 rtapi::Result<std::string> study_page(const std::string& scene, const std::string& folder,
-                                      const std::vector<StudyResult>& results);
+                                      const std::vector<StudyResult>& results,
+                                      const std::vector<StudyTable>& tables);
 
 }  // namespace northlight

@@ -19,12 +19,13 @@ struct StudyRow {
   double traced = 0;  // rays per pixel
   double error = 0;   // RMSE against the truth
   double flip = 0, ssim = 0, energy = 0;
+  double flicker = -1;     // mean change from frame to frame beyond motion; negative: not measured
   std::string picture;     // PNG files beside the report
   std::string difference;  // 4 times its absolute difference from the truth
 };
 
 struct StudyResult {
-  std::string family, title;
+  std::string family, title;  // "shadows-motion", "Shadows of the sun, in motion"
   std::string key;            // of all that it depends on
   std::string subtitle;       // scene, size, backend, repeats
   std::string signal;         // what is compared
@@ -38,9 +39,9 @@ struct StudyResult {
   std::vector<kaamos::effects::Trade> trades() const;
 };
 
-std::string to_json(const StudyResult& result);
-// Nothing where the text is no result.
-std::optional<StudyResult> parse_result(const std::string& text);
+std::string to_json(const std::vector<StudyResult>& results);
+// Nothing where the text is no list of results.
+std::optional<std::vector<StudyResult>> parse_results(const std::string& text);
 
 kaamos::effects::Table as_csv(const std::vector<StudyResult>& results);
 // Time against error; marks have the row's number as their key.

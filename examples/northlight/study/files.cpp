@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "files.h"
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+
+#include "effects/common/file.h"
+
+namespace northlight {
+
+rtapi::Status write_text(const std::string& path, const std::string& text) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  if (const auto s = kaamos::effects::write_file_atomically(path, {bytes, text.size()}); !s.ok())
+    return s.error();
+  return {};
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace northlight

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Tables of the report that hold what was measured against what others published.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../claims.h"
+#include "effects/image/csv.h"
+#include "effects/scene/scene.h"
+#include "result.h"
+
+namespace northlight {
+
+struct StudyTable {
+  std::string name, title;  // "claims": of its file and its place in the page
+  kaamos::effects::Table cells;
+  std::vector<std::string> about;
+};
+
+// --claims, and the shape of the survey's Table 1 (Control), which needs the same runs. What an
+// earlier run has found is taken from options.out/study.
+rtapi::Result<Outcome> study_claims(const Options& options, const kaamos::effects::Scene& scene,
+                                    const Progress& progress, std::vector<StudyTable>& tables);
+
+// The survey's figure 18 from the shadows of the sun; nothing where they were not measured.
+std::vector<StudyTable> shadow_tables(const std::vector<StudyResult>& results);
+
+}  // namespace northlight
