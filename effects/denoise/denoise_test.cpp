@@ -255,6 +255,33 @@ TEST_F(DenoiseTest, MotionThatIsWildIsNoHistory) {
   for_surface([&](auto x, auto y) { ASSERT_NEAR(out.at(x, y), 0.9, 1e-5); });
 }
 
+// E9: the survey scales a weight by the distance in both directions with the factor of one, 1 /
+// (sigma sqrt(2 pi)): all weights together are then sigma sqrt(2 pi), 5 times too bright. Ours add
+// up to 1. [effects-spec 0.1]
+TEST_F(DenoiseTest, WeightsOfTheGaussianAddUpToOne) {
+  const DenoiseDesc desc = default_denoise(DenoiseMethod::kGaussian);
+  const double sigma = desc.constants.sigma_pixels;
+  const std::int32_t radius = desc.constants.radius;
+  Denoiser denoiser = make(desc);
+  const FloatImage out = run(
+      denoiser, [&](auto x, auto y) { return x == kWidth / 2 && y == kHeight / 2 ? 1.0f : 0.0f; });
+  const auto gauss = [&](double r) { return std::exp(-r * r / (2 * sigma * sigma)); };
+  double sum = 0, survey = 0, row = 0;
+  for (std::int32_t i = -radius; i <= radius; ++i) row += gauss(i);
+  for (std::int32_t dy = -radius; dy <= radius; ++dy) {
+    for (std::int32_t dx = -radius; dx <= radius; ++dx) {
+      const double found = out.at(kWidth / 2 + static_cast<std::uint32_t>(dx),
+                                  kHeight / 2 + static_cast<std::uint32_t>(dy));
+      ASSERT_NEAR(found, gauss(dx) * gauss(dy) / (row * row), 1e-6);
+      sum += found;
+      survey += gauss(std::hypot(dx, dy)) / (sigma * std::sqrt(2 * 3.14159265358979));
+    }
+  }
+  EXPECT_NEAR(sum, 1, 1e-5);
+  EXPECT_NEAR(survey, sigma * std::sqrt(2 * 3.14159265358979), 0.08 * survey) << "cut at 2 sigma";
+  EXPECT_GT(survey, 4.5);
+}
+
 // [effects-spec E.2: Gaussian and bilateral]
 TEST_F(DenoiseTest, AFilterWithoutWidthIsNone) {
   const auto value = [](auto x, auto y) { return static_cast<float>((7 * x + 3 * y) % 5); };

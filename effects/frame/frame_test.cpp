@@ -82,5 +82,36 @@ TEST(Frame, BaseColorsAreStoredBySquareRoots) {
   }
 }
 
+// E1: the survey's ray through a pixel lacks a -1 in its vertical part, -f (2 (y + 1/2) / h): its
+// middle row looks down by half the field of view. [effects-spec 0.1]
+TEST(Frame, TheMiddlePixelLooksStraightAhead) {
+  Scene scene = checkered_plane();
+  const Camera& camera = scene.cameras.front();
+  constexpr std::uint32_t kWidth = 33, kHeight = 21;
+  FrameSettings settings;
+  settings.width = kWidth;
+  settings.height = kHeight;
+  settings.whole_frame = false;
+  const auto renderer =
+      FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
+  renderer->render().value();
+  const FloatImage position = renderer->read(renderer->frame().texture(kPosition)).value();
+  const double f = std::tan(camera.vertical_fov / 2);
+  const double aspect = static_cast<double>(kWidth) / kHeight;
+  const glm::dmat3 axes(camera.camera_to_world);
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      const glm::dvec3 at(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
+      const glm::dvec3 ray = at / -glm::dot(at, axes[2]);
+      const double right = aspect * f * (2 * (x + 0.5) / kWidth - 1);
+      const double up = -f * (2 * (y + 0.5) / kHeight - 1);
+      ASSERT_NEAR(glm::dot(ray, axes[0]), right, 1e-5) << x << ", " << y;
+      ASSERT_NEAR(glm::dot(ray, axes[1]), up, 1e-5) << x << ", " << y;
+      const double survey = -f * (2 * (y + 0.5) / kHeight);
+      ASSERT_NEAR(glm::dot(ray, axes[1]) - survey, f, 1e-5) << "all of it too low";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kaamos::effects

@@ -127,6 +127,8 @@ TEST_P(PathLights, Sun) {
   expect_light(scene, "sun", expected);
 }
 
+// E2: the survey's sum over an area light has the light's normal in both cosines, and forgets the
+// area. [effects-spec 0.1]
 TEST_P(PathLights, EmissiveTriangles) {
   Scene scene = dark_plane();
   const std::uint32_t dim = add_material(scene, glm::vec3(0), 0, 1, glm::vec3(1.5f));
@@ -139,15 +141,19 @@ TEST_P(PathLights, EmissiveTriangles) {
                          double glow) {
     constexpr int kSteps = 300;
     const glm::dvec3 normal = glm::cross(u, v);
-    double sum = 0;
+    const glm::dvec3 unit = glm::normalize(normal);
+    double sum = 0, survey = 0;
     for (int i = 0; i < kSteps; ++i) {
       for (int j = 0; j < kSteps; ++j) {
         const glm::dvec3 p = at + u * ((i + 0.5) / kSteps) + v * ((j + 0.5) / kSteps);
         const double d2 = glm::dot(p, p);
         const glm::dvec3 light = p / std::sqrt(d2);
-        sum += glow * bsdf_.times_cosine(to_local(light)) * std::abs(glm::dot(normal, light)) / d2;
+        const double times_cosine = bsdf_.times_cosine(to_local(light));
+        sum += glow * times_cosine * std::abs(glm::dot(normal, light)) / d2;
+        survey += glow * times_cosine / light.y * std::pow(glm::dot(unit, light), 2) / d2;
       }
     }
+    EXPECT_GT(std::abs(survey / sum - 1), 0.5) << "the survey's form is no rounding error away";
     return sum / (kSteps * kSteps);
   };
   const double expected = panel(corner, {0.8, 0.2, 0}, {0, 0.1, 0.7}, 1.5) +
