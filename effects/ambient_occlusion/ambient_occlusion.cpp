@@ -20,4 +20,12 @@ RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library) {
   return desc;
 }
 
+RayPassDesc uniform_ambient_occlusion_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc = ambient_occlusion_pass(std::move(library));
+  desc.name = "uniform ambient occlusion";
+  desc.ray_generation = "UniformOcclusionRayGen";
+  desc.key_generation = "UniformOcclusionKeys";
+  return desc;
+}
+
 }  // namespace kaamos::effects

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Ray traced ambient occlusion. The pass adds the number of open samples to kAmbientOcclusionSum.
+/// Ray traced ambient occlusion, by cosine-distributed or by uniform directions.
 #pragma once
 
 #include "effects/frame/ray_pass.h"
@@ -17,6 +17,19 @@ inline constexpr std::uint32_t kDefaultAmbientOcclusionSamples = 4;
 /// the open ones of its samples to kAmbientOcclusionSum; PassConstants::radius is how far rays
 /// reach, metres. [effects-spec B3]
 RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library);
+/// The same with directions uniform over the hemisphere, each counted by twice its cosine: right on
+/// average, but noisier; a pixel's mean may be above 1. Register u0 of space3 is
+/// R32G32B32A32_FLOAT, to which the samples are added; b0 is UniformOcclusionConstants.
+/// [effects-spec B3.6: O6]
+RayPassDesc uniform_ambient_occlusion_pass(rtapi::ShaderLibrary library);
+
+/// Constants b0, space3 of the uniform pass.
+struct UniformOcclusionConstants {
+  /// 1: the survey's sum, which forgets the density of the directions: an open plane gets
+  /// 1 / (2 pi). To show the error. [effects-spec 0.1: E4]
+  std::uint32_t survey_rule = 0;
+};
+
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> ambient_occlusion_library();

@@ -18,10 +18,11 @@ rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library();
 
 /// Where the light of a pixel comes from. [effects-spec B5.2 to B5.4]
 enum class IndirectMode : std::uint32_t {
-  kDirect,           ///< the volume, sampled at the surface; times ambient occlusion if one likes
+  kDirect,           ///< the volume, sampled at the surface
   kHitBlack,         ///< rays sample it where they end, what they hit is black
   kNearField,        ///< what they hit is lit, and sends its light everywhere alike
   kNearFieldGlossy,  ///< what they hit is shaded by its material, as in reflections
+  kTimesOpen,        ///< as kDirect, times the part of the rays that hit nothing
 };
 
 /// Constants b0, space3.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Indirect diffuse light of each pixel, in the variants that the talk compares: the volume alone,
-// rays that read it where they miss and are black where they hit, and near-field rays whose hits are
-// shaded. [effects-spec B5.2 to B5.4]
+// the volume times the open part of rays, rays that read it where they miss and are black where they
+// hit, and near-field rays whose hits are shaded. [effects-spec B5.2 to B5.4]
 #include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
@@ -21,6 +21,7 @@ static const uint kModeDirect = 0;
 static const uint kModeHitBlack = 1;
 static const uint kModeNearField = 2;
 static const uint kModeNearFieldGlossy = 3;
+static const uint kModeTimesOpen = 4;
 
 static const uint kIndirectPair = 4;    // and 5, for the jitter of the ray's end
 
@@ -103,6 +104,16 @@ float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
   return ToWorld(SampleCosineHemisphere(u), shading_normal);
 }
 
+// How many of the pixel's rays hit nothing.
+float OpenRays(float3 origin, float2 tile, float3 normal, float3 shading_normal) {
+  float open = 0.0;
+  for (uint i = 0; i < pass_constants.sample_count; ++i) {
+    const float3 direction = IndirectDirection(tile, pass_constants.first_sample + i, shading_normal);
+    if (dot(direction, normal) > 0.0) open += TraceVisibility(origin, direction, RayLength());
+  }
+  return open;
+}
+
 [shader("raygeneration")]
 void IndirectRayGen() {
   const uint2 pixel = FramePixel();
@@ -122,6 +133,13 @@ void IndirectRayGen() {
   }
   const float3 origin = position.xyz + normal * position.w;
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
+  if (constants.mode == kModeTimesOpen) {
+    const float open = OpenRays(origin, tile, normal, shading_normal);
+    indirect[pixel] =
+        SumBefore(indirect, pixel) +
+        open * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
+    return;
+  }
   float4 sum = float4(0, 0, 0, 0);
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     const uint index = pass_constants.first_sample + i;

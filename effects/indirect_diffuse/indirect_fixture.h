@@ -10,6 +10,7 @@
 #include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/indirect_diffuse/indirect_diffuse.h"
+#include "effects/indirect_diffuse/occluded_volume.h"
 #include "effects/lights/light_constants.h"
 #include "effects/scene/oracle_scenes.h"
 
@@ -82,6 +83,26 @@ struct Stage {
     FloatImage image = read_picture(device, queue, picture).value();
     for (float& value : image.values) value /= static_cast<float>(samples);
     return image;
+  }
+
+  /// The volume times ambient occlusion from the depth picture; 4 channels.
+  FloatImage occluded_on_screen(const IndirectVolume& volume,
+                                const OccludedVolumeSettings& settings) {
+    const GpuVolume gpu_volume =
+        GpuVolume::create(device, volume, scene.cameras.front().position()).value();
+    const rtapi::Texture picture =
+        frame.create_picture(device, "indirect", rtapi::Format::kR32G32B32A32Float).value();
+    PassViews views = frame.create_pass_views(device).value();
+    views.set_unordered_access(0, picture).value();
+    gpu_volume.bind(views).value();
+    const OccludedVolume passes =
+        OccludedVolume::create(device, frame, occluded_volume_library().value(),
+                               gtao_library().value(), occlusion_filter_library().value(), views)
+            .value();
+    rtapi::CommandList list = device.CreateCommandList().value();
+    passes.record(list, frame, {}, settings);
+    queue.ExecuteAndWait(list).value();
+    return read_picture(device, queue, picture).value();
   }
 
   /// Ambient visibility, 1 channel.

@@ -13,6 +13,7 @@
 #include "effects/indirect_diffuse/indirect_fixture.h"
 #include "effects/scene/leak_scenes.h"
 #include "effects/scene/shapes.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -25,11 +26,8 @@ struct Leak {
 Leak leak_of(Stage& stage, const IndirectVolume& volume) {
   constexpr std::uint32_t kRays = 64;
   const FloatImage direct = stage.gather(volume, mode(IndirectMode::kDirect), 1);
-  FloatImage occluded = stage.ambient(3, kRays);
-  for (std::size_t i = 0; i < occluded.values.size(); ++i) {
-    occluded.values[i] *= direct.values[4 * i];
-  }
-  return {mean_of(direct, stage.ids), mean_of(occluded, stage.ids),
+  return {mean_of(direct, stage.ids),
+          mean_of(stage.gather(volume, mode(IndirectMode::kTimesOpen), kRays), stage.ids),
           mean_of(stage.gather(volume, mode(IndirectMode::kHitBlack), kRays), stage.ids),
           mean_of(stage.gather(volume, mode(IndirectMode::kNearField), kRays), stage.ids)};
 }
@@ -186,18 +184,19 @@ TEST(VolumeFailures, DynamicObjectsNeedRays) {
   const FloatImage truth =
       stage.gather(stage.bake(0.25f, 2048), mode(IndirectMode::kNearField, 1e3f), 1024);
   const FloatImage direct = stage.gather(volume, mode(IndirectMode::kDirect), 1);
-  FloatImage occluded = direct;
-  const FloatImage open = stage.ambient(3, 256);
-  for (std::size_t i = 0; i < occluded.values.size(); ++i) occluded.values[i] *= open.values[i / 4];
+  const FloatImage screen = stage.occluded_on_screen(volume, {accurate_gtao(4, 16), 3});
+  const FloatImage occluded = stage.gather(volume, mode(IndirectMode::kTimesOpen), 256);
   const FloatImage black = stage.gather(volume, mode(IndirectMode::kHitBlack), 256);
   const FloatImage near_field = stage.gather(volume, mode(IndirectMode::kNearField), 256);
   std::vector<double> errors;
-  const FloatImage* const images[] = {&direct, &occluded, &black, &near_field};
+  const FloatImage* const images[] = {&direct, &screen, &occluded, &black, &near_field};
   for (const FloatImage* image : images) {
     errors.push_back(error_on(*image, truth, stage.ids, 1.0f));
   }
-  std::printf("under a table: direct %.4f, x AO %.4f, hit = black %.4f, near-field %.4f\n",
-              errors[0], errors[1], errors[2], errors[3]);
+  std::printf(
+      "under a table: direct %.4f, x screen AO %.4f, x AO %.4f, hit = black %.4f, "
+      "near-field %.4f\n",
+      errors[0], errors[1], errors[2], errors[3], errors[4]);
   for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i], 0.95 * errors[i - 1]) << i;
 }
 
@@ -229,6 +228,31 @@ TEST(VolumeFailures, AConstantFieldHasNone) {
   ASSERT_GT(count, 50);
   EXPECT_LT(std::abs(sum), 2 * std::sqrt(variance)) << count << " pixels";
   EXPECT_LE(far, count / 20);
+  // By the same rays the light is the same; the fourth channel is a distance.
+  const FloatImage times = stage.gather(volume, mode(IndirectMode::kTimesOpen, kRadius), kRays);
+  for (std::size_t i = 0; i < times.values.size(); ++i) {
+    if (i % 4 == 3) continue;
+    ASSERT_NEAR(times.values[i], gathered.values[i], 1e-5);
+  }
+}
+
+// Occlusion that reaches nowhere leaves the volume as it is, and one that does takes light away.
+TEST(VolumeFailures, ScreenOcclusionOnlyDarkens) {
+  for (const std::string backend : {"embree", "vulkan"}) {
+    if (backend == "vulkan") KAAMOS_NEED_VULKAN();
+    Stage stage(small_scene(0.5f), 24, 16, backend);
+    const IndirectVolume volume = constant_volume(stage.scene, 0.5f);
+    const FloatImage direct = stage.gather(volume, mode(IndirectMode::kDirect), 1);
+    const FloatImage none = stage.occluded_on_screen(volume, {{}, 0});
+    const FloatImage some = stage.occluded_on_screen(volume, {{}, 3});
+    int darker = 0;
+    for (std::size_t i = 0; i < none.values.size(); ++i) {
+      ASSERT_NEAR(none.values[i], direct.values[i], 1e-6) << backend;
+      ASSERT_LE(some.values[i], direct.values[i] + 1e-6) << backend;
+      darker += some.values[i] < 0.9f * direct.values[i];
+    }
+    EXPECT_GT(darker, 30) << backend;
+  }
 }
 
 // --- Where rays end

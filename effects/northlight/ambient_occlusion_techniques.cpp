@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Ambient occlusion from the depth picture, as effects of a frame.
+// Alternatives to ambient occlusion by cosine-distributed rays, as effects of a frame.
 #include <fmt/format.h>
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/northlight/effect_pass.h"
 #include "effects/northlight/techniques.h"
 #include "effects/screen_space_ao/line_sweep_ao.h"
@@ -157,6 +158,20 @@ Effect line_sweep_row() {
   return row;
 }
 
+Effect uniform_row() {
+  return {.name = "ao-uniform",
+          .about = "ambient occlusion by uniform rays",
+          .library = {"ambient_occlusion/ambient_occlusion", ambient_occlusion_library},
+          .pass = uniform_ambient_occlusion_pass,
+          .signals = {{.name = "ao_uniform", .channels = 1, .part = &FrameParts::ambient}},
+          .defaults = EffectSettings{.samples = kDefaultAmbientOcclusionSamples,
+                                     .radius = kDefaultAmbientOcclusionRadius}
+                          .set_constants(UniformOcclusionConstants{}),
+          .replaced_by = "gi",
+          .alternative_to = "ao",
+          .samples_option = "ao-uniform-samples"};
+}
+
 }  // namespace
 
 std::vector<Effect> ambient_occlusion_techniques() {
@@ -181,7 +196,8 @@ std::vector<Effect> ambient_occlusion_techniques() {
       screen_space_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode",
                        "gtao_accurate", gtao, ScreenSpaceAoKind::kGtao, accurate_gtao(16, 32),
                        accurate_gtao_steps()),
-      line_sweep_row()};
+      line_sweep_row(),
+      uniform_row()};
 }
 
 }  // namespace kaamos::effects

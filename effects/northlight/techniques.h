@@ -16,6 +16,8 @@ std::vector<Effect> shadow_techniques();
 std::vector<Effect> screen_shadow_techniques();
 /// How open the hemisphere above each surface is: alternatives to "ao".
 std::vector<Effect> ambient_occlusion_techniques();
+/// Light from other surfaces: alternatives to "gi".
+std::vector<Effect> indirect_techniques();
 /// What each surface reflects: alternatives to "reflections".
 std::vector<Effect> reflection_techniques();
 

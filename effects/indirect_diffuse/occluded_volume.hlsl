@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Light of the volume at each surface, times screen-space ambient occlusion: what games did before
+// rays. [effects-spec B5.2: G2]
+#include "frame.hlsli"
+#include "indirect_volume.hlsli"
+
+RWTexture2D<float4> indirect : register(u0, space3);   // irradiance / pi
+RWTexture2D<float4> occlusion : register(u1, space3);  // 1: open
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void OccludeVolume(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  indirect.GetDimensions(width, height);
+  const uint2 pixel = id.xy;
+  if (pixel.x >= width || pixel.y >= height) return;
+  if (g_ids[pixel].x == 0) {
+    indirect[pixel] = float4(0, 0, 0, 0);
+    return;
+  }
+  const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
+  const float3 light = VolumeIrradianceAt(g_position[pixel].xyz, kEveryCell, normal);
+  indirect[pixel] = float4(light * occlusion[pixel].x, 0.0);
+}
