@@ -58,27 +58,42 @@ class Reader {
     warn(key, "true or false");
     return fallback;
   }
-  /// The same for three numbers: a colour, radiance or irradiance.
-  glm::vec3 triple(const char* key) {
-    if (!has(key)) return glm::vec3(0.0f);
-    const Value& value = object_->Get(key);
-    glm::vec3 out(0.0f);
-    bool good = value.IsArray() && value.ArrayLen() == 3;
-    for (int c = 0; good && c < 3; ++c) {
-      good = usable(value.Get(c), kLargest);
-      if (good) out[c] = static_cast<float>(value.Get(c).GetNumberAsDouble());
-    }
-    if (good) return out;
-    warn(key, "three numbers from 0 to " + limit_text(kLargest));
-    return glm::vec3(0.0f);
+  /// A member that is whole and from 0 to `limit`; empty, with a warning, where it is none.
+  std::optional<int> whole(const char* key, double limit) {
+    if (!has(key)) return {};
+    const double value = number(key, limit, -1.0);
+    if (value >= 0.0 && value == std::floor(value)) return static_cast<int>(value);
+    if (value >= 0.0)
+      warnings_.push_back(where_ + ", extras: " + key + " is not whole; it is left out");
+    return {};
+  }
+  /// Three numbers from 0: a colour, radiance or irradiance; black, with a warning, where it is
+  /// none.
+  glm::vec3 triple(const char* key) { return numbers(key, 0.0, glm::vec3(0.0f)); }
+  /// Three numbers of either sign; `fallback`, with a warning, where it is none.
+  glm::vec3 vector(const char* key, const glm::vec3& fallback) {
+    return numbers(key, -kLargest, fallback);
   }
 
   static constexpr double kLargest = std::numeric_limits<float>::max();
 
  private:
-  static bool usable(const Value& value, double limit) {
-    return value.IsNumber() && value.GetNumberAsDouble() >= 0.0 &&
+  static bool usable(const Value& value, double limit, double least = 0.0) {
+    return value.IsNumber() && value.GetNumberAsDouble() >= least &&
            value.GetNumberAsDouble() <= limit;
+  }
+  glm::vec3 numbers(const char* key, double least, const glm::vec3& fallback) {
+    if (!has(key)) return fallback;
+    const Value& value = object_->Get(key);
+    glm::vec3 out(0.0f);
+    bool good = value.IsArray() && value.ArrayLen() == 3;
+    for (int c = 0; good && c < 3; ++c) {
+      good = usable(value.Get(c), kLargest, least);
+      if (good) out[c] = static_cast<float>(value.Get(c).GetNumberAsDouble());
+    }
+    if (good) return out;
+    warn(key, "three numbers from " + limit_text(least) + " to " + limit_text(kLargest));
+    return fallback;
   }
   static std::string limit_text(double limit) {
     std::ostringstream text;
@@ -109,9 +124,13 @@ Value sun_extras(const Sun& sun) {
   return under_key({{"sun", Value(std::move(members))}});
 }
 
-Value lamp_extras(const Light& light) {
+Value lamp_extras(const Light& light, int texture) {
   Value::Object members{{"radius", number(light.radius)}};
   if (!light.baked) members["baked"] = Value(false);
+  if (light.projection) {
+    members["projection"] =
+        Value(Value::Object{{"texture", Value(texture)}, {"up", triple(light.projection->up)}});
+  }
   return under_key({{"lamp", Value(std::move(members))}});
 }
 
@@ -156,14 +175,23 @@ void read_lamp_extras(const Value& extras, const std::string& where, Light& ligh
   light.baked = reader.flag("baked", light.baked);
 }
 
+std::optional<ProjectionExtras> read_projection_extras(const Value& extras,
+                                                       const std::string& where,
+                                                       std::vector<std::string>& warnings) {
+  Reader reader(extras, where, warnings);
+  if (!reader.enter("lamp") || !reader.enter("projection")) return {};
+  const std::optional<int> texture =
+      reader.whole("texture", std::numeric_limits<std::int32_t>::max());
+  if (!texture) return {};
+  return ProjectionExtras{*texture, reader.vector("up", ProjectionExtras{}.up)};
+}
+
 std::optional<std::uint8_t> read_instance_mask(const Value& extras, const std::string& where,
                                                std::vector<std::string>& warnings) {
   Reader reader(extras, where, warnings);
-  if (!reader.has("mask")) return {};
-  const double mask = reader.number("mask", 255.0, -1.0);
-  if (mask == std::floor(mask) && mask >= 0.0) return static_cast<std::uint8_t>(mask);
-  if (mask >= 0.0) warnings.push_back(where + ", extras: mask is not whole; it is left out");
-  return {};
+  const std::optional<int> mask = reader.whole("mask", 255.0);
+  if (!mask) return {};
+  return static_cast<std::uint8_t>(*mask);
 }
 
 }  // namespace kaamos::effects

@@ -27,12 +27,18 @@ struct SunExtras {
   float angular_radius = kSunAngularRadius;  ///< radians
 };
 
+/// Of the node of a spot that throws a slide.
+struct ProjectionExtras {
+  int texture = -1;       ///< of the file
+  glm::vec3 up{0, 1, 0};  ///< ProjectionMap::up
+};
+
 /// For a scene: everything besides meshes and lights that a picture depends on.
 tinygltf::Value scene_extras(const Scene& scene);
 /// For the node of the sun's light.
 tinygltf::Value sun_extras(const Sun& sun);
-/// For the node of any other light.
-tinygltf::Value lamp_extras(const Light& light);
+/// For the node of any other light; `texture` has the slide of one that throws one.
+tinygltf::Value lamp_extras(const Light& light, int texture);
 /// For the node of an instance; what `extras` holds already is kept.
 void add_instance_extras(tinygltf::Value& extras, const Instance& instance);
 
@@ -47,6 +53,9 @@ std::optional<SunExtras> read_sun_extras(const tinygltf::Value& extras, const st
                                          std::vector<std::string>& warnings);
 void read_lamp_extras(const tinygltf::Value& extras, const std::string& where, Light& light,
                       std::vector<std::string>& warnings);
+std::optional<ProjectionExtras> read_projection_extras(const tinygltf::Value& extras,
+                                                       const std::string& where,
+                                                       std::vector<std::string>& warnings);
 std::optional<std::uint8_t> read_instance_mask(const tinygltf::Value& extras,
                                                const std::string& where,
                                                std::vector<std::string>& warnings);

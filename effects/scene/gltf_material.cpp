@@ -96,10 +96,16 @@ class MaterialReader {
     int tex_coord;
     const tinygltf::ExtensionMap& extensions;
   };
+  struct ImageUse {
+    std::int32_t image;     // in Scene::images
+    std::uint32_t sampler;  // in Scene::samplers
+  };
   static int tex_coord_of(const TextureUse& use);
   Status material(const tinygltf::Material& from, std::size_t id);
   Status texture(const TextureUse& use, TextureSlot slot, const std::string& where,
                  MaterialConstants& to);
+  Result<std::optional<ImageUse>> image_of(int texture, bool srgb, const std::string& where);
+  Status slide(const tinygltf::Node& node, std::size_t id);
   Result<std::int32_t> image(int source, bool srgb, const std::string& where);
   Result<TextureImage> decode(int source, const std::string& where) const;
   Status alpha(const tinygltf::Material& from, const std::string& where, MaterialConstants& to);
@@ -172,19 +178,32 @@ int MaterialReader::tex_coord_of(const TextureUse& use) {
 Status MaterialReader::texture(const TextureUse& use, TextureSlot slot, const std::string& where,
                                MaterialConstants& to) {
   if (use.texture < 0) return {};
-  if (static_cast<std::size_t>(use.texture) >= model_.textures.size())
-    return make_error(ErrorId::kGltf, where + ": names texture " + std::to_string(use.texture) +
-                                          " of " + std::to_string(model_.textures.size()));
-  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(use.texture)];
-  const std::string place = where + ", texture " + std::to_string(use.texture);
   if (const int tex_coord = tex_coord_of(use); tex_coord != 0) {
-    reader_.warn(place + ": uses TEXCOORD_" + std::to_string(tex_coord) +
-                 ", only TEXCOORD_0 is read; the texture is left out");
+    reader_.warn(where + ", texture " + std::to_string(use.texture) + ": uses TEXCOORD_" +
+                 std::to_string(tex_coord) + ", only TEXCOORD_0 is read; the texture is left out");
     return {};
   }
+  const bool srgb = slot == kBaseColorTexture || slot == kEmissiveTexture;
+  const Result<std::optional<ImageUse>> from = image_of(use.texture, srgb, where);
+  if (!from.ok()) return from.error();
+  if (!from.value()) return {};
+  to.image[slot] = from.value()->image;
+  to.sampler[slot] = from.value()->sampler;
+  texture_transform(use.extensions, slot, to);
+  return {};
+}
+
+/// Empty, with a warning, where the texture has no image that is read here.
+Result<std::optional<MaterialReader::ImageUse>> MaterialReader::image_of(int id, bool srgb,
+                                                                         const std::string& where) {
+  if (static_cast<std::size_t>(id) >= model_.textures.size())
+    return make_error(ErrorId::kGltf, where + ": names texture " + std::to_string(id) + " of " +
+                                          std::to_string(model_.textures.size()));
+  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(id)];
+  const std::string place = where + ", texture " + std::to_string(id);
   if (texture.source < 0) {
     reader_.warn(place + ": has no PNG or JPEG source; the texture is left out");
-    return {};
+    return std::optional<ImageUse>();
   }
   if (static_cast<std::size_t>(texture.source) >= model_.images.size())
     return make_error(ErrorId::kGltf, place + ": names image " + std::to_string(texture.source) +
@@ -192,12 +211,23 @@ Status MaterialReader::texture(const TextureUse& use, TextureSlot slot, const st
   if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) >= model_.samplers.size())
     return make_error(ErrorId::kGltf, place + ": names sampler " + std::to_string(texture.sampler) +
                                           " of " + std::to_string(model_.samplers.size()));
-  const bool srgb = slot == kBaseColorTexture || slot == kEmissiveTexture;
-  const Result<std::int32_t> id = image(texture.source, srgb, place);
-  if (!id.ok()) return id.error();
-  to.image[slot] = id.value();
-  to.sampler[slot] = texture.sampler < 0 ? 0 : static_cast<std::uint32_t>(texture.sampler) + 1;
-  texture_transform(use.extensions, slot, to);
+  const Result<std::int32_t> decoded = image(texture.source, srgb, place);
+  if (!decoded.ok()) return decoded.error();
+  return std::optional(ImageUse{
+      decoded.value(), texture.sampler < 0 ? 0 : static_cast<std::uint32_t>(texture.sampler) + 1});
+}
+
+/// What the node's light throws, as a picture of the scene's; its colours are sRGB.
+Status MaterialReader::slide(const tinygltf::Node& node, std::size_t id) {
+  const std::string where = gltf_part("node", id, node.name);
+  const auto projection = read_projection_extras(node.extras, where, reader_.warnings);
+  if (!projection) return {};
+  const auto from = image_of(projection->texture, true, where);
+  if (!from.ok()) return from.error();
+  if (!from.value()) return {};
+  reader_.slides[id] = {.image = static_cast<std::uint32_t>(from.value()->image),
+                        .sampler = from.value()->sampler,
+                        .up = projection->up};
   return {};
 }
 
@@ -281,6 +311,10 @@ Status MaterialReader::run() {
   // a material is shown as white plaster.
   fallback.constants.base_color = glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
   reader_.scene.materials.push_back(fallback);
+  for (std::size_t id = 0; id < model_.nodes.size(); ++id) {
+    const Status status = slide(model_.nodes[id], id);
+    if (!status.ok()) return status;
+  }
   make_mips();
   return {};
 }

@@ -32,7 +32,7 @@ class NodeReader {
   Status joint_matrices(const tinygltf::Skin& skin, const std::string& where,
                         std::vector<glm::dmat4>& out) const;
   Status camera(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
-  Status light(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
+  Status light(std::size_t id, const std::string& where, const glm::dmat4& world);
   std::string where(std::size_t id) const { return gltf_part("node", id, model_.nodes[id].name); }
 
   GltfReader& reader_;
@@ -363,16 +363,16 @@ Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
   return {};
 }
 
-Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
-                         const glm::dmat4& world) {
+Status NodeReader::light(std::size_t id, const std::string& where, const glm::dmat4& world) {
+  const tinygltf::Node& node = model_.nodes[id];
   const auto found = node.extensions.find("KHR_lights_punctual");
   if (found == node.extensions.end() || !found->second.Has("light") ||
       !found->second.Get("light").IsNumber())
     return {};
-  const int id = found->second.Get("light").GetNumberAsInt();
-  if (!in_range(id, model_.lights.size()))
-    return id_error(where, "light", id, model_.lights.size());
-  const tinygltf::Light& from = model_.lights[static_cast<std::size_t>(id)];
+  const int light_id = found->second.Get("light").GetNumberAsInt();
+  if (!in_range(light_id, model_.lights.size()))
+    return id_error(where, "light", light_id, model_.lights.size());
+  const tinygltf::Light& from = model_.lights[static_cast<std::size_t>(light_id)];
   Light to;
   to.name = from.name.empty() ? node.name : from.name;
   if (from.type == "directional") {
@@ -380,8 +380,8 @@ Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
   } else if (from.type == "spot") {
     to.type = LightType::kSpot;
   } else if (from.type != "point") {
-    return make_error(ErrorId::kGltf, where + ", light " + std::to_string(id) + ": type is \"" +
-                                          from.type +
+    return make_error(ErrorId::kGltf, where + ", light " + std::to_string(light_id) +
+                                          ": type is \"" + from.type +
                                           "\", directional, point and spot are allowed");
   }
   for (int i = 0; i < 3 && static_cast<std::size_t>(i) < from.color.size(); ++i)
@@ -396,6 +396,12 @@ Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
   to.position = glm::dvec3(world[3]);
   to.direction = glm::vec3(-axis(world, 2, {0, 0, 1}));
   read_lamp_extras(node.extras, where, to, reader_.warnings);
+  if (const auto slide = reader_.slides.find(id); slide != reader_.slides.end()) {
+    if (to.type == LightType::kSpot)
+      to.projection = slide->second;
+    else
+      reader_.warn(where + ", extras: projection is of a light that is no spot; it is left out");
+  }
   if (to.type == LightType::kDirectional && !reader_.sun) {
     if (const auto sun = read_sun_extras(node.extras, where, reader_.warnings))
       reader_.sun = {reader_.scene.lights.size(), *sun};
@@ -410,7 +416,7 @@ Status NodeReader::contents(std::size_t id) {
   Status status;
   if (node.mesh >= 0) status = mesh(node, id, place, world_[id]);
   if (status.ok() && node.camera >= 0) status = camera(node, place, world_[id]);
-  if (status.ok()) status = light(node, place, world_[id]);
+  if (status.ok()) status = light(id, place, world_[id]);
   return status;
 }
 

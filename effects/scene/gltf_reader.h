@@ -5,6 +5,7 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct GltfReader {
   bool animated = false;
   /// Per node of the file: its index in Scene::nodes, or kNoIndex if the scene does not have it.
   std::vector<std::int32_t> node_ids = {};
+  /// By node of the file: what the spot there throws.
+  std::map<std::size_t, ProjectionMap> slides = {};
   /// A light of the scene that its node marks as the sun.
   struct MarkedSun {
     std::size_t light;  // in Scene::lights
@@ -41,7 +44,8 @@ struct GltfReader {
 /// `noun 3 "name"`, as messages name a part of a file.
 std::string gltf_part(const char* noun, std::size_t index, const std::string& name);
 
-/// Reads one material per material of the file, and adds the default material.
+/// Reads one material per material of the file, adds the default material, and reads what spots
+/// throw.
 Status read_gltf_materials(GltfReader& reader);
 /// Reads each mesh of the file that has triangles.
 Status read_gltf_meshes(GltfReader& reader);

@@ -98,6 +98,12 @@ void expect_same_light(const Scene& a, const Scene& b) {
     EXPECT_EQ(x.direction, y.direction) << x.name;
     const glm::vec3 p = x.color * x.intensity, q = y.color * y.intensity;
     EXPECT_LE(glm::distance(p, q), 1e-6f * glm::length(p)) << x.name;
+    ASSERT_EQ(x.projection.has_value(), y.projection.has_value()) << x.name;
+    if (!x.projection) continue;
+    EXPECT_EQ(x.projection->up, y.projection->up) << x.name;
+    EXPECT_EQ(a.images[x.projection->image].mips[0], b.images[y.projection->image].mips[0])
+        << x.name;
+    EXPECT_EQ(a.samplers[x.projection->sampler], b.samplers[y.projection->sampler]) << x.name;
   }
   ASSERT_EQ(a.cameras.size(), b.cameras.size());
   for (std::size_t i = 0; i < a.cameras.size(); ++i) {
@@ -284,6 +290,28 @@ TEST(GltfExtras, UnusableValuesAreLeftOutWithAWarning) {
   EXPECT_EQ(loaded.value().scene.exposure, 1.0f);
   EXPECT_EQ(loaded.value().scene.sky.horizon, glm::vec3(0.5f));
   EXPECT_FALSE(loaded.value().complete) << "it has no camera";
+}
+
+TEST(GltfExtras, ASlideNamesATextureOfTheFile) {
+  const auto with_slide = [](const std::string& projection) {
+    QuadFile file;
+    file.nodes = R"([{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}},)"
+                 R"("extras":{"kaamos":{"lamp":{"projection":)" +
+                 projection + "}}}}]";
+    file.more = R"(,"scene":0,"scenes":[{"nodes":[0,1]}],"extensions":{"KHR_lights_punctual":)"
+                R"({"lights":[{"type":"spot","spot":{}}]}})";
+    return load(file.bytes());
+  };
+  const auto missing = with_slide(R"({"texture":7})");
+  ASSERT_FALSE(missing.ok());
+  EXPECT_NE(missing.error().message.find("names texture 7 of"), std::string::npos)
+      << missing.error().message;
+  const auto half = with_slide(R"({"texture":0.5})");
+  ASSERT_TRUE(half.ok()) << half.error().message;
+  ASSERT_EQ(half.value().warnings.size(), 1u);
+  EXPECT_NE(half.value().warnings[0].find("texture is not whole"), std::string::npos)
+      << half.value().warnings[0];
+  EXPECT_FALSE(half.value().scene.lights.at(0).projection.has_value());
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class Writer {
   void add_mesh(const Mesh& mesh);
   Status add_image(const TextureImage& image);
   void add_material(const Material& material);
-  int texture_of(const MaterialConstants& constants, std::uint32_t slot);
+  int texture_of(int source, int sampler);
   template <class Info>
   void set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot);
   void add_levels(int node, const Instance& instance);
@@ -158,8 +158,7 @@ Status Writer::add_image(const TextureImage& image) {
   return {};
 }
 
-int Writer::texture_of(const MaterialConstants& constants, std::uint32_t slot) {
-  const int source = constants.image[slot], sampler = static_cast<int>(constants.sampler[slot]);
+int Writer::texture_of(int source, int sampler) {
   for (std::size_t i = 0; i < model_.textures.size(); ++i)
     if (model_.textures[i].source == source && model_.textures[i].sampler == sampler)
       return static_cast<int>(i);
@@ -175,7 +174,7 @@ int Writer::texture_of(const MaterialConstants& constants, std::uint32_t slot) {
 template <class Info>
 void Writer::set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot) {
   if (constants.image[slot] == kNoTexture) return;
-  info.index = texture_of(constants, slot);
+  info.index = texture_of(constants.image[slot], static_cast<int>(constants.sampler[slot]));
   const glm::vec4& m = constants.uv_matrix[slot];
   const glm::vec2& offset = constants.uv_offset[slot];
   if (m == glm::vec4(1, 0, 0, 1) && offset == glm::vec2(0.0f)) return;
@@ -286,10 +285,13 @@ tinygltf::Node& Writer::add_light(const Light& light) {
   out.spot.innerConeAngle =
       std::min<double>(light.inner_cone_angle, out.spot.outerConeAngle * (1.0 - 1e-7));
   model_.lights.push_back(out);
+  const int slide = !light.projection ? -1
+                                      : texture_of(static_cast<int>(light.projection->image),
+                                                   static_cast<int>(light.projection->sampler));
   tinygltf::Node& node = add_node(light.name, light_transform(light));
   node.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{
       {"light", tinygltf::Value(static_cast<int>(model_.lights.size()) - 1)}});
-  if (light.type != LightType::kDirectional) node.extras = lamp_extras(light);
+  if (light.type != LightType::kDirectional) node.extras = lamp_extras(light, slide);
   return node;
 }
 
@@ -353,14 +355,7 @@ Result<std::vector<std::uint8_t>> Writer::run() {
   for (const Instance& instance : scene_.instances) add_instance(instance);
   for (const Camera& camera : scene_.cameras) add_camera(camera);
   if (scene_.sun) add_sun(*scene_.sun);
-  for (const Light& light : scene_.lights) {
-    if (light.projection) {
-      return make_error(ErrorId::kGltfWrite,
-                        "light \"" + light.name +
-                            "\" has a projection map, for which glTF has no place; leave it out");
-    }
-    add_light(light);
-  }
+  for (const Light& light : scene_.lights) add_light(light);
   if (data_.size() > 0xF0000000u)
     return make_error(ErrorId::kGltfWrite, "needs " + std::to_string(data_.size()) +
                                                " bytes, a .glb holds less than 4 GB");
