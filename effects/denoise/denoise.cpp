@@ -4,6 +4,7 @@
 #include <shaders/control.h>
 #include <shaders/spatial.h>
 #include <shaders/svgf.h>
+#include <shaders/temporal_gradients.h>
 #include <shaders/upscale.h>
 #include <shaders/visibility_filter.h>
 
@@ -22,8 +23,12 @@ using rtapi::Texture;
 
 namespace {
 
+bool has_wavelet(DenoiseMethod method) {
+  return method == DenoiseMethod::kSvgf || method == DenoiseMethod::kAdaptiveSvgf;
+}
+
 bool is_temporal(DenoiseMethod method) {
-  return method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
+  return has_wavelet(method) || method == DenoiseMethod::kTemporal ||
          method == DenoiseMethod::kControl;
 }
 
@@ -35,7 +40,7 @@ std::int32_t squarings_of(float power) {
 
 // The registers of svgf.hlsl.
 constexpr std::uint32_t kSignals = 4, kHistories = 9, kPreviousMoments = 14, kAccumulated = 19,
-                        kMoments = 24, kPreviousGuides = 29;
+                        kMoments = 24, kPreviousGuides = 29, kChanges = 30;
 
 // Binds an array of pictures to the registers from u on.
 template <class Bindings, class Pictures>
@@ -67,6 +72,8 @@ rtapi::Result<std::shared_ptr<ComputePass>> DenoisePipelines::get(
 DenoiseDesc default_denoise(DenoiseMethod method) {
   DenoiseDesc desc;
   desc.method = method;
+  // Wherever light changes, pixels are in their first frames again.
+  if (method == DenoiseMethod::kAdaptiveSvgf) desc.iterations_with_history = desc.iterations;
   if (method == DenoiseMethod::kBilateral || method == DenoiseMethod::kBilateralExact) {
     desc.constants.sigma_n = 32.0f;
     desc.constants.sigma_l = 0.0f;  // a luminance weight would keep the noise
@@ -96,7 +103,9 @@ rtapi::Result<DenoiseLibraries> denoise_libraries() {
   if (!upscale) return upscale.error();
   const auto visibility = rtapi::LoadShaderLibrary(kaamos_shaders_visibility_filter());
   if (!visibility) return visibility.error();
-  return DenoiseLibraries{*spatial, *svgf, *control, *upscale, *visibility};
+  const auto gradients = rtapi::LoadShaderLibrary(kaamos_shaders_temporal_gradients());
+  if (!gradients) return gradients.error();
+  return DenoiseLibraries{*spatial, *svgf, *control, *upscale, *visibility, *gradients};
 }
 
 rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Frame& frame,
@@ -115,6 +124,10 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
   out.desc_.constants.signals = static_cast<std::int32_t>(signals.size());
   for (const Signal& signal : signals) {
     if (signal.of_lobe) out.desc_.constants.lobes |= 1u << out.channels_.size();
+    if (signal.changes.picture && desc.method == DenoiseMethod::kAdaptiveSvgf) {
+      out.changes_ = signal.changes.picture;
+      out.desc_.constants.changes |= (1 + signal.changes.channel) << (4 * out.channels_.size());
+    }
     out.channels_.push_back({.name = signal.name, .signal = signal.picture});
   }
   if (const auto s = out.create_pictures(device, frame); !s) return s.error();
@@ -134,7 +147,7 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
   for (std::uint32_t parity = 0; parity < 2; ++parity) {
     const Recorder recorder = {device, frame, libraries, out.steps_[parity], parity, first};
     if (const auto s = out.add_temporal(recorder); !s) return s.error();
-    if (desc.method != DenoiseMethod::kSvgf || later == first) continue;
+    if (!has_wavelet(desc.method) || later == first) continue;
     const Recorder with_history = {device, frame, libraries, out.steps_with_history_[parity],
                                    parity, later};
     if (const auto s = out.add_temporal(with_history); !s) return s.error();
@@ -256,8 +269,9 @@ rtapi::Status Denoiser::add_temporal(const Recorder& to) {
   add_bindings(bindings, kPreviousMoments, moments_of(1 - to.parity));
   add_bindings(bindings, kAccumulated, accumulated);
   add_bindings(bindings, kMoments, moments_of(to.parity));
+  if (changes_) bindings.push_back({kChanges, &changes_});
   if (const auto s = add(to, kTemporal, bindings, desc_.constants); !s) return s;
-  if (desc_.method == DenoiseMethod::kSvgf) {
+  if (has_wavelet(desc_.method)) {
     // The output goes into the previous frame's moments, which are no longer needed.
     if (const auto s = add(to, kVariance, bindings, desc_.constants); !s) return s;
     return add_wavelet(to);
@@ -337,9 +351,9 @@ std::uint64_t Denoiser::bytes() const {
   return sum;
 }
 
-void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale,
-                    std::size_t index) const {
-  channels_[index].load.record(list, frame, scale);
+void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale, std::size_t index,
+                    std::uint32_t pixel_offset) const {
+  channels_[index].load.record(list, frame, scale, pixel_offset);
 }
 
 void Denoiser::dispatch(rtapi::CommandList& list, const Frame& frame) {

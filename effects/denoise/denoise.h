@@ -38,13 +38,15 @@ struct DenoiseConstants {
   std::uint32_t vertical = 0;         ///< set by Denoiser: separable filters, 0 rows, 1 columns
   float scale = 1.0f;                 ///< set by SumLoad: factor on the sum
   std::int32_t normal_squarings = 7;  ///< set by Denoiser: of sigma_n
-  float lobe_scale = 0.0f;        ///< of the radius of a lobe's footprint; 0: the radius is fixed
-  float sigma_hit = 0.5f;         ///< of hit distances, relative to the farther one
-  float sigma_roughness = 0.05f;  ///< of roughness
-  std::int32_t signals = 1;       ///< set by Denoiser
-  std::uint32_t lobes = 0;        ///< set by Denoiser
+  float lobe_scale = 0.0f;         ///< of the radius of a lobe's footprint; 0: the radius is fixed
+  float sigma_hit = 0.5f;          ///< of hit distances, relative to the farther one
+  float sigma_roughness = 0.05f;   ///< of roughness
+  std::int32_t signals = 1;        ///< set by Denoiser
+  std::uint32_t lobes = 0;         ///< set by Denoiser
+  std::uint32_t changes = 0;       ///< set by Denoiser
+  std::uint32_t pixel_offset = 0;  ///< set by SumLoad [PassConstants::pixel_offset]
 };
-static_assert(sizeof(DenoiseConstants) == 76);
+static_assert(sizeof(DenoiseConstants) == 84);
 
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
@@ -58,6 +60,9 @@ enum class DenoiseMethod {
   kTemporal,        ///< N3: over frames only
   kSvgf,            ///< N4
   kControl,         ///< N8: fireflies, accumulation, a filter as wide as the lobe
+  /// N5: SVGF that lets history go where light has changed [temporal_gradients.h]. Where no
+  /// gradients are handed over, it is SVGF with as many passes in each frame.
+  kAdaptiveSvgf,
 };
 
 /// What Denoiser does.
@@ -102,6 +107,12 @@ class DenoisePipelines {
   std::vector<Entry> entries_;
 };
 
+/// What says how much a signal has changed. [TemporalGradients]
+struct SignalChanges {
+  rtapi::Texture picture;     ///< TemporalGradients::changes; null: nobody knows
+  std::uint32_t channel = 0;  ///< of it, 0 to 3
+};
+
 /// The shaders of every method, and the pipelines made of them.
 struct DenoiseLibraries {
   rtapi::ShaderLibrary spatial;     ///< spatial.hlsl
@@ -109,6 +120,7 @@ struct DenoiseLibraries {
   rtapi::ShaderLibrary control;     ///< control.hlsl
   rtapi::ShaderLibrary upscale;     ///< upscale.hlsl
   rtapi::ShaderLibrary visibility;  ///< visibility_filter.hlsl
+  rtapi::ShaderLibrary gradients;   ///< temporal_gradients.hlsl
   /// Shared by all denoisers that are made of these libraries.
   std::shared_ptr<DenoisePipelines> pipelines = std::make_shared<DenoisePipelines>();
 };
@@ -127,6 +139,8 @@ class Denoiser {
     /// The signal comes from rays in the reflection lobe of the surface: SVGF leaves mirrors as
     /// they are, because their lobe is one direction and has no noise.
     bool of_lobe = false;
+    /// For kAdaptiveSvgf; all signals that have one share one picture.
+    SignalChanges changes = {};
   };
 
   /// Makes the pictures and the passes for 1 to kMostSignals signals. The signals' pictures must
@@ -145,14 +159,16 @@ class Denoiser {
     return create(device, frame, libraries, {{std::move(name), signal}}, desc);
   }
   /// Makes signal `index` = scale * sum at each load; `sum` is a picture of one float or of four.
-  /// `step` 2: only even pixels of it were written (PassConstants::pixel_step), the others are
+  /// `step` 2: only one pixel of each 2 x 2 was written (PassConstants::pixel_step), the others are
   /// worked out from them by joint bilateral upscaling. [effects-spec B7.2]
   /// @errors those of the device.
   rtapi::Status create_load(const rtapi::Device& device, const Frame& frame,
                             const DenoiseLibraries& libraries, const rtapi::Texture& sum,
                             std::uint32_t step = 1, std::size_t index = 0);
   /// Records what create_load made, behind the passes that wrote the sum: signal = `scale` * sum.
-  void load(rtapi::CommandList& list, const Frame& frame, float scale, std::size_t index = 0) const;
+  /// `pixel_offset`: as the passes had it.
+  void load(rtapi::CommandList& list, const Frame& frame, float scale, std::size_t index = 0,
+            std::uint32_t pixel_offset = 0) const;
 
   /// Records the passes of one frame, behind those that wrote the signals.
   void dispatch(rtapi::CommandList& list, const Frame& frame);
@@ -230,6 +246,7 @@ class Denoiser {
   DenoiseDesc desc_;
   std::vector<Channel> channels_;
   rtapi::Texture guides_[2];
+  rtapi::Texture changes_;
   std::vector<Step> steps_[2];               // for even and odd frames
   std::vector<Step> steps_with_history_[2];  // empty: same as steps_
   std::uint32_t frames_ = 0;                 // since the last cut

@@ -27,6 +27,8 @@ struct DenoiseConstants {
   float sigma_roughness;
   int signals;  // number of signals that svgf.hlsl filters
   uint lobes;   // bit s: signal s comes from rays in a reflection lobe
+  uint changes;  // 4 bits for each signal: 1 + its channel of the changes, 0: nothing is known
+  uint pixel_offset;  // which pixel of each 2 x 2 had rays, as PassConstants has it
 };
 
 ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);
@@ -34,6 +36,11 @@ ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);
 // Shading normal and view depth, written once per frame by PrepareGuides so that no tap decodes
 // anything. All zero where there is no surface.
 RWTexture2D<float4> guides : register(u3, space3);
+
+// Which pixel of each 2 x 2 had rays in this frame.
+int2 TracedOffset() {
+  return int2(denoise.pixel_offset & 1u, denoise.pixel_offset >> 1);
+}
 
 float Luminance(float3 color) { return dot(color, float3(0.2126, 0.7152, 0.0722)); }
 

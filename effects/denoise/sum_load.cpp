@@ -25,9 +25,11 @@ rtapi::Result<SumLoad> SumLoad::create(const rtapi::Device& device, const Frame&
   return out;
 }
 
-void SumLoad::record(rtapi::CommandList& list, const Frame& frame, float scale) const {
+void SumLoad::record(rtapi::CommandList& list, const Frame& frame, float scale,
+                     std::uint32_t pixel_offset) const {
   DenoiseConstants constants;
   constants.scale = scale;
+  constants.pixel_offset = pixel_offset;
   pass_->dispatch(list, frame, {}, PassArguments(views_, constants), frame.width(), frame.height());
 }
 

@@ -21,15 +21,17 @@ class SumLoad {
   /// No pass.
   SumLoad() = default;
   /// Makes the pass. `sum`: a picture of one float or of four; `into`: R32G32B32A32_FLOAT, three
-  /// equal channels of one float. `step` 2: only even pixels of `sum` were written
+  /// equal channels of one float. `step` 2: only one pixel of each 2 x 2 of `sum` was written
   /// (PassConstants::pixel_step), the others are worked out from them by joint bilateral upscaling.
   /// Both must outlive it. [effects-spec B7.2]
   /// @errors those of the device; KA0537 a library without a kernel.
   static rtapi::Result<SumLoad> create(const rtapi::Device& device, const Frame& frame,
                                        const DenoiseLibraries& libraries, const rtapi::Texture& sum,
                                        const rtapi::Texture& into, std::uint32_t step = 1);
-  /// Records it: `into` = `scale` * sum.
-  void record(rtapi::CommandList& list, const Frame& frame, float scale) const;
+  /// Records it: `into` = `scale` * sum. `pixel_offset`: which pixel of each 2 x 2 was written.
+  /// [PassConstants::pixel_offset]
+  void record(rtapi::CommandList& list, const Frame& frame, float scale,
+              std::uint32_t pixel_offset = 0) const;
 
   /// Null: no pass.
   const rtapi::Texture& sum() const { return sum_; }

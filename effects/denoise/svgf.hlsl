@@ -17,6 +17,8 @@ RWTexture2D<float4> previous_moments[kMostSignals] : register(u14, space3);
 RWTexture2D<float4> accumulated[kMostSignals] : register(u19, space3);
 RWTexture2D<float4> moments[kMostSignals] : register(u24, space3);
 RWTexture2D<float4> previous_guides : register(u29, space3);
+// How much signals have changed since the previous frame. [temporal_gradients.hlsl]
+RWTexture2D<float4> changes : register(u30, space3);
 
 bool IsOfLobe(int s) { return (denoise.lobes >> s & 1) != 0; }
 
@@ -205,6 +207,13 @@ float3 ClipToNeighbours(float3 color, int2 pixel, int2 size, int s) {
   return clamp(color, mean - denoise.clip_gamma * deviation, mean + denoise.clip_gamma * deviation);
 }
 
+// 0: light is as it was; 1: none of it is. [effects-spec B6.4]
+float ChangeOf(int2 pixel, int s) {
+  const uint channel = denoise.changes >> (4 * s) & 15u;
+  if (channel == 0) return 0.0;
+  return changes[pixel][channel - 1];
+}
+
 void Accumulate(int2 pixel, int2 size, Past past, float instance, int s) {
   const float3 color = FiniteOrZero(signal[s][pixel].rgb);
   const float luminance = Luminance(color);
@@ -218,9 +227,11 @@ void Accumulate(int2 pixel, int2 size, Past past, float instance, int s) {
   if (denoise.clip_gamma > 0.0) {
     before.color.rgb = ClipToNeighbours(before.color.rgb, pixel, size, s);
   }
-  const float frames = min(before.moments.z + 1.0, float(denoise.max_history));
-  const float alpha = max(denoise.alpha, 1.0 / frames);
-  const float moments_alpha = max(denoise.moments_alpha, 1.0 / frames);
+  const float change = ChangeOf(pixel, s);
+  const float longer = min(before.moments.z + 1.0, float(denoise.max_history));
+  const float frames = lerp(longer, 1.0, change);
+  const float alpha = lerp(max(denoise.alpha, 1.0 / longer), 1.0, change);
+  const float moments_alpha = lerp(max(denoise.moments_alpha, 1.0 / longer), 1.0, change);
   const float2 mixed = lerp(before.moments.xy, now, moments_alpha);
   accumulated[s][pixel] = float4(lerp(before.color.rgb, color, alpha),
                                  max(mixed.y - mixed.x * mixed.x, 0.0));

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Upscales a signal traced at a quarter of the pixels: joint bilateral upscaling. [effects-spec
+// Upscales a signal traced at one pixel of each 2 x 2: joint bilateral upscaling. [effects-spec
 // B7.2]
 #include "denoise_common.hlsli"
 
-// Sums over samples; only even pixels of even rows are written.
+// Sums over samples; only TracedOffset() of each 2 x 2 pixels is written.
 RWTexture2D<float4> source : register(u0, space3);
 RWTexture2D<float4> result : register(u1, space3);
 RWTexture2D<float> scalar_source : register(u2, space3);
 
 static const int kStep = 2;  // pixels from one traced pixel to the next
+
+// The block whose traced pixel is the last one up to here, to the right and below; -1 before the
+// first.
+int2 BlockBefore(int2 pixel) { return (pixel - TracedOffset() + kStep) / kStep - 1; }
 
 struct Traced {
   float4 light;
@@ -76,10 +80,10 @@ Sum Gather(int2 pixel, int2 size, Guide guide, int reach, bool is_scalar) {
   Sum sum;
   sum.light = float4(0, 0, 0, 0);
   sum.weight = 0.0;
-  const int2 corner = pixel / kStep;
+  const int2 corner = BlockBefore(pixel);
   for (int y = 1 - reach; y <= reach; ++y) {
     for (int x = 1 - reach; x <= reach; ++x) {
-      const int2 other = (corner + int2(x, y)) * kStep;
+      const int2 other = (corner + int2(x, y)) * kStep + TracedOffset();
       if (!IsInside(other, size)) continue;
       const int2 offset = other - pixel;
       const float by_place = reach == 1 ? Tent(offset.x) * Tent(offset.y)
@@ -101,10 +105,10 @@ Sum Gather(int2 pixel, int2 size, Guide guide, int reach, bool is_scalar) {
 float4 NearestInDepth(int2 pixel, int2 size, Guide guide, bool is_scalar) {
   float4 light = float4(0, 0, 0, 0);
   float weights = 0.0;
-  const int2 corner = pixel / kStep;
+  const int2 corner = BlockBefore(pixel);
   for (int y = -1; y <= 2; ++y) {
     for (int x = -1; x <= 2; ++x) {
-      const int2 other = (corner + int2(x, y)) * kStep;
+      const int2 other = (corner + int2(x, y)) * kStep + TracedOffset();
       if (!IsInside(other, size)) continue;
       const float z = g_view_z[other];
       const Traced traced = LoadTraced(other, is_scalar);
@@ -121,7 +125,8 @@ float4 NearestInDepth(int2 pixel, int2 size, Guide guide, bool is_scalar) {
 
 float4 Upscaled(int2 pixel, int2 size, bool is_scalar) {
   if (!(g_view_z[pixel] > 0.0)) {
-    const int2 near = pixel / kStep * kStep;
+    const int2 near = pixel / kStep * kStep + TracedOffset();
+    if (!IsInside(near, size)) return float4(0, 0, 0, 0);
     const Traced traced = LoadTraced(near, is_scalar);
     return traced.valid && !(g_view_z[near] > 0.0) ? traced.light : float4(0, 0, 0, 0);
   }

@@ -14,9 +14,9 @@ using rtapi::Texture;
 namespace {
 
 // The registers of visibility_filter.hlsl.
-constexpr std::uint32_t kPreviousGuides = 2, kGuides = 3, kDrawn = 4, kHistory = 8, kPast = 12,
-                        kAccumulated = 16, kBlockers = 20, kFiltered = 24, kSource = 28,
-                        kSharpness = 29, kLights = 30, kResult = 31;
+constexpr std::uint32_t kVisibilityChanges = 1, kPreviousGuides = 2, kGuides = 3, kDrawn = 4,
+                        kHistory = 8, kPast = 12, kAccumulated = 16, kBlockers = 20, kFiltered = 24,
+                        kSource = 28, kSharpness = 29, kLights = 30, kResult = 31;
 
 // Pixels between the taps of the passes that look for occluders.
 constexpr std::int32_t kBlockerSteps[] = {1, 3};
@@ -41,21 +41,30 @@ rtapi::Result<VisibilityDenoiser> VisibilityDenoiser::create(
     const std::vector<Signal>& signals, DenoiseMethod method, const VisibilityConstants& constants,
     std::uint32_t iterations) {
   if (method != DenoiseMethod::kTemporal && method != DenoiseMethod::kSvgf &&
-      method != DenoiseMethod::kControl) {
+      method != DenoiseMethod::kControl && method != DenoiseMethod::kAdaptiveSvgf) {
     return refusal("method " + std::to_string(static_cast<int>(method)) +
-                   ": it takes kTemporal, kSvgf and kControl; Denoiser has the others");
+                   ": it takes kTemporal, kSvgf, kControl and kAdaptiveSvgf; Denoiser has the "
+                   "others");
   }
   VisibilityDenoiser out;
   out.method_ = method;
+  std::uint32_t changes = 0;
   for (const Signal& signal : signals) {
     out.signals_.push_back({signal, out.channels_.size(), {}});
-    out.channels_.resize(out.channels_.size() + std::clamp(signal.channels, 1u, 2u));
+    const std::size_t end = out.channels_.size() + std::clamp(signal.channels, 1u, 2u);
+    for (std::size_t i = out.channels_.size(); i < std::min(end, kMostVisibilityChannels); ++i) {
+      if (!signal.changes.picture || method != DenoiseMethod::kAdaptiveSvgf) continue;
+      out.changes_ = signal.changes.picture;
+      changes |= (1 + signal.changes.channel) << (4 * i);
+    }
+    out.channels_.resize(end);
   }
   if (signals.empty() || out.channels_.size() > kMostVisibilityChannels) {
     return refusal(std::to_string(out.channels_.size()) + " channels: it takes 1 to " +
                    std::to_string(kMostVisibilityChannels) + "; make a second one for the others");
   }
   out.constants_ = constants;
+  out.constants_.changes = changes;
   out.constants_.channels = static_cast<std::int32_t>(out.channels_.size());
   if (const auto s = out.create_pictures(device, frame); !s) return s.error();
   for (std::uint32_t parity = 0; parity < 2; ++parity) {
@@ -174,6 +183,7 @@ rtapi::Status VisibilityDenoiser::add_accumulation(const Recorder& to) {
   add_bindings(bindings, kFiltered,
                pictures([&](const Channel& c) -> auto& { return c.blockers[1 - to.parity]; }));
   if (const auto s = add(to, "ReprojectVisibility", bindings, constants_); !s) return s;
+  if (changes_) bindings.push_back({kVisibilityChanges, &changes_});
   return add(to, "AccumulateVisibility", bindings, constants_);
 }
 

@@ -32,8 +32,9 @@ struct VisibilityConstants {
   std::int32_t lights_channel = -1;  ///< set by VisibilityDenoiser
   std::int32_t step = 1;             ///< set by VisibilityDenoiser
   std::uint32_t vertical = 0;        ///< set by VisibilityDenoiser
+  std::uint32_t changes = 0;         ///< set by VisibilityDenoiser
 };
-static_assert(sizeof(VisibilityConstants) == 40);
+static_assert(sizeof(VisibilityConstants) == 44);
 
 /// Channels that one VisibilityDenoiser takes: kMostChannels of visibility_filter.hlsl.
 inline constexpr std::size_t kMostVisibilityChannels = 4;
@@ -54,12 +55,13 @@ class VisibilityDenoiser {
     /// R32G32_UINT: which light the visibility in r and g is of; a pixel of another light has no
     /// part in a pixel's history or filter. Empty: it is the same everywhere.
     rtapi::Texture lights;
+    SignalChanges changes = {};  ///< of all its channels, for kAdaptiveSvgf [Denoiser::Signal]
   };
 
-  /// Makes the pictures and the passes. `method`: kTemporal, kSvgf (a wavelet filter of
-  /// `iterations` passes, 0 to 8) or kControl (rows and columns, twice); what is to be filtered in
-  /// space is as wide for both. The signals' pictures must outlive it; `frame` must be that of
-  /// every later call.
+  /// Makes the pictures and the passes. `method`: kTemporal, kSvgf and kAdaptiveSvgf (a
+  /// wavelet filter of `iterations` passes, 0 to 8) or kControl (rows and columns, twice); what is
+  /// to be filtered in space is as wide for both. The signals' pictures must outlive it; `frame`
+  /// must be that of every later call.
   /// @errors KA3043 another method, no channel, or more than kMostVisibilityChannels; those of the
   /// device, among them KA0990 no memory and KA0537 a library without a kernel.
   static rtapi::Result<VisibilityDenoiser> create(const rtapi::Device& device, const Frame& frame,
@@ -129,6 +131,7 @@ class VisibilityDenoiser {
   std::vector<Input> signals_;
   std::vector<Channel> channels_;
   rtapi::Texture guides_[2];
+  rtapi::Texture changes_;
   std::vector<Step> steps_[2];  // for even and odd frames
   std::uint32_t frames_ = 0;    // since the last cut
 };

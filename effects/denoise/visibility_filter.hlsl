@@ -19,8 +19,12 @@ struct VisibilityConstants {
   int lights_channel;   // PrepareChannel: of the lights; -1: none
   int step;             // pixels between taps
   uint vertical;        // FilterLine: 0 rows, 1 columns
+  uint changes;         // 4 bits for each channel: 1 + its channel of the changes; 0: not known
 };
 ConstantBuffer<VisibilityConstants> constants : register(b0, space3);
+
+// How much signals have changed since the previous frame. [temporal_gradients.hlsl]
+RWTexture2D<float4> changes : register(u1, space3);
 
 // Geometric normal and view depth; all zero where there is no surface.
 RWTexture2D<float4> previous_guides : register(u2, space3);
@@ -342,6 +346,13 @@ float OutdatedPart(int s, int2 pixel, int2 size, Surface surface, float radius) 
   return saturate(abs(now - before) / deviation - allowed);
 }
 
+// 0: visibility is as it was; 1: nothing of it is. [effects-spec B6.4]
+float ChangeOf(int2 pixel, int s) {
+  const uint channel = constants.changes >> (4 * s) & 15u;
+  if (channel == 0) return 0.0;
+  return changes[pixel][channel - 1];
+}
+
 static const float kMemory = 0.5;       // of what moved, from frame to frame
 static const float kForgotten = 1e-3;
 
@@ -369,6 +380,7 @@ void AccumulateVisibility(uint3 id : SV_DispatchThreadID) {
       const float tested = before.w > 0.0 && radius == kWidest ? 0.0 : radius;
       alpha = max(alpha, OutdatedPart(s, pixel, size, surface, tested));
     }
+    alpha = max(alpha, ChangeOf(pixel, s));
     // Resampling must not blur more than the filter may.
     const float allowed = constants.reach * constants.reach * radius * radius;
     if ((1.0 - alpha) * before.z > allowed) alpha = 1.0 - allowed / before.z;

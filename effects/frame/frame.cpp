@@ -90,6 +90,14 @@ void set_sun(FrameConstants& c, const Sun& sun, float radius) {
 
 }  // namespace
 
+std::uint32_t traced_columns(const PassConstants& constants, std::uint32_t size) {
+  return (size + constants.pixel_step - 1 - (constants.pixel_offset & 1)) / constants.pixel_step;
+}
+
+std::uint32_t traced_rows(const PassConstants& constants, std::uint32_t size) {
+  return (size + constants.pixel_step - 1 - (constants.pixel_offset >> 1)) / constants.pixel_step;
+}
+
 FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
                                const FrameTime& time) {
   FrameConstants c = {};
@@ -293,6 +301,22 @@ rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Sc
   return frame;
 }
 
+rtapi::Result<Frame> Frame::create_twin(const Device& device, const GpuScene& gpu) const {
+  Frame twin = *this;
+  twin.pass_views_ = std::make_shared<std::uint32_t>(0);
+  twin.textures_.clear();
+  if (const auto s = twin.create_textures(device); !s) return s.error();
+  if (const auto s = twin.create_views(device, gpu); !s) return s.error();
+  return twin;
+}
+
+rtapi::Status Frame::follow(const Device& device, const Frame& original) {
+  desc_.seed = original.desc_.seed;
+  constants_ = original.constants_;
+  lights_ = original.lights_;
+  return write_structured_view(device, lights_, sizeof(LightConstants), 3);
+}
+
 rtapi::Status Frame::set_camera(const Device& device, const Scene& scene, const Camera& camera,
                                 const FrameTime& time) {
   std::vector<LightConstants> lights = light_constants(scene, camera.position());
@@ -330,14 +354,13 @@ rtapi::Status Frame::set_scene(const Device& device, const GpuScene& gpu) {
 
 rtapi::Status Frame::set_ray_order(const Device& device, const Buffer& keys,
                                    const Buffer& order) const {
+  const auto ordered = write_structured_view(device, order, sizeof(std::uint32_t), kRayOrder);
+  if (!ordered || !keys) return ordered;
   UnorderedAccessViewDesc view;
   view.ViewDimension = UavDimension::kBuffer;
   view.Buffer.StructureByteStride = sizeof(std::uint32_t);
   view.Buffer.NumElements = static_cast<std::uint32_t>(keys.size() / sizeof(std::uint32_t));
-  const auto written =
-      device.CreateUnorderedAccessView(keys, view, views_.GetCPUDescriptorHandle(kRayKeys));
-  if (!written) return written;
-  return write_structured_view(device, order, sizeof(std::uint32_t), kRayOrder);
+  return device.CreateUnorderedAccessView(keys, view, views_.GetCPUDescriptorHandle(kRayKeys));
 }
 
 rtapi::Status Frame::write_structured_view(const Device& device, const Buffer& buffer,

@@ -61,9 +61,16 @@ struct PassConstants {
   float radius = 0;                ///< metres, how far rays of ambient occlusion reach
   std::uint32_t first_row = 0;     ///< of the band of the picture that is dispatched
   std::uint32_t sorted = 0;        ///< 1: in the order that a RaySorter made
-  std::uint32_t pixel_step = 1;    ///< 2: rays at even pixels of even rows only
+  std::uint32_t pixel_step = 1;    ///< 2: rays at one pixel of each 2 x 2 only
   std::uint32_t accumulate = 1;    ///< 0: pictures of sums begin anew, whatever stands in them
+  std::uint32_t pixel_offset = 0;  ///< which of the 2 x 2: bit 0 to the right, bit 1 below
 };
+
+/// How many pixels of a side of `size` pixels get rays: every `constants.pixel_step`-th.
+///@{
+std::uint32_t traced_columns(const PassConstants& constants, std::uint32_t size);
+std::uint32_t traced_rows(const PassConstants& constants, std::uint32_t size);
+///@}
 
 /// Pictures of a frame in the order of their registers u0, u1, ... [effects-spec B0.2]
 enum FrameTexture : std::uint32_t {
@@ -131,6 +138,11 @@ class Frame {
                                      const Scene& scene, const GpuScene& gpu, const Camera& camera,
                                      const FrameDesc& desc);
 
+  /// A frame with pictures and pass views of its own, which are empty, that shares everything else:
+  /// passes made for this frame can be dispatched over it too.
+  /// @errors those of the device, as of create.
+  rtapi::Result<Frame> create_twin(const rtapi::Device& device, const GpuScene& gpu) const;
+
   /// The global one, see FrameRootParameter.
   const rtapi::RootSignature& root_signature() const { return root_signature_; }
   /// The one of hit group records: vertices t0, indices t1, HitConstants b0, all in space2.
@@ -148,6 +160,9 @@ class Frame {
   /// @errors those of rtapi::Device::CreateBuffer.
   rtapi::Status set_camera(const rtapi::Device& device, const Scene& scene, const Camera& camera,
                            const FrameTime& time);
+  /// Takes over the camera, lights and seed of the frame that this one is a twin of.
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
+  rtapi::Status follow(const rtapi::Device& device, const Frame& original);
   /// Sets the seed of random numbers, from the next set_camera on.
   void set_seed(std::uint32_t seed) { desc_.seed = seed; }
   /// Puts the top level and the previous instances of `gpu` in place of those before (t0, t4). Its
@@ -155,8 +170,8 @@ class Frame {
   /// may run meanwhile.
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
-  /// Sets what RaySorter made, a word for each pixel: the keys of rays (u14), and the pixels in
-  /// their order (t5).
+  /// Sets the pixels in the order in which sorted dispatches take them (t5), a word for each place,
+  /// and the keys that they were sorted by (u14); without `keys` none can be written.
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
                               const rtapi::Buffer& order) const;

@@ -113,8 +113,10 @@ rtapi::Result<RayPass> RayPass::create(const Device& device, const Frame& frame,
 
 void RayPass::dispatch(CommandList& list, const Frame& frame, const PassConstants& constants,
                        std::uint32_t row_count, const PassArguments& arguments) const {
-  const std::uint32_t step = constants.pixel_step;
-  dispatch_grid(list, frame, constants, (frame.width() + step - 1) / step, row_count, arguments);
+  const std::uint32_t columns = traced_columns(constants, frame.width());
+  // A picture of one column has no second pixel in its blocks.
+  if (columns == 0 || row_count == 0) return;
+  dispatch_grid(list, frame, constants, columns, row_count, arguments);
 }
 
 void RayPass::dispatch_grid(CommandList& list, const Frame& frame, const PassConstants& constants,

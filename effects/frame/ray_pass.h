@@ -50,7 +50,7 @@ class RayPass {
   static rtapi::Result<RayPass> create(const rtapi::Device& device, const Frame& frame,
                                        const GpuScene& scene, const RayPassDesc& desc);
   /// Records a dispatch over `row_count` rows of the picture from constants.first_row on, and the
-  /// barrier behind it. With a constants.pixel_step of 2 there are half as many rows, rounded up.
+  /// barrier behind it. Rows are those that get rays [traced_rows].
   void dispatch(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
                 std::uint32_t row_count, const PassArguments& arguments = {}) const;
   /// The same over another grid than the frame's: half resolution, texels of an atlas, cells.

@@ -35,8 +35,7 @@ class HybridReflections : public EffectPass {
 
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
-    const std::uint32_t step = settings.pixel_step;
-    pass_.dispatch(list, frame_, constants, (frame_.height() + step - 1) / step,
+    pass_.dispatch(list, frame_, constants, traced_rows(constants, frame_.height()),
                    PassArguments(views_, settings.constants));
   }
   std::uint64_t bytes() const override { return masks_.size(); }

@@ -24,8 +24,10 @@ namespace kaamos::effects {
 /// How one effect is rendered. A row has the defaults.
 struct EffectSettings {
   std::uint32_t samples = 1;     ///< per pixel, at least 1
-  std::uint32_t pixel_step = 1;  ///< 2: only even pixels of even rows are traced
-  float radius = 0;              ///< PassConstants::radius, metres
+  std::uint32_t pixel_step = 1;  ///< 2: only one pixel of each 2 x 2 is traced
+  /// Which pixel that is takes turns: four frames of a sequence trace all of them.
+  bool rotates = false;
+  float radius = 0;  ///< PassConstants::radius, metres
   /// b0 of space3, as the effect's header declares them.
   std::array<std::uint32_t, kPassWords> constants{};
   bool keep = false;        ///< rendered even where the scene has no use for it
@@ -135,6 +137,9 @@ struct Effect {
   /// Settings from fast to accurate, for measuring. Empty: counts of samples, or the defaults where
   /// the count is fixed.
   std::vector<EffectStep> steps = {};
+  /// What its rays meet depends on a pixel's surface and place and the sample's number alone, so
+  /// that a sample of the frame before can be taken again. [TemporalGradients]
+  bool repeats = false;
   std::string misses = {};  ///< what it cannot show, in a few words; empty: nothing but noise
 };
 

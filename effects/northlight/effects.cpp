@@ -35,6 +35,7 @@ std::vector<Effect> ray_traced_effects() {
                        .radius = kDefaultAmbientOcclusionRadius},
           .replaced_by = "gi",
           .samples_option = "ao-samples",
+          .repeats = true,
       },
       {
           .name = "sun",
@@ -50,6 +51,7 @@ std::vector<Effect> ray_traced_effects() {
           .defaults = {.samples = kDefaultSunSamples},
           .needs = {.sun = true},
           .samples_option = "sun-samples",
+          .repeats = true,
       },
       {
           .name = "local",
@@ -85,6 +87,7 @@ std::vector<Effect> ray_traced_effects() {
           .defaults = with_constants(IndirectConstants{}),
           .needs = {.lights = true, .volume = true},
           .samples_option = "gi-samples",
+          .repeats = true,
       },
       {
           .name = "reflections",

@@ -20,6 +20,21 @@ constexpr std::uint32_t kFirstRows = 32;
 
 }  // namespace
 
+// Every other pixel lies across, so that after two frames each pixel has one with rays beside it.
+std::uint32_t rotating_offset(std::uint32_t index) {
+  constexpr std::uint32_t kTurns[] = {0, 3, 1, 2};
+  return kTurns[index % 4];
+}
+
+std::uint32_t pixel_offset(const EffectSettings& settings, std::uint32_t index) {
+  return settings.pixel_step == 2 && settings.rotates ? rotating_offset(index) : 0;
+}
+
+std::uint32_t first_sample(const EffectSettings& settings, std::uint32_t index) {
+  const bool takes_turns = settings.pixel_step == 2 && settings.rotates;
+  return (takes_turns ? index / 4 : index) * settings.samples;
+}
+
 const FrameRenderer::Active* FrameRenderer::active(const std::string& effect) const {
   const auto found = std::find_if(active_.begin(), active_.end(),
                                   [&](const auto& each) { return each->row->name == effect; });
@@ -103,15 +118,17 @@ rtapi::Result<Outcome> FrameRenderer::run_pass(const std::string& title, const R
   const PassArguments words =
       effect != nullptr ? arguments(*effect, effect->settings) : PassArguments{};
   const bool is_sorted = effect != nullptr && effect->keys;
-  // Each frame of a sequence continues each pixel's sample sequence, so that samples are spread as
-  // evenly over several frames as within one.
-  const std::uint32_t first = moment_.index * samples;
+  const std::uint32_t first =
+      effect != nullptr ? first_sample(effect->settings, moment_.index) : moment_.index;
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
   double order_ms = 0;
   device_.ResetStatistics();
   const double start = clock_ms_();
-  const std::uint32_t height = (frame_.height() + step - 1) / step;
+  const std::uint32_t offset =
+      effect != nullptr ? pixel_offset(effect->settings, moment_.index) : 0;
+  const std::uint32_t height =
+      traced_rows({.pixel_step = step, .pixel_offset = offset}, frame_.height());
   std::uint32_t rows = std::min(settings_.rows > 0 ? settings_.rows : kFirstRows, height);
   for (std::uint32_t sample = 0; sample < samples; sample += kSamplesPerDispatch) {
     PassConstants constants;
@@ -119,6 +136,7 @@ rtapi::Result<Outcome> FrameRenderer::run_pass(const std::string& title, const R
     constants.sample_count = std::min(kSamplesPerDispatch, samples - sample);
     constants.radius = effect != nullptr ? effect->settings.radius : 0;
     constants.pixel_step = step;
+    constants.pixel_offset = offset;
     constants.accumulate = sample > 0 ? 1 : 0;
     // Sorting orders all pixels, so it does not apply at half resolution.
     if (is_sorted && step == 1) {
@@ -154,7 +172,7 @@ rtapi::Result<Outcome> FrameRenderer::run_pass(const std::string& title, const R
 
 rtapi::Result<Outcome> FrameRenderer::run_own(Active& effect, const Progress& progress) {
   const EffectSettings& settings = effect.settings;
-  const std::uint32_t first = moment_.index * settings.samples;
+  const std::uint32_t first = first_sample(settings, moment_.index);
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
   device_.ResetStatistics();
@@ -177,7 +195,10 @@ rtapi::Result<Outcome> FrameRenderer::run_own(Active& effect, const Progress& pr
 
 rtapi::Result<Outcome> FrameRenderer::run_effect(Active& effect, const Progress& progress) {
   if (effect.own) return run_own(effect, progress);
-  return run_pass(effect.title, effect.pass, &effect, progress);
+  const auto done = run_pass(effect.title, effect.pass, &effect, progress);
+  if (!is_done(done)) return done;
+  if (const auto s = repeat_samples(effect); !s) return s.error();
+  return done;
 }
 
 std::uint64_t FrameRenderer::bytes_of(const Active& effect) const {
@@ -279,6 +300,9 @@ rtapi::Result<Outcome> FrameRenderer::run_effects(bool late, const Progress& pro
     const auto s = run_effect(*effect, progress);
     if (!is_done(s)) return s;
   }
+  if (!late) {
+    if (const auto s = finish_gradients(); !s) return s.error();
+  }
   for (SignalFilters::Filter& filter : filters_.filters()) {
     if (filter.is_late != late) continue;
     const auto s = run_compute(filter.name, filter.bytes(),
@@ -294,6 +318,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
   has_begun_ = false;
   if (settings_.whole_frame) {
     gpu_volume_.set_origin(moment_.camera.position());
+    filters_.set_pixel_offset(rotating_offset(moment_.index));
     if (moment_.cut) filters_.reset();
     if (moment_.cut && kept_) {
       if (const auto s = forget_radiance(); !s) return s.error();
@@ -308,6 +333,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
     const auto s = run_compute("curvature", bytes, [&](auto& list) { record_curvature(list); });
     if (!s) return s.error();
   }
+  if (const auto s = begin_gradients(); !s) return s.error();
   for (const auto& effect : active_) {
     if (!comes_first(*effect)) continue;
     const auto s = run_effect(*effect, progress);

@@ -19,6 +19,7 @@
 
 #include "effects/composite/composite.h"
 #include "effects/composite/kept_radiance.h"
+#include "effects/denoise/temporal_gradients.h"
 #include "effects/direct/direct.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/outcome.h"
@@ -48,6 +49,7 @@ struct PassStatistics {
   double ms = 0;                     ///< from recording to the end of execution
   rtapi::RaytracingStatistics rays;  ///< those of the pass
   std::uint64_t bytes = 0;           ///< of the pictures and buffers that it writes or alone reads
+  bool is_gradient = false;          ///< A-SVGF's: only that denoiser needs it
 };
 
 /// What one run of a single effect took.
@@ -210,6 +212,8 @@ class FrameRenderer {
   const ShaderLibraries& libraries() const { return libraries_; }
   /// The signals and their denoisers; none before prepare.
   const SignalFilters& filters() const { return filters_; }
+  /// Null: the denoiser needs none.
+  const TemporalGradients* gradients() const { return gradients_ ? &*gradients_ : nullptr; }
   /// Null: no local lights.
   const DirectLighting* main_lighting() const { return direct_ ? &*direct_ : nullptr; }
   /// Null without antialiasing over frames.
@@ -242,9 +246,11 @@ class FrameRenderer {
     std::optional<RayPass> keys;  // sorts its rays
     std::optional<PassViews> views, trace_views;
     std::optional<ComputePass> compose;
-    std::vector<rtapi::Texture> pictures;   // by signal
-    std::vector<rtapi::Texture> sharpness;  // by signal; empty where it is no visibility
-    std::uint32_t samples = 0;              // that the sums hold
+    std::vector<rtapi::Texture> pictures;        // by signal
+    std::vector<rtapi::Texture> sharpness;       // by signal; empty where it is no visibility
+    std::uint32_t samples = 0;                   // that the sums hold
+    std::optional<PassViews> past_views;         // of samples that are taken again
+    std::optional<std::uint32_t> gradient = {};  // its first signal's channel among the changes
   };
 
   FrameRenderer(const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
@@ -266,7 +272,8 @@ class FrameRenderer {
   const Effect* what_replaces(const Effect& effect) const;
   bool is_of_use(const Effect& effect, const EffectSettings& settings) const;
   void find_active();
-  rtapi::Status create_views(Active& effect, const GpuVolume& volume,
+  rtapi::Status create_views(const Frame& frame, const Active& effect,
+                             const std::vector<rtapi::Texture>& pictures, const GpuVolume& volume,
                              std::optional<PassViews>& views) const;
   rtapi::Status create_pictures(Active& effect) const;
   rtapi::Result<std::unique_ptr<EffectPass>> make_own(const Active& effect,
@@ -276,6 +283,14 @@ class FrameRenderer {
   static EffectPass* own_of(const Active& effect, const EffectSettings& settings);
   rtapi::Status find_own(Active& effect, const EffectSettings& settings);
   rtapi::Status create_effect(Active& effect);
+  // frame_renderer_gradients.cpp
+  rtapi::Status create_gradients();
+  rtapi::Status add_gradient(Active& effect);
+  rtapi::Status begin_gradients();
+  rtapi::Status repeat_samples(const Active& effect);
+  rtapi::Status run_gradients(const std::string& name, std::uint64_t bytes,
+                              const std::function<void(rtapi::CommandList&)>& record);
+  rtapi::Status finish_gradients();
   // frame_renderer_surfaces.cpp
   rtapi::Status create_gbuffer();
   void record_draws(rtapi::CommandList& list);
@@ -360,6 +375,8 @@ class FrameRenderer {
   GpuVolume gpu_volume_, no_volume_;
   std::vector<std::unique_ptr<Active>> active_;
   SignalFilters filters_;
+  std::optional<TemporalGradients> gradients_;
+  std::uint32_t past_index_ = 0;  // of the frame that they keep
   CompositePass composite_;
   std::optional<ComposePass> compose_unreflected_;  // for late effects
   std::optional<KeptRadiance> kept_;                // likewise

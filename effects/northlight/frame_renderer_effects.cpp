@@ -48,19 +48,21 @@ void FrameRenderer::find_active() {
   }
 }
 
-rtapi::Status FrameRenderer::create_views(Active& effect, const GpuVolume& volume,
+rtapi::Status FrameRenderer::create_views(const Frame& frame, const Active& effect,
+                                          const std::vector<rtapi::Texture>& pictures,
+                                          const GpuVolume& volume,
                                           std::optional<PassViews>& views) const {
   const EffectNeeds& needs = effect.row->needs;
-  const auto created = frame_.create_pass_views(device_);
+  const auto created = frame.create_pass_views(device_);
   if (!created) return created.error();
   views = *created;
   if (needs.strongest_lights) {
     if (const auto s = views->set_unordered_access(0, direct_->strongest()); !s) return s;
   }
-  for (std::size_t i = 0; i < effect.pictures.size(); ++i) {
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
     const EffectSignal& signal = effect.row->signals[i];
     if (signal.picture) continue;
-    if (const auto s = views->set_unordered_access(signal.output, effect.pictures[i]); !s) return s;
+    if (const auto s = views->set_unordered_access(signal.output, pictures[i]); !s) return s;
     if (!signal.is_visibility) continue;
     const auto s = views->set_unordered_access(signal.sharpness_output, effect.sharpness[i]);
     if (!s) return s;
@@ -134,7 +136,8 @@ rtapi::Status FrameRenderer::find_own(Active& effect, const EffectSettings& sett
   if (!effect.own || own_of(effect, settings) != nullptr) return {};
   auto other = std::make_unique<OtherPasses>();
   other->settings = settings;
-  if (const auto s = create_views(effect, gpu_volume_, other->views); !s) return s;
+  const auto s = create_views(frame_, effect, effect.pictures, gpu_volume_, other->views);
+  if (!s) return s;
   auto own = make_own(effect, settings, *other->views);
   if (!own) return own.error();
   other->own = std::move(*own);
@@ -152,7 +155,8 @@ rtapi::Status FrameRenderer::create_effect(Active& effect) {
   }
   if (const auto s = create_pictures(effect); !s) return s;
   if (needs_views(row, effect.settings)) {
-    if (const auto s = create_views(effect, gpu_volume_, effect.views); !s) return s;
+    const auto s = create_views(frame_, effect, effect.pictures, gpu_volume_, effect.views);
+    if (!s) return s;
   }
   if (row.make) return create_own(effect);
   const rtapi::ShaderLibrary& library = libraries_.at(row.library.file);

@@ -160,6 +160,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   if (is_prepared_) return Outcome::kDone;
   frame_.release_pass_views();  // those of earlier shaders
   filters_ = {};
+  gradients_.reset();
   compose_.reset();
   compose_some_.clear();
   compose_unreflected_.reset();
@@ -218,6 +219,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare_whole(const Progress& progress) {
   for (const auto& effect : active_) {
     if (const auto s = create_effect(*effect); !s) return s.error();
   }
+  if (const auto s = create_gradients(); !s) return s.error();
   if (const auto s = create_filters(); !s) return s.error();
   if (const auto s = create_compose(); !s) return s.error();
   return Outcome::kDone;
@@ -307,8 +309,9 @@ rtapi::Result<Outcome> FrameRenderer::bake_indirect(IndirectVolume& volume,
 rtapi::Status FrameRenderer::add_signal(SignalFilters& to, const Active& effect,
                                         std::size_t index) const {
   const EffectSignal& signal = effect.row->signals[index];
-  SignalSums sums = {effect.pictures[index], effect.sharpness[index], {}, is_late(effect)};
+  SignalSums sums = {effect.pictures[index], effect.sharpness[index], {}, is_late(effect), {}};
   if (effect.row->needs.strongest_lights) sums.lights = direct_->strongest();
+  if (effect.gradient && index == 0) sums.changes = {gradients_->changes(), *effect.gradient};
   return to.add(device_, frame_, signal, sums, effect.settings);
 }
 

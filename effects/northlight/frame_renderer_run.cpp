@@ -25,6 +25,7 @@ void FrameRenderer::set_samples(Active& effect, std::uint32_t samples) {
 
 rtapi::Status FrameRenderer::set_seed(std::uint32_t seed) {
   frame_.set_seed(seed);
+  if (gradients_) gradients_->forget();  // samples of another seed cannot be compared
   return frame_.set_camera(device_, scene_, moment_.camera,
                            {.index = moment_.index, .previous_camera = moment_.camera});
 }
@@ -52,7 +53,9 @@ rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string&
   if (!effect->row->trace)
     return make_error(ErrorId::kFrameRenderer,
                       "effect \"" + name + "\" has no pass that only traces");
-  if (const auto s = create_views(*effect, no_volume_, effect->trace_views); !s) return s.error();
+  const auto views =
+      create_views(frame_, *effect, effect->pictures, no_volume_, effect->trace_views);
+  if (!views) return views.error();
   const RayPassDesc desc = effect->row->trace(libraries_.at(effect->row->library.file));
   const auto pass = RayPass::create(device_, frame_, gpu_, desc);
   if (!pass) return pass.error();
@@ -64,11 +67,11 @@ void FrameRenderer::record_pass(rtapi::CommandList& list, const Active& effect,
                                 const EffectSettings& settings, PassConstants constants) const {
   constants.radius = settings.radius;
   constants.pixel_step = settings.pixel_step;
+  constants.pixel_offset = pixel_offset(settings, moment_.index);
   if (effect.own) return own_of(effect, settings)->record(list, settings, constants);
   const PassArguments words = arguments(effect, settings);
-  const std::uint32_t step = settings.pixel_step;
   const RayPass& pass = settings.trace_only ? effect.trace : effect.pass;
-  pass.dispatch(list, frame_, constants, (frame_.height() + step - 1) / step, words);
+  pass.dispatch(list, frame_, constants, traced_rows(constants, frame_.height()), words);
 }
 
 rtapi::Result<RunStatistics> FrameRenderer::run(const std::string& effect, std::uint32_t samples) {

@@ -4,6 +4,7 @@
 #include <shaders/control.h>
 #include <shaders/spatial.h>
 #include <shaders/svgf.h>
+#include <shaders/temporal_gradients.h>
 #include <shaders/upscale.h>
 #include <shaders/visibility_filter.h>
 
@@ -32,6 +33,9 @@ rtapi::Result<rtapi::ShaderLibrary> control_library() {
 }
 rtapi::Result<rtapi::ShaderLibrary> upscale_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_upscale());
+}
+rtapi::Result<rtapi::ShaderLibrary> temporal_gradients_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_temporal_gradients());
 }
 rtapi::Result<rtapi::ShaderLibrary> visibility_filter_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_visibility_filter());
@@ -62,6 +66,7 @@ const std::vector<PartRow>& parts() {
       {{"denoise/control", control_library}, kWhole},
       {{"denoise/upscale", upscale_library}, kWhole},
       {{"denoise/visibility_filter", visibility_filter_library}, kWhole},
+      {{"denoise/temporal_gradients", temporal_gradients_library}, kWhole},
       {{"ray_order/ray_order", ray_order_library},
        [](const FrameSettings& s) { return s.order != RayOrder::kPixels; }},
       {{"taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }}};
@@ -102,9 +107,9 @@ rtapi::Result<ShaderLibraries> load_libraries(const std::vector<EffectLibrary>& 
 }
 
 DenoiseLibraries denoise_libraries(const ShaderLibraries& libraries) {
-  return {libraries.at("denoise/spatial"), libraries.at("denoise/svgf"),
-          libraries.at("denoise/control"), libraries.at("denoise/upscale"),
-          libraries.at("denoise/visibility_filter")};
+  return {libraries.at("denoise/spatial"),           libraries.at("denoise/svgf"),
+          libraries.at("denoise/control"),           libraries.at("denoise/upscale"),
+          libraries.at("denoise/visibility_filter"), libraries.at("denoise/temporal_gradients")};
 }
 
 }  // namespace kaamos::effects

@@ -71,6 +71,17 @@ std::map<std::string, EffectSettings> choose_effects(
     const std::vector<std::string>& names,
     const std::vector<Effect>& effects = northlight_effects());
 
+/// Which pixel of each 2 x 2 has rays in a frame of a sequence. [PassConstants::pixel_offset]
+///@{
+std::uint32_t rotating_offset(std::uint32_t index);                               ///< in turns
+std::uint32_t pixel_offset(const EffectSettings& settings, std::uint32_t index);  ///< of an effect
+///@}
+
+/// The first of the samples that a pixel gets in a frame of a sequence: each frame in which it has
+/// rays goes on with its sequence, so that samples are spread as evenly over several frames as
+/// within one. [PassConstants::first_sample]
+std::uint32_t first_sample(const EffectSettings& settings, std::uint32_t index);
+
 /// Whether the scene has what an effect is about: a sun, local lights, glass.
 bool scene_offers(const Scene& scene, const EffectNeeds& needs);
 

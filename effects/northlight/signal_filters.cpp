@@ -12,7 +12,7 @@ namespace {
 
 bool is_temporal(DenoiseMethod method) {
   return method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
-         method == DenoiseMethod::kControl;
+         method == DenoiseMethod::kControl || method == DenoiseMethod::kAdaptiveSvgf;
 }
 
 }  // namespace
@@ -29,7 +29,8 @@ rtapi::Status SignalFilters::add(const rtapi::Device& device, const Frame& frame
                    .channels = row.channels,
                    .of_lobe = row.of_lobe,
                    .samples = settings.samples,
-                   .pixel_step = settings.pixel_step};
+                   .pixel_step = settings.pixel_step,
+                   .rotates = settings.rotates};
   const auto mean =
       frame.create_picture(device, row.name + " mean", rtapi::Format::kR32G32B32A32Float);
   if (!mean) return mean.error();
@@ -107,7 +108,8 @@ rtapi::Status SignalFilters::create_filter(const rtapi::Device& device, const Fr
   for (const std::size_t i : signals) {
     signals_[i].filter = filters_.size();
     signals_[i].index = inputs.size();
-    inputs.push_back({signals_[i].name, signals_[i].mean, signals_[i].of_lobe});
+    inputs.push_back(
+        {signals_[i].name, signals_[i].mean, signals_[i].of_lobe, signals_[i].sums.changes});
   }
   auto denoiser = Denoiser::create(device, frame, libraries, inputs, desc);
   if (!denoiser) return denoiser.error();
@@ -136,8 +138,8 @@ rtapi::Status SignalFilters::create_visibility_filter(const rtapi::Device& devic
     Signal& signal = signals_[i];
     signal.filter = filters_.size();
     signal.index = inputs.size();
-    inputs.push_back(
-        {signal.name, signal.channels, signal.mean, signal.sharpness, signal.sums.lights});
+    inputs.push_back({signal.name, signal.channels, signal.mean, signal.sharpness,
+                      signal.sums.lights, signal.sums.changes});
     for (const auto& [sum, into] : {std::pair(&signal.sums.sum, &signal.mean),
                                     std::pair(&signal.sums.sharpness, &signal.sharpness)}) {
       const auto load = SumLoad::create(device, frame, libraries, *sum, *into, signal.pixel_step);
@@ -158,13 +160,16 @@ void SignalFilters::record(rtapi::CommandList& list, const Frame& frame, Filter&
   const auto scale = [&](std::size_t i) {
     return 1.0f / static_cast<float>(std::max(signals_[i].samples, 1u));
   };
+  const auto offset = [&](std::size_t i) { return signals_[i].rotates ? pixel_offset_ : 0u; };
   if (filter.visibility) {
-    for (const Load& load : filter.loads) load.sum.record(list, frame, scale(load.signal));
+    for (const Load& load : filter.loads) {
+      load.sum.record(list, frame, scale(load.signal), offset(load.signal));
+    }
     filter.visibility->dispatch(list, frame);
     return;
   }
   for (const std::size_t i : filter.signals) {
-    filter.denoiser->load(list, frame, scale(i), signals_[i].index);
+    filter.denoiser->load(list, frame, scale(i), signals_[i].index, offset(i));
   }
   filter.denoiser->dispatch(list, frame);
 }

@@ -24,6 +24,7 @@ struct SignalSums {
   rtapi::Texture sharpness;  ///< of visibility: EffectSignal::is_visibility; else null
   rtapi::Texture lights;     ///< VisibilityDenoiser::Signal::lights; null: none
   bool is_late = false;      ///< its effect reads what others' denoised signals make
+  SignalChanges changes;     ///< [Denoiser::Signal]
 };
 
 /// The signals of one frame and the denoisers that they share.
@@ -39,6 +40,7 @@ class SignalFilters {
     bool of_lobe = false;          ///< [Denoiser::Signal]
     std::uint32_t samples = 1;     ///< that the sum holds
     std::uint32_t pixel_step = 1;  ///< [PassConstants::pixel_step]
+    bool rotates = false;          ///< [EffectSettings]
     std::size_t filter = 0;        ///< which of filters()
     std::size_t index = 0;         ///< its place in that filter
   };
@@ -70,6 +72,8 @@ class SignalFilters {
   rtapi::Status create(const rtapi::Device& device, const Frame& frame,
                        const DenoiseLibraries& libraries, const DenoiseDesc& desc);
 
+  /// Which pixel of each 2 x 2 the next frame's sums have, where it takes turns.
+  void set_pixel_offset(std::uint32_t offset) { pixel_offset_ = offset; }
   /// Records the load of a filter's signals and its passes.
   void record(rtapi::CommandList& list, const Frame& frame, Filter& filter) const;
   /// Records all filters, one after the other.
@@ -106,6 +110,7 @@ class SignalFilters {
   std::string filter_name(const std::vector<std::size_t>& signals) const;
   std::vector<Signal> signals_;
   std::vector<Filter> filters_;
+  std::uint32_t pixel_offset_ = 0;
 };
 
 }  // namespace kaamos::effects

@@ -35,9 +35,11 @@ class ScreenReflections : public EffectPass {
   }
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
-    const std::uint32_t step = settings.pixel_step;
-    pass_.dispatch(list, frame_, constants, PassArguments(views_, settings.constants),
-                   (frame_.width() + step - 1) / step, (frame_.height() + step - 1) / step);
+    const std::uint32_t columns = traced_columns(constants, frame_.width());
+    const std::uint32_t rows = traced_rows(constants, frame_.height());
+    if (columns == 0 || rows == 0) return;
+    pass_.dispatch(list, frame_, constants, PassArguments(views_, settings.constants), columns,
+                   rows);
   }
   std::uint64_t bytes() const override {
     return masks_.size() + (environment_ ? environment_->bytes() : 0);

@@ -15,7 +15,7 @@ RWTexture2D<float4> hits : register(u1, space3);
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void ScreenReflections(uint3 id : SV_DispatchThreadID) {
-  const uint2 pixel = id.xy * pass_constants.pixel_step;
+  const uint2 pixel = TracedPixel(id.xy);
   const float2 size = PictureSize();
   if (any(float2(pixel) >= size)) return;
   ScreenHit hit;

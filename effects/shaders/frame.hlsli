@@ -55,8 +55,9 @@ struct PassConstants {
   float radius;       // metres; reach of ambient occlusion
   uint first_row;     // first row of the band of the picture that is dispatched
   uint sorted;        // 1: pixels are taken in the order of ray_order
-  uint pixel_step;    // 2: only even pixels of even rows get rays, and rows count those
+  uint pixel_step;    // 2: only one pixel of each 2 x 2 gets rays, and rows count those
   uint accumulate;    // 0: sums begin anew, whatever the pictures hold
+  uint pixel_offset;  // which pixel of the 2 x 2: bit 0 to the right, bit 1 below
 };
 
 // Where an instance was in the previous frame. [effects/scene/gpu_scene.h]
@@ -175,10 +176,16 @@ float2 PreviousPictureUv(float3 position, out float view_z) {
 
 // The registers of space3 belong to each pass. [effects/frame/pass_views.h]
 
+// The pixel that gets rays at a place of the dispatch.
+uint2 TracedPixel(uint2 place) {
+  const uint2 offset = uint2(pass_constants.pixel_offset & 1u, pass_constants.pixel_offset >> 1);
+  return place * pass_constants.pixel_step + offset;
+}
+
 uint2 FramePixel() {
   const uint2 index = DispatchRaysIndex().xy;
   const uint2 place = uint2(index.x, index.y + pass_constants.first_row);
-  if (pass_constants.sorted == 0) return place * pass_constants.pixel_step;
+  if (pass_constants.sorted == 0) return TracedPixel(place);
   const uint pixel = ray_order[place.y * DispatchRaysDimensions().x + place.x];
   return uint2(pixel & 0xFFFFu, pixel >> 16);
 }

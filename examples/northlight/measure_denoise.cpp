@@ -38,6 +38,7 @@ constexpr Method kMethods[] = {{"gaussian", DenoiseMethod::kGaussian},
                                {"temporal", DenoiseMethod::kTemporal},
                                {"svgf", DenoiseMethod::kSvgf},
                                {"control", DenoiseMethod::kControl},
+                               {"a-svgf", DenoiseMethod::kAdaptiveSvgf, 5, 5},
                                {"svgf, 0 passes", DenoiseMethod::kSvgf, 0, 0, true},
                                {"svgf, 1 pass", DenoiseMethod::kSvgf, 1, 1, true},
                                {"svgf, 3 passes", DenoiseMethod::kSvgf, 3, 3, true},
@@ -54,7 +55,8 @@ struct Place {
 
 struct Subject {
   std::string label;
-  std::unique_ptr<SignalFilters> filters;    // null: the signals as they are
+  std::unique_ptr<SignalFilters> filters;  // null: the signals as they are
+  bool needs_gradients = false;
   std::map<std::string, Place> first, last;  // by signal
   std::map<std::string, FloatImage> before;  // the second last frame, by signal
 };
@@ -150,7 +152,9 @@ rtapi::Result<Outcome> Motion::create(const std::vector<MeasuredSignal>& signals
 }
 
 rtapi::Status Motion::create_subject(const Method& method) {
-  Subject subject{.label = method.label, .filters = std::make_unique<SignalFilters>()};
+  Subject subject{.label = method.label,
+                  .filters = std::make_unique<SignalFilters>(),
+                  .needs_gradients = method.method == DenoiseMethod::kAdaptiveSvgf};
   for (const MeasuredSignal& signal : signals_) {
     if (const auto s = renderer_.add_signal(*subject.filters, signal.name); !s) return s;
   }
@@ -202,10 +206,12 @@ rtapi::Status Motion::look(Subject& subject, std::uint32_t frame, double ms) {
 
 rtapi::Status Motion::run_frame(std::uint32_t frame) {
   if (const auto s = render(frame); !is_done(s)) return s.error();
-  double frame_ms = 0;
-  for (const PassStatistics& pass : renderer_.passes()) frame_ms += pass.ms;
+  double frame_ms = 0, gradients_ms = 0;
+  for (const PassStatistics& pass : renderer_.passes()) {
+    (pass.is_gradient ? gradients_ms : frame_ms) += pass.ms;
+  }
   for (Subject& subject : subjects_) {
-    double ms = frame_ms;
+    double ms = frame_ms + (subject.needs_gradients ? gradients_ms : 0);
     if (subject.filters) {
       if (frame == 0) subject.filters->reset();
       const auto took = renderer_.execute(
@@ -321,6 +327,7 @@ rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& sc
   if (!path.ok()) return path.error();
   Options own = options;
   own.frame.moving = true;
+  own.frame.denoise = default_denoise(DenoiseMethod::kAdaptiveSvgf);  // so that there are gradients
   std::unique_ptr<EffectRuns> runs;
   const auto created = EffectRuns::create(
       own, scene, effects, options.out + "/measure-cache", progress,

@@ -39,6 +39,7 @@ struct Words {
   std::string denoise = "svgf";
   std::optional<std::uint32_t> denoise_passes;
   std::vector<std::string> half_resolution;
+  bool rotate_pixels = false;
   std::string gi_mode = "near-field";
   std::vector<std::string> bake_lights;
   std::string sort_rays;
@@ -188,6 +189,7 @@ DenoiseMethod denoise_method(const std::string& name) {
   if (name == "bilateral") return DenoiseMethod::kBilateral;
   if (name == "temporal") return DenoiseMethod::kTemporal;
   if (name == "control") return DenoiseMethod::kControl;
+  if (name == "a-svgf") return DenoiseMethod::kAdaptiveSvgf;
   return DenoiseMethod::kSvgf;
 }
 
@@ -230,7 +232,9 @@ void apply(const Words& words, Options& options) {
   for (const std::string& name : words.half_resolution) {
     for (auto& [effect, settings] : options.effects) {
       const bool takes_samples = !find_effect(northlight_effects(), effect)->samples_option.empty();
-      if (takes_samples && (name == effect || name == "all")) settings.pixel_step = 2;
+      if (!takes_samples || (name != effect && name != "all")) continue;
+      settings.pixel_step = 2;
+      settings.rotates = words.rotate_pixels;
     }
   }
   frame.denoise = default_denoise(denoise_method(words.denoise));
@@ -323,9 +327,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                     ->check(CLI::Range(0.0f, 90.0f));
   app.add_option("--denoise", words.denoise,
                  "denoiser for the whole frame: none, gaussian, bilateral, temporal, svgf, "
-                 "control")
+                 "control, a-svgf (svgf that forgets where light changes)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf", "control"}));
+      ->check(CLI::IsMember(
+          {"none", "gaussian", "bilateral", "temporal", "svgf", "control", "a-svgf"}));
   app.add_option("--denoise-passes", words.denoise_passes,
                  "passes of svgf's wavelet filter, each twice as wide as the one before "
                  "(5; 3 once a sequence has four frames of history)")
@@ -336,6 +341,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
              join(sampled_effects()))
       ->delimiter(',')
       ->check(CLI::IsMember(sampled_effects()));
+  app.add_flag("--rotate-pixels", words.rotate_pixels,
+               "with --half-resolution, the pixel of each 2 x 2 that is traced takes turns from "
+               "frame to frame: four frames of a sequence trace all of them");
   app.add_option("--contact-combine", words.contact_combine,
                  "a light's shadow map and contact shadow: product, min (the darker of the two)")
       ->capture_default_str()
