@@ -180,7 +180,7 @@ class Denoiser {
   /// Bytes of the sums, the signals and the denoiser's own pictures.
   std::uint64_t bytes() const;
   /// R32G32B32A32_FLOAT: moments of the luminance in x and y, and in z the frames that stand behind
-  /// each pixel. For kTemporal and kSvgf.
+  /// each pixel. Null for methods that keep nothing from frame to frame.
   const rtapi::Texture& moments(std::size_t index = 0) const {
     return channels_[index].moments[(frames_ + 1) % 2];
   }

@@ -12,7 +12,9 @@ namespace {
 constexpr float kColors[5][3] = {
     {0, 0, 0}, {30, 40, 160}, {210, 40, 70}, {250, 200, 60}, {255, 255, 255}};
 
-void put_color(float heat, std::uint8_t* out) {
+}  // namespace
+
+void put_heat(float heat, std::uint8_t* out) {
   const float at = std::clamp(heat, 0.0f, 1.0f) * 4;
   const int first = std::min(static_cast<int>(at), 3);
   const float share = at - static_cast<float>(first);
@@ -21,8 +23,6 @@ void put_color(float heat, std::uint8_t* out) {
     out[c] = static_cast<std::uint8_t>(value + 0.5f);
   }
 }
-
-}  // namespace
 
 HeatMap heat_map(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> counts) {
   HeatMap out;
@@ -45,7 +45,7 @@ HeatMap heat_map(std::uint32_t width, std::uint32_t height, std::span<const std:
   out.image.values.resize(pixels * 3);
   for (std::size_t i = 0; i < pixels; ++i) {
     const std::uint32_t count = i < counts.size() ? counts[i] : 0;
-    put_color(static_cast<float>(count) / static_cast<float>(out.white), &out.image.values[i * 3]);
+    put_heat(static_cast<float>(count) / static_cast<float>(out.white), &out.image.values[i * 3]);
   }
   return out;
 }

@@ -10,6 +10,9 @@
 
 namespace kaamos::effects {
 
+/// Writes the colour of a heat from 0 (black) to 1 (white) into 3 bytes.
+void put_heat(float heat, std::uint8_t* out);
+
 /// A picture of counts, and what its colors stand for.
 struct HeatMap {
   ByteImage image;          ///< 3 channels

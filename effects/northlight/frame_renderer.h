@@ -214,6 +214,16 @@ class FrameRenderer {
   const SignalFilters& filters() const { return filters_; }
   /// Null: the denoiser needs none.
   const TemporalGradients* gradients() const { return gradients_ ? &*gradients_ : nullptr; }
+  /// Lists and shadow maps of local lights. Null: no whole frame, or none before prepare.
+  const Lighting* lighting() const { return lighting_ ? &*lighting_ : nullptr; }
+  /// Null: no effect of this frame reads it, or none before prepare.
+  const GpuVolume* volume() const {
+    return is_prepared_ && reads_volume() ? &gpu_volume_ : nullptr;
+  }
+  /// Whether an effect of this frame reads the volume of indirect light.
+  bool reads_volume() const;
+  /// The one that the last begin_frame began; before that the scene's camera, at 0 s.
+  const FrameMoment& moment() const { return moment_; }
   /// Null: no local lights.
   const DirectLighting* main_lighting() const { return direct_ ? &*direct_ : nullptr; }
   /// Null without antialiasing over frames.

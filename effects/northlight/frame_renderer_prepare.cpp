@@ -254,11 +254,16 @@ rtapi::Status FrameRenderer::create_lighting() {
   return {};
 }
 
+bool FrameRenderer::reads_volume() const {
+  return settings_.whole_frame &&
+         std::any_of(active_.begin(), active_.end(),
+                     [](const auto& effect) { return effect->row->needs.volume; });
+}
+
 rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
   const VolumeSettings& wanted = settings_.volume;
   IndirectVolume volume;
-  if (std::none_of(active_.begin(), active_.end(),
-                   [](const auto& effect) { return effect->row->needs.volume; })) {
+  if (!reads_volume()) {
     left_out_.push_back("the volume of indirect light: no effect reads it");
   } else if (wanted.given) {
     volume = *wanted.given;

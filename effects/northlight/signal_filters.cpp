@@ -191,6 +191,17 @@ void SignalFilters::reset() {
   }
 }
 
+SignalFilters::Memory SignalFilters::memory(const Signal& signal) const {
+  const Filter& filter = filters_[signal.filter];
+  if (!filter.visibility) {
+    const rtapi::Texture& moments = filter.denoiser->moments(signal.index);
+    return {.moments = moments ? &moments : nullptr};
+  }
+  std::size_t channel = 0;
+  for (std::size_t i = 0; i < signal.index; ++i) channel += signals_[filter.signals[i]].channels;
+  return {.visibility = &filter.visibility->accumulated(channel)};
+}
+
 SignalFilters::Signal* SignalFilters::find(const std::string& name) {
   return const_cast<Signal*>(std::as_const(*this).find(name));
 }

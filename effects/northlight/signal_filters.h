@@ -91,6 +91,13 @@ class SignalFilters {
   Signal* find(const std::string& name);
   /// Null: no such signal.
   const Signal* find(const std::string& name) const;
+  /// What the denoiser of a signal keeps from frame to frame, one of both; null: nothing.
+  struct Memory {
+    const rtapi::Texture* moments = nullptr;     ///< of light [Denoiser::moments]
+    const rtapi::Texture* visibility = nullptr;  ///< [VisibilityDenoiser::accumulated]
+  };
+  /// That of a signal; of visibility its first channel.
+  Memory memory(const Signal& signal) const;
   /// What the denoiser makes of a signal.
   const rtapi::Texture& denoised(const Signal& signal) const {
     const Filter& filter = filters_[signal.filter];

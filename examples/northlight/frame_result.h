@@ -23,12 +23,22 @@ using kaamos::effects::Progress;
 // What a person is told, a line each.
 using Say = std::function<void(const std::string& text)>;
 
+// One of --view.
+struct ViewResult {
+  std::string name;
+  std::vector<std::string> channels;  // of `numbers`
+  kaamos::effects::FloatImage numbers;
+  kaamos::effects::ByteImage picture;
+  std::string legend;  // what its colours stand for
+};
+
 struct FrameResult {
   std::map<std::string, kaamos::effects::FloatImage> layers;  // "ao", "normal", ...
   kaamos::effects::FloatImage radiance;                       // RGBA, linear
   std::vector<kaamos::effects::PassStatistics> passes;
   std::vector<std::string> left_out;                          // effects and parts left out, and why
   std::optional<kaamos::effects::PrimaryComparison> primary;  // of surfaces that were drawn
+  std::vector<ViewResult> views;                              // of --view
 };
 
 rtapi::Result<rtapi::Device> create_device(const Options& options, const Say& message);

@@ -20,6 +20,7 @@
 #include "frame_result.h"
 #include "inspect.h"
 #include "left_out.h"
+#include "look.h"
 #include "measure.h"
 #include "options.h"
 #include "output.h"
@@ -184,6 +185,9 @@ int render_once(FrameRenderer& renderer, const Options& options) {
   inspect(options, renderer, seen);
   FrameResult frame;
   auto done = render_frame(renderer, show_progress, frame);
+  if (is_done(done)) {
+    if (const auto s = add_views(options, renderer, frame); !s) return report(s.error());
+  }
   if (is_done(done) && options.reference > 0) {
     done = add_reference(options, renderer.scene(), show_progress, say_error, frame);
   }
@@ -283,6 +287,7 @@ int main(int argc, char** argv) {
   if (options->measure_left_out) return print_left_out(*options, scene);
   const auto renderer = create_renderer(*options, scene, say_error);
   if (!renderer) return report(renderer.error());
+  if (const auto s = check_views(*options, **renderer); !s) return report(s.error());
   if (options->watch) return watch(**renderer, *options);
   if (!options->tables.empty()) {
     const auto tables = describe_tables(**renderer);

@@ -19,6 +19,7 @@
 #include "effects/transparent/transparent.h"
 #include "options_conflict.h"
 #include "options_measure.h"
+#include "options_views.h"
 #include "split.h"
 
 namespace northlight {
@@ -124,6 +125,16 @@ std::string describe_effects() {
   std::string out;
   for (const Effect& effect : northlight_effects()) {
     out += (out.empty() ? "" : ", ") + effect.name + " (" + effect.about + ")";
+  }
+  return out;
+}
+
+// "settings side by side in one picture: ao (...), ...".
+std::string describe_splits() {
+  std::string out;
+  for (const Split& split : splits()) {
+    out += (out.empty() ? "settings side by side in one picture: " : ", ") + split.name + " (" +
+           split.about + ")";
   }
   return out;
 }
@@ -448,11 +459,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--reference", options.reference,
                  "add layers NAME_reference: each effect with this many samples, not denoised")
       ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--split", options.split,
-                 "settings side by side in one picture: ao (1, 4, 16 rays), gi (the volume x AO "
-                 "against gathered), near-field (against hit = black), denoise (raw against "
-                 "denoised)")
-      ->check(CLI::IsMember(split_names()));
+  app.add_option("--split", options.split, describe_splits())->check(CLI::IsMember(split_names()));
+  add_views(app, options);
   add_measuring(app, options, words.measuring);
   try {
     app.parse(argc, argv);
@@ -460,7 +468,12 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = app.exit(error) == 0 ? 0 : 2;
     return std::nullopt;
   }
+  if (!options.split.empty() && app.count("--scene") == 0) {
+    options.scene = find_split(options.split)->scene;
+  }
+  if (app.count("--effects") == 0) choose_for_views(options, words.effects);
   apply(words, options);
+  show_views(options);
   options.cpu_clock = words.measuring.clock == "cpu";
   options.study = !words.measuring.study.empty();
   FrameSettings& frame = options.frame;

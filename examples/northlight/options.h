@@ -57,7 +57,9 @@ struct Options {
   std::string tables;  // "text", "json": print the shader tables instead of rendering; empty: no
   std::optional<std::pair<std::uint32_t, std::uint32_t>> explain;  // print this pixel's tree
   bool json = false;                                               // for --explain
-  std::string heatmap;  // "anyhit", ..., "overdraw": write that picture; empty: no
+  std::vector<std::string> views;  // of what the frame is made from, by name [effects/views]
+  std::string view_signal;         // of views that look at one; empty: the first
+  std::string heatmap;             // "anyhit", ..., "overdraw": write that picture; empty: no
 };
 
 // Chooses these effects instead, with the settings of options.effects. "all": every one.

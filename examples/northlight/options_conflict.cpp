@@ -54,6 +54,18 @@ std::string conflict(const Options& options) {
              " exclude each other: leave one out";
     }
   }
+  if (!options.views.empty()) {
+    for (const auto& [name, chosen] :
+         {std::pair("--tables", !options.tables.empty()),
+          std::pair("--explain", options.explain.has_value()),
+          std::pair("--heatmap", !options.heatmap.empty()),
+          std::pair("--measure", !options.measure.empty()), std::pair("--claims", options.claims),
+          std::pair("--study", options.study), std::pair("--split", !options.split.empty()),
+          std::pair("--reference-path-traced", options.path_samples > 0),
+          std::pair("--measure-left-out", options.measure_left_out)}) {
+      if (chosen) return std::string("--view and ") + name + " exclude each other: leave one out";
+    }
+  }
   if (options.frames == 0) return {};
   const std::pair<const char*, bool> given[] = {{"--watch", options.watch},
                                                 {"--pixel", options.pixel.has_value()},

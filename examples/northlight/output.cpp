@@ -17,6 +17,7 @@
 #include "effects/image/exr.h"
 #include "effects/image/png.h"
 #include "effects/image/tonemap.h"
+#include "look.h"
 
 namespace northlight {
 
@@ -245,6 +246,10 @@ std::string add_results(const Options& options, const Scene& scene, const FrameR
     if (!error.empty()) return error;
     error = files.add(name + ".png", layer_picture(name, image, result, renderer));
   }
+  for (const ViewResult& view : result.views) {
+    if (!error.empty()) return error;
+    error = files.add("view-" + view.name + ".png", view.picture);
+  }
   if (!error.empty()) return error;
   nlohmann::ordered_json json = statistics(options, scene, renderer, result);
   if (!sequence.is_null()) json["sequence"] = sequence;
@@ -254,6 +259,9 @@ std::string add_results(const Options& options, const Scene& scene, const FrameR
   exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.frame.seed)}};
   exr.layers.push_back({"", result.radiance, false, {}});
   for (const auto& [name, image] : result.layers) exr.layers.push_back({name, image, false, {}});
+  for (const ViewResult& view : result.views) {
+    exr.layers.push_back({"view-" + view.name, view.numbers, false, view.channels});
+  }
   const auto written = write_exr(files.add_path("frame.exr"), exr);
   return written.ok() ? "" : written.error().message;
 }
@@ -277,6 +285,7 @@ std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint
     out += "\n";
   };
   for (const auto& [name, image] : result.layers) add(name, image);
+  for (const ViewResult& view : result.views) add("view-" + view.name, view.numbers);
   add("radiance", result.radiance);
   return out;
 }
@@ -341,7 +350,7 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
             static_cast<double>(std::max<std::uint64_t>(bake->cells, 1)),
         100 * bake->error, mebibytes(bake->bytes));
   }
-  out += describe_primary(result);
+  out += describe_primary(result) + describe_views(result);
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
   if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
   return out;

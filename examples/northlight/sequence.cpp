@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "effects/scene/light_forest.h"
+#include "look.h"
 
 namespace northlight {
 
@@ -222,6 +223,7 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
   if (!last) return last.error();
   out.last = std::move(*last);
   out.last.passes = renderer.passes();
+  if (const auto s = add_views(options, renderer, out.last); !s) return s.error();
   out.flicker = flicker.lines();
   progress("sequence", 1);
   return Outcome::kDone;
@@ -255,7 +257,7 @@ std::string describe(const FrameRenderer& renderer, const SequenceResult& sequen
                        sum > 0 ? rays / sum / 1000 : 0.0);
   }
   return out + describe_structures(sequence.frames) + describe_primary(sequence.last) +
-         describe_flicker(sequence.flicker);
+         describe_views(sequence.last) + describe_flicker(sequence.flicker);
 }
 
 void remove_later_frames(const std::string& folder, std::uint32_t count) {

@@ -19,6 +19,8 @@ namespace {
 
 // Rays per pixel where noise is not what is compared.
 constexpr std::uint32_t kQuietSamples = 16;
+// The same where all light is gathered, and denoised.
+constexpr std::uint32_t kFewSamples = 4;
 
 // One of the compared settings.
 struct Part {
@@ -71,8 +73,42 @@ Part indirect_part(const Options& options, const std::string& name, IndirectMode
   return part;
 }
 
+// A screen-space or map technique, and the rays that it stands for.
+std::vector<Part> technique_parts(const Options& options, const std::string& technique,
+                                  const std::string& rays, const std::vector<std::string>& beside,
+                                  std::uint32_t samples) {
+  std::vector<Part> out;
+  for (const std::string& name : {technique, rays}) {
+    std::vector<std::string> effects = beside;
+    effects.push_back(name);
+    out.push_back(make_part(name, options, effects));
+    FrameSettings& frame = out.back().options.frame;
+    frame.whole_frame = true;
+    frame.denoise = svgf_of(options);
+    for (auto& [effect, settings] : frame.effects) {
+      const bool is_sampled = !find_effect(northlight_effects(), effect)->samples_option.empty();
+      if (is_sampled) settings.samples = std::max(settings.samples, samples);
+    }
+  }
+  return out;
+}
+
+std::vector<Part> screen_space_ao_parts(const Options& options) {
+  std::vector<Part> out = technique_parts(options, "gtao", "ao", {}, kQuietSamples);
+  // Both reach as far as the technique does on the screen.
+  const float radius = out.front().options.frame.effects.at("gtao").radius;
+  out.back().options.frame.effects.at("ao").radius = radius;
+  return out;
+}
+
 std::vector<Part> parts_of(const Options& options) {
   if (options.split == "ao") return ambient_occlusion_parts(options);
+  if (options.split == "ssao") return screen_space_ao_parts(options);
+  if (options.split == "shadow-map")
+    return technique_parts(options, "sun-map", "sun", {"ao"}, kQuietSamples);
+  if (options.split == "ssr") {
+    return technique_parts(options, "ssr", "reflections", {"sun", "local", "gi"}, kFewSamples);
+  }
   const Part near_field = indirect_part(options, "near-field", IndirectMode::kNearField);
   if (options.split == "gi") {
     return {indirect_part(options, "direct", IndirectMode::kDirect, true), near_field};
@@ -97,10 +133,19 @@ FloatImage first_three(const FloatImage& image) {
   return out;
 }
 
+// Whether whole frames are compared.
+bool is_of_frames(const std::string& split) {
+  return split == "denoise" || split == "shadow-map" || split == "ssr";
+}
+
 ByteImage picture_of(const Part& part, const Options& options, const FrameResult& frame,
                      float exposure) {
   if (options.split == "ao") return to_bytes(first_three(frame.layers.at("ao")));
-  if (options.split == "denoise") return tonemap(first_three(frame.radiance), exposure);
+  if (options.split == "ssao") {
+    const bool by_rays = part.name == "ao";
+    return to_bytes(first_three(frame.layers.at(by_rays ? "ao_denoised" : part.name)));
+  }
+  if (is_of_frames(options.split)) return tonemap(first_three(frame.radiance), exposure);
   FloatImage light = first_three(frame.layers.at("indirect_denoised"));
   if (part.times_ao) {
     const FloatImage open = first_three(frame.layers.at("ao_denoised"));
@@ -112,23 +157,69 @@ ByteImage picture_of(const Part& part, const Options& options, const FrameResult
 
 }  // namespace
 
-const std::vector<std::string>& split_names() {
-  static const std::vector<std::string> names = {"ao", "gi", "near-field", "denoise"};
+const std::vector<Split>& splits() {
+  static const std::vector<Split> all = {
+      {"ao",
+       "ambient occlusion with 1, 4 and 16 rays",
+       "how grain fades, and edges stay",
+       "lounge",
+       {}},
+      {"ssao", "screen-space ambient occlusion (gtao), ray traced",
+       "what the camera does not see, which occludes nothing on the left", "lounge", 0.5},
+      {"shadow-map", "sun shadow by a depth map, ray traced",
+       "edges in steps of texels, thin things, and where legs meet the floor", "lounge", 0.5},
+      {"ssr", "screen-space reflections, ray traced",
+       "what stands outside of the picture or behind something", "lounge", 0.5},
+      {"gi",
+       "the volume's light times ambient occlusion, gathered by rays",
+       "light that leaks through walls thinner than a cell, and colour that bleeds nearby",
+       "lounge",
+       {}},
+      {"near-field",
+       "what rays hit taken as black, lit hits",
+       "corners and the undersides of things",
+       "lounge",
+       {}},
+      {"denoise",
+       "the whole frame with 1 ray per pixel and effect, raw and denoised",
+       "grain, and what of texture and edges is kept",
+       "lounge",
+       {}},
+  };
+  return all;
+}
+
+std::vector<std::string> split_names() {
+  std::vector<std::string> names;
+  for (const Split& split : splits()) names.push_back(split.name);
   return names;
 }
 
-ByteImage side_by_side(const std::vector<ByteImage>& pictures) {
+const Split* find_split(const std::string& name) {
+  for (const Split& split : splits()) {
+    if (split.name == name) return &split;
+  }
+  return nullptr;
+}
+
+ByteImage side_by_side(const std::vector<ByteImage>& pictures, std::optional<double> middle) {
   ByteImage out = pictures.front();
   const std::size_t count = pictures.size();
+  const std::size_t strip = out.width / count;
+  const auto left = static_cast<std::size_t>(
+      std::clamp(middle.value_or(0) * out.width - 0.5 * static_cast<double>(strip), 0.0,
+                 static_cast<double>(out.width - strip)));
   const std::size_t line = std::max<std::size_t>(1, out.width / 640);
   for (std::size_t x = 0; x < out.width; ++x) {
     const std::size_t part = x * count / out.width;
     const std::size_t start = (part * out.width + count - 1) / count;
     const bool divider = part > 0 && x < start + line;
+    const std::size_t from = middle ? std::min<std::size_t>(left + x - start, out.width - 1) : x;
     for (std::size_t y = 0; y < out.height; ++y) {
       for (std::size_t c = 0; c < out.channels; ++c) {
         const std::size_t i = (y * out.width + x) * out.channels + c;
-        out.values[i] = divider ? 255 : pictures[part].values[i];
+        out.values[i] =
+            divider ? 255 : pictures[part].values[(y * out.width + from) * out.channels + c];
       }
     }
   }
@@ -161,9 +252,12 @@ rtapi::Result<Outcome> run_split(const Options& options, const Scene& scene,
   std::error_code ignored;
   if (given.empty()) std::filesystem::remove(volume, ignored);
   if (!is_done(done)) return done;
+  const Split& split = *find_split(options.split);
   const std::string path = fmt::format("{}/split-{}.png", options.out, options.split);
-  if (const auto s = write_png(path, side_by_side(pictures)); !s.ok()) return s.error();
-  std::printf("wrote %s\n", path.c_str());
+  if (const auto s = write_png(path, side_by_side(pictures, split.middle)); !s.ok())
+    return s.error();
+  std::printf("wrote %s: from left to right %s; look at %s\n", path.c_str(), split.about.c_str(),
+              split.look.c_str());
   std::fflush(stdout);
   return Outcome::kDone;
 }

@@ -2,6 +2,7 @@
 // northlight --split: settings side by side in one picture, as the talk shows them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,25 @@
 
 namespace northlight {
 
-// ao: 1, 4 and 16 rays per pixel. gi: the volume at the surface times ambient occlusion, against
-// gathering with rays. near-field: hits taken as black against lit hits. denoise: the whole frame
-// at one ray per pixel, raw against denoised.
-const std::vector<std::string>& split_names();
+// What can be compared, by the name of --split.
+struct Split {
+  std::string name;
+  std::string about;  // what stands side by side, from left to right
+  std::string look;   // at what, to see the difference
+  std::string scene;  // where it shows, unless another one is chosen
+  // Middle of what every part shows of the picture, in its width; none: each shows its own strip.
+  std::optional<double> middle;
+};
+// All of them, in the order of --help.
+const std::vector<Split>& splits();
+std::vector<std::string> split_names();
+// Null: there is none of that name.
+const Split* find_split(const std::string& name);
 
-// Strips of equal width from pictures of equal size: strip i from picture i, with a thin line
-// between.
-kaamos::effects::ByteImage side_by_side(const std::vector<kaamos::effects::ByteImage>& pictures);
+// Strips of equal width from pictures of equal size, with a thin line between: strip i from picture
+// i; with `middle`, about which all of them lie, the same strip of each.
+kaamos::effects::ByteImage side_by_side(const std::vector<kaamos::effects::ByteImage>& pictures,
+                                        std::optional<double> middle = {});
 
 // Renders what options.split names and writes split-NAME.png into options.out.
 rtapi::Result<Outcome> run_split(const Options& options, const kaamos::effects::Scene& scene,
