@@ -45,6 +45,74 @@ std::vector<EffectStep> adaptive_steps() {
   return out;
 }
 
+constexpr std::uint32_t kPlane = kShadowMapReceiverPlane;
+
+Effect sun_pcf_row() {
+  const ShadowMapConstants defaults = {.method = kShadowMapPcf,
+                                       .flags = kPlane,
+                                       .constant_bias = 0.5f,
+                                       .slope_bias = 0.0f,
+                                       .radius = 0.03f};
+  Effect row = shadow_map_row("sun-pcf", "sun shadow by a map, filtered as wide everywhere",
+                              "sun_pcf", defaults);
+  ShadowMapConstants few = defaults, most = defaults;
+  few.size = 1024;
+  few.taps = 9;
+  few.flags |= kShadowMapGrid;
+  most.size = 4096;
+  most.taps = 32;
+  row.steps = {step("1024 x 1024, 3 x 3 taps", few), step("2048 x 2048, 16 taps", defaults),
+               step("4096 x 4096, 32 taps", most)};
+  row.misses = "how wide penumbras are, and thin things";
+  return row;
+}
+
+Effect sun_pcss_row() {
+  const ShadowMapConstants defaults = {.method = kShadowMapPcss,
+                                       .flags = kPlane,
+                                       .constant_bias = 0.5f,
+                                       .slope_bias = 0.0f,
+                                       .radius = 0.25f,
+                                       .taps = 32};
+  Effect row = shadow_map_row("sun-pcss", "sun shadow by a map, filtered as wide as the penumbra",
+                              "sun_pcss", defaults);
+  ShadowMapConstants few = defaults, most = defaults;
+  few.size = 1024;
+  few.taps = 25;
+  most.size = 4096;
+  most.taps = 64;
+  most.blocker_taps = 36;
+  row.steps = {step("1024 x 1024, 16 + 25 taps", few), step("2048 x 2048, 16 + 32 taps", defaults),
+               step("4096 x 4096, 36 + 64 taps", most)};
+  row.misses = "penumbras below things at several heights, and thin things";
+  return row;
+}
+
+Effect sun_cascades_row() {
+  const ShadowMapConstants defaults = {.method = kShadowMapPcss,
+                                       .flags = kPlane,
+                                       .size = 1024,
+                                       .cascades = 4,
+                                       .constant_bias = 0.5f,
+                                       .slope_bias = 0.0f,
+                                       .radius = 0.25f,
+                                       .taps = 32};
+  Effect row = shadow_map_row("sun-cascades", "sun shadow by maps, finer ones near the camera",
+                              "sun_cascades", defaults);
+  ShadowMapConstants few = defaults, most = defaults;
+  few.cascades = 2;
+  few.taps = 25;
+  most.size = 2048;
+  most.taps = 64;
+  most.blocker_taps = 36;
+  row.steps = {step("2 of 1024 x 1024, 16 + 25 taps", few),
+               step("4 of 1024 x 1024, 16 + 32 taps", defaults),
+               step("4 of 2048 x 2048, 36 + 64 taps", most)};
+  row.misses =
+      "penumbras below things at several heights; seams where a cascade ends; off-screen hits";
+  return row;
+}
+
 }  // namespace
 
 std::vector<Effect> shadow_techniques() {
@@ -68,6 +136,9 @@ std::vector<Effect> shadow_techniques() {
           .misses = "for up to four frames what moves, and thin shadows on calm ground",
       },
       sun_map_row(),
+      sun_pcf_row(),
+      sun_pcss_row(),
+      sun_cascades_row(),
   };
 }
 

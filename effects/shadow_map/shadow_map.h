@@ -31,6 +31,9 @@ enum ShadowMapFlags : std::uint32_t {
   kShadowMapSurveyRule = 4,
   /// Cascades are as tight as it goes, and shadows' edges crawl when the camera moves.
   kShadowMapTight = 8,
+  /// PCSS's penumbra lies inside the hard shadow, from its edge to where the sun is hidden whole.
+  /// For what is blended with hard shadows: it never leaves them. [effects-spec B2.13]
+  kShadowMapInnerPenumbra = 16,
 };
 
 /// Constants b0, space3: mirrors ShadowMapConstants of shadow_map.hlsli. A texel is one of the map

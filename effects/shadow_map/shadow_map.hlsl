@@ -47,6 +47,12 @@ float Pcf(Receiver receiver, Surface surface) {
   return Filter(receiver, constants.radius / maps[receiver.map].texel, surface.turn);
 }
 
+// The half of a penumbra that lies in the hard shadow, with twice the contrast: all of the sun where
+// the hard shadow ends, none where all of the sun is hidden. [effects-spec B2.13]
+float Inner(Receiver receiver, float lit) {
+  return IsLit(receiver, int2(floor(receiver.at))) > 0.0 ? 1.0 : saturate(2.0 * lit);
+}
+
 // Percentage-closer soft shadows: the mean depth of what stands between here and the sun gives the
 // width of the penumbra, and that is the width of the filter. [Fernando 2005; effects-spec B2.7]
 float Pcss(Receiver receiver, Surface surface) {
@@ -70,7 +76,8 @@ float Pcss(Receiver receiver, Surface surface) {
   // Rounding may put the mean behind the surface.
   const float gap = max(receiver.depth - sum / blockers, 0.0);
   const float penumbra = clamp(frame.tan_sun_radius * gap, 0.5 * texel, max(most, 0.5 * texel));
-  return Filter(receiver, penumbra / texel, surface.turn);
+  const float lit = Filter(receiver, penumbra / texel, surface.turn);
+  return Has(kInnerPenumbra) ? Inner(receiver, lit) : lit;
 }
 
 KAAMOS_SHADOW_LOOKUP(ShadowMapHard, Hard)

@@ -54,6 +54,7 @@ RWTexture2D<float4> visibility : register(u0, space3);
 static const uint kReceiverPlane = 1;
 static const uint kGrid = 2;
 static const uint kSurveyRule = 4;
+static const uint kInnerPenumbra = 16;
 static const uint kDiskPoints = 64;
 
 bool Has(uint flag) { return (constants.flags & flag) != 0; }
