@@ -3,6 +3,7 @@
 // geometry of each instance writes two numbers a pixel, and resolve.hlsl makes the G-buffer of them.
 // [Burns & Hunt 2013, The Visibility Buffer]
 #include "alpha_test.hlsli"
+#include "camera_hit.hlsli"
 #include "draws.hlsli"
 
 struct Corner {
@@ -15,24 +16,12 @@ struct RasterVertex {
   float2 uv : TEXCOORD;
 };
 
-// From relative to the camera to clip space. Depth is reversed, and the far plane infinitely far
-// away: z / w = near / view depth. That spreads the depth buffer's floats evenly over the distance.
-// [effects-spec B0.1]
-float4 ToClip(float3 position) {
-  const float view_z = dot(position, frame.camera_forward);
-  // The lengths of right and up are half the picture's size at distance 1.
-  float2 xy = float2(dot(position, frame.camera_right) * (frame.over_right * frame.over_right),
-                     dot(position, frame.camera_up) * (frame.over_up * frame.over_up));
-  // The ray of a pixel passes `jitter` beside its centre: the scene moves the other way.
-  xy += float2(-2.0, 2.0) * frame.jitter / constants.size * view_z;
-  return float4(xy, constants.near_plane, view_z);
-}
-
 [shader("vertex")]
 RasterVertex SceneVertex(Corner corner) {
   const SceneDraw draw = draws[constants.draw];
   RasterVertex result;
-  result.position = ToClip(mul(ObjectToWorld(draw), float4(corner.position, 1.0)));
+  result.position = ToClip(mul(ObjectToWorld(draw), float4(corner.position, 1.0)),
+                           constants.near_plane, constants.size);
   result.uv = corner.uv;
   return result;
 }

@@ -3,63 +3,14 @@
 // pixel, so that its depth is that of a slightly shifted triangle. Here the ray through the pixel is
 // intersected with the triangle itself, which gives the point that a primary ray would have hit and
 // a start for other rays that is as exact. [effects-spec B0.5, method 1]
+#include "camera_hit.hlsli"
 #include "draws.hlsli"
 #include "store.hlsli"
 
-// Weights of a triangle's second and third vertex where a ray from `origin` meets its plane. At the
-// border of a triangle the rasterizer takes pixels whose ray just misses it: they get the nearest
-// point on it. [Moller & Trumbore 1997]
-float2 ClampedBarycentrics(float3 v0, float3 v1, float3 v2, float3 origin, float3 direction) {
-  const float3 e1 = v1 - v0;
-  const float3 e2 = v2 - v0;
-  // The ray starts anew beside the triangle: the rounding of far-away numbers would be multiplied by
-  // how thin the triangle is.
-  const float way = dot(v0 - origin, direction) / dot(direction, direction);
-  const float3 from_v0 = origin + direction * way - v0;
-  const float3 p = cross(direction, e2);
-  const float3 q = cross(from_v0, e1);
-  const float determinant = dot(e1, p);
-  // A triangle seen along its plane: its middle is as good as any point.
-  if (determinant == 0.0) return float2(1.0 / 3.0, 1.0 / 3.0);
-  const float2 weights = float2(dot(from_v0, p), dot(direction, q)) / determinant;
-  if (all(weights >= 0.0) && weights.x + weights.y <= 1.0) return weights;
-  // The nearest points of its three edges, as seen from v0.
-  const float3 hit = e1 * weights.x + e2 * weights.y;
-  const float3 e3 = e2 - e1;
-  const float2 on_e1 = float2(saturate(dot(hit, e1) / dot(e1, e1)), 0.0);
-  const float2 on_e2 = float2(0.0, saturate(dot(hit, e2) / dot(e2, e2)));
-  const float along_e3 = saturate(dot(hit - e1, e3) / dot(e3, e3));
-  const float2 on_e3 = float2(1.0 - along_e3, along_e3);
-  const float to_e1 = length(hit - e1 * on_e1.x);
-  const float to_e2 = length(hit - e2 * on_e2.y);
-  const float to_e3 = length(hit - e1 * on_e3.x - e2 * on_e3.y);
-  if (to_e1 <= to_e2 && to_e1 <= to_e3) return on_e1;
-  return to_e2 <= to_e3 ? on_e2 : on_e3;
-}
-
-// A pixel of the visibility buffer as a hit of the ray through it.
-TriangleHit HitOf(ByteAddressBuffer vertices, ByteAddressBuffer indices, SceneDraw draw,
-                  uint primitive, float3 direction) {
-  TriangleHit hit;
-  hit.layout = geometries[draw.geometry];
-  hit.primitive = primitive;
-  hit.object_to_world = ObjectToWorld(draw);
-  hit.world_to_object = WorldToObject(draw);
-  hit.direction = normalize(direction);
-  const uint3 corners = LoadTriangle(indices, hit.layout.index_size_bytes, primitive);
-  const uint stride = hit.layout.vertex_stride;
-  // The camera is at the origin of world space.
-  const float3 origin = mul(hit.world_to_object, float4(0.0, 0.0, 0.0, 1.0));
-  hit.barycentrics = ClampedBarycentrics(LoadVertexFloat3(vertices, stride, 0, corners.x),
-                                         LoadVertexFloat3(vertices, stride, 0, corners.y),
-                                         LoadVertexFloat3(vertices, stride, 0, corners.z), origin,
-                                         mul((float3x3)hit.world_to_object, direction));
-  return hit;
-}
-
 void ResolvePixel(ByteAddressBuffer vertices, ByteAddressBuffer indices, uint2 pixel,
                   SceneDraw draw, uint primitive, float3 direction) {
-  const TriangleHit hit = HitOf(vertices, indices, draw, primitive, direction);
+  const TriangleHit hit =
+      CameraHit(vertices, indices, geometries[draw.geometry], draw, primitive, direction);
   const float3 position = LoadHitPoint(vertices, indices, hit).spawn.position;
   const float view_z = dot(position, frame.camera_forward);
   StoreSurface(pixel, vertices, indices, hit, draw.instance,

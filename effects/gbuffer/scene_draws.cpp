@@ -9,9 +9,6 @@ namespace kaamos::effects {
 
 namespace {
 
-// As kMaskSolid of effects/shaders/frame.hlsli: primary rays see everything but glass.
-constexpr std::uint32_t kMaskSolid = 0xFFu & ~static_cast<std::uint32_t>(kMaskTransparent);
-
 // False where there is no inverse.
 bool invert(const glm::mat3x4& rows, glm::mat3x4& inverse) {
   const glm::dmat3 linear{glm::dvec3(rows[0]), glm::dvec3(rows[1]), glm::dvec3(rows[2])};
@@ -39,13 +36,13 @@ std::size_t end_of_mesh(const std::vector<GpuGeometry>& geometries, std::size_t 
 
 }  // namespace
 
-std::vector<SceneDraw> scene_draws(const GpuScene& gpu) {
+std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask) {
   std::vector<SceneDraw> out;
   if (!gpu.instances) return out;
   const auto descs = gpu.instances.data<rtapi::RaytracingInstanceDesc>();
   for (std::size_t i = 0; i < descs.size(); ++i) {
     const rtapi::RaytracingInstanceDesc& desc = descs[i];
-    if ((desc.InstanceMask & kMaskSolid) == 0 || desc.AccelerationStructure == 0) continue;
+    if ((desc.InstanceMask & mask) == 0 || desc.AccelerationStructure == 0) continue;
     SceneDraw draw;
     std::memcpy(&draw.object_to_world, desc.Transform, sizeof desc.Transform);
     if (!invert(draw.object_to_world, draw.world_to_object)) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a rasterizer draws of a scene: a draw for each geometry of each instance that primary rays
-/// can hit.
+/// What a rasterizer draws of a scene: a draw for each geometry of each instance that rays of
+/// a mask can hit.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,13 @@ struct SceneDraw {
 };
 static_assert(sizeof(SceneDraw) == 112);
 
+/// As kMaskSolid of effects/shaders/frame.hlsli: primary rays see everything but glass.
+inline constexpr std::uint32_t kMaskSolid = 0xFFu & ~static_cast<std::uint32_t>(kMaskTransparent);
+
 /// The draws of a scene as its instances stand in GpuScene::instances now, in their order. Left out
-/// is what no primary ray can hit: glass, inactive instances, transforms without an inverse.
-std::vector<SceneDraw> scene_draws(const GpuScene& gpu);
+/// is what no ray of instance mask `mask` can hit: other instances, inactive ones, transforms
+/// without an inverse.
+std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask = kMaskSolid);
 
 /// The most draws that any frame of the scene has: of instances with levels of detail the level
 /// with the most geometries counts.

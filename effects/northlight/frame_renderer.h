@@ -292,6 +292,7 @@ class FrameRenderer {
   rtapi::Status create_own(Active& effect);
   static EffectPass* own_of(const Active& effect, const EffectSettings& settings);
   rtapi::Status find_own(Active& effect, const EffectSettings& settings);
+  rtapi::Status create_pass(Active& effect) const;
   rtapi::Status create_effect(Active& effect);
   // frame_renderer_gradients.cpp
   rtapi::Status create_gradients();

@@ -158,7 +158,17 @@ rtapi::Status FrameRenderer::create_effect(Active& effect) {
     const auto s = create_views(frame_, effect, effect.pictures, gpu_volume_, effect.views);
     if (!s) return s;
   }
-  if (row.make) return create_own(effect);
+  if (const auto s = row.make ? create_own(effect) : create_pass(effect); !s) return s;
+  if (row.compose.empty()) return {};
+  const auto compose =
+      ComputePass::create(device_, frame_, libraries_.at(row.library.file), row.compose);
+  if (!compose) return compose.error();
+  effect.compose = *compose;
+  return {};
+}
+
+rtapi::Status FrameRenderer::create_pass(Active& effect) const {
+  const Effect& row = *effect.row;
   const rtapi::ShaderLibrary& library = libraries_.at(row.library.file);
   const RayPassDesc desc = row.pass(library);
   effect.title = desc.name;
@@ -170,10 +180,6 @@ rtapi::Status FrameRenderer::create_effect(Active& effect) {
     if (!keys) return keys.error();
     effect.keys = *keys;
   }
-  if (row.compose.empty()) return {};
-  const auto compose = ComputePass::create(device_, frame_, library, row.compose);
-  if (!compose) return compose.error();
-  effect.compose = *compose;
   return {};
 }
 

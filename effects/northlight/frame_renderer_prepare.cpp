@@ -244,7 +244,7 @@ rtapi::Status FrameRenderer::create_lighting() {
   }
   for (const Effect& effect : effects_) {
     if (effect.needs.glass && settings_.effects.count(effect.name) != 0 &&
-        active(effect.name) == nullptr) {
+        active(effect.name) == nullptr && !has_glass(scene_)) {
       left_out_.push_back(effect.about + ": the scene has none");
     }
   }

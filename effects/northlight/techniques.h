@@ -20,5 +20,7 @@ std::vector<Effect> ambient_occlusion_techniques();
 std::vector<Effect> indirect_techniques();
 /// What each surface reflects: alternatives to "reflections".
 std::vector<Effect> reflection_techniques();
+/// Glass before what is opaque: alternatives to "transparent".
+std::vector<Effect> glass_techniques();
 
 }  // namespace kaamos::effects

@@ -4,6 +4,7 @@
 #include <shaders/transparent.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace kaamos::effects {
 
@@ -22,6 +23,13 @@ RayPassDesc transparent_pass(rtapi::ShaderLibrary library) {
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
   desc.payload_bytes = 52;
   desc.max_recursion_depth = 3;  // a layer, its mirror image, a shadow ray to the sun there
+  return desc;
+}
+
+RayPassDesc glass_reflection_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc = transparent_pass(std::move(library));
+  desc.name = "mirror images of glass";
+  desc.ray_generation = "GlassReflectionRayGen";
   return desc;
 }
 

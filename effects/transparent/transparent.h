@@ -16,6 +16,10 @@ namespace kaamos::effects {
 /// colour and the number of layers traced one by one. Lighting::bind and GpuVolume::bind are needed
 /// too. What lies behind is multiplied with u1 and u0 added.
 RayPassDesc transparent_pass(rtapi::ShaderLibrary library);
+/// The nearest layer alone, for glass that is drawn. Registers of space3, both R32G32B32A32_FLOAT:
+/// u2 radiance that it mirrors and its view depth (metres, 0: no glass); u3 in x whether it sees
+/// the sun (0 or 1). Otherwise as transparent_pass. [effects/drawn_glass]
+RayPassDesc glass_reflection_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> transparent_library();

@@ -2,12 +2,17 @@
 // Glass in front of the G-buffer's surfaces. The first layers are traced one by one, some with a
 // mirror ray each; all layers behind them take one ray, whose any-hit shader blends them without an
 // order. [effects-spec B4.12, B4.13; Control; Northlight deck: Transparent]
-#include "hit_indirect.hlsli"
+#include "glass_layer.hlsli"
 
 // Radiance of the glass, and the view depth of its first layer, metres (0: no glass).
 RWTexture2D<float4> glass_radiance : register(u0, space3);
 // Transmittance per colour, and the number of layers that were traced one by one.
 RWTexture2D<float4> glass_transmittance : register(u1, space3);
+
+// For glass that is drawn: radiance that the nearest layer mirrors and its view depth (0: no glass);
+// x: whether it sees the sun. [effects/drawn_glass]
+RWTexture2D<float4> first_mirrored : register(u2, space3);
+RWTexture2D<float4> first_sun : register(u3, space3);
 
 struct TransparentConstants {
   uint reflecting_layers;   // first layers with a mirror ray
@@ -35,6 +40,7 @@ static const uint kLayerRay = 0;
 static const uint kReflectingLayerRay = 1;
 static const uint kMirrorRay = 2;
 static const uint kBlendRay = 3;
+static const uint kMirrorOfLayerRay = 4;  // finds what a layer mirrors, and no more of it
 
 struct GlassPayload {
   float3 radiance;       // of a layer, or of a mirror ray's hit; in a blend the weighted sum
@@ -47,13 +53,6 @@ struct GlassPayload {
   float met;             // distance at which that layer was hit
   float sun_visibility;  // of the previous layer, because any-hit shaders cannot trace rays
 };
-
-float3 Contain(float3 x) { return Contain(x, kLargestRadiance); }
-
-float Coverage(float opacity) {
-  if (!(opacity > 0.0)) return 0.0;
-  return opacity < 1.0 ? opacity : 1.0;
-}
 
 // Coverage of the glass at a hit; 0 where the ray passes: in holes and at the back of single-sided
 // glass.
@@ -89,20 +88,6 @@ void Remember(inout GlassPayload payload) {
   payload.instance = InstanceIndex();
   payload.primitive = PrimitiveIndex();
   payload.met = RayTCurrent();
-}
-
-// Light that a layer sends to the camera, apart from the mirror image. The caller provides the
-// sun's visibility, because an any-hit shader cannot trace a ray.
-float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibility) {
-  const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
-  float3 light = surface.emissive;
-  light += LocalLights(brdf, view, surface.position, surface.normal);
-  light += view.diffuse * VolumeIrradianceAt(surface.position, kEveryCell, surface.normal);
-  if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
-    light += frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun) *
-             sun_visibility;
-  }
-  return light;
 }
 
 // The weights of weighted blended order-independent transparency. [McGuire and Bavoil 2013,
@@ -214,35 +199,29 @@ void TransparentClosestHit(inout GlassPayload payload,
     return;
   }
   const float3 direction = normalize(WorldRayDirection());
-  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
-  const float coverage = Coverage(surface.opacity);
   if (constants.sun != 0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
     payload.sun_visibility = TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
                                              frame.direction_to_sun, kSunDistance);
   }
-  float3 radiance =
-      coverage * Contain(LayerLight(surface, brdf, -direction, payload.sun_visibility));
-  float3 transmittance = float3(1, 1, 1) * (1.0 - coverage);
-  if (payload.kind == kReflectingLayerRay) {
-    const float3 fresnel =
-        saturate(FresnelSchlick(brdf.f0, -dot(direction, surface.shading_normal)));
-    const float3 mirrored = fresnel * Contain(MirrorImage(surface, direction));
-    if (constants.full_reflection != 0) {
-      radiance += mirrored;
-      transmittance *= float3(1, 1, 1) - fresnel;
-    } else {
-      radiance += coverage * mirrored;
-    }
+  if (payload.kind == kMirrorOfLayerRay) {
+    payload.radiance = Contain(MirrorImage(surface, direction));
+    payload.distance = RayTCurrent();
+    return;
   }
-  payload.radiance = Contain(radiance);
-  payload.transmittance = transmittance;
+  const float coverage = Coverage(surface.opacity);
+  GlassLayer layer = LitLayer(surface, coverage, direction, payload.sun_visibility);
+  if (payload.kind == kReflectingLayerRay) {
+    AddMirrored(layer, surface, coverage, direction, Contain(MirrorImage(surface, direction)),
+                constants.full_reflection != 0);
+  }
+  payload.radiance = layer.radiance;
+  payload.transmittance = layer.transmittance;
   payload.distance = RayTCurrent();
   Remember(payload);
 }
 
-[shader("raygeneration")]
-void TransparentRayGen() {
-  const uint2 pixel = FramePixel();
+// Through a pixel, up to what is opaque there.
+RayDesc GlassRay(uint2 pixel) {
   uint width, height;
   g_view_z.GetDimensions(width, height);
   const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
@@ -253,7 +232,13 @@ void TransparentRayGen() {
   ray.TMin = 0.0;
   ray.Direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
   ray.TMax = opaque_z > 0.0 ? opaque_z : 1e30;
+  return ray;
+}
 
+[shader("raygeneration")]
+void TransparentRayGen() {
+  const uint2 pixel = FramePixel();
+  RayDesc ray = GlassRay(pixel);
   GlassPayload payload;
   payload.instance = kNoInstance;
   payload.primitive = 0;
@@ -303,6 +288,26 @@ void TransparentRayGen() {
   }
   glass_radiance[pixel] = float4(Contain(sum), first);
   glass_transmittance[pixel] = float4(through, float(layers));
+}
+
+// The nearest layer alone, for glass that is drawn.
+[shader("raygeneration")]
+void GlassReflectionRayGen() {
+  const uint2 pixel = FramePixel();
+  GlassPayload payload;
+  payload.radiance = float3(0, 0, 0);
+  payload.distance = -1.0;
+  payload.transmittance = float3(1, 1, 1);
+  payload.weight = 0.0;
+  payload.kind = kMirrorOfLayerRay;
+  payload.instance = kNoInstance;
+  payload.primitive = 0;
+  payload.met = -1.0;
+  payload.sun_visibility = 0.0;
+  TraceRay(scene, RAY_FLAG_NONE, kMaskGlass, kRayTypeSurface, kRayTypeCount, kRayTypeSurface,
+           GlassRay(pixel), payload);
+  first_mirrored[pixel] = float4(payload.radiance, max(payload.distance, 0.0));
+  first_sun[pixel] = float4(payload.sun_visibility, 0, 0, 0);
 }
 
 // Puts the glass in front of what the pixel holds.
