@@ -120,8 +120,9 @@ std::vector<Effect> ray_traced_effects() {
 
 std::vector<Effect> make_effects() {
   std::vector<Effect> out = ray_traced_effects();
-  for (const auto rows : {shadow_techniques, screen_shadow_techniques, ambient_occlusion_techniques,
-                          indirect_techniques, reflection_techniques, glass_techniques}) {
+  for (const auto rows : {shadow_techniques, filtered_shadow_techniques, screen_shadow_techniques,
+                          ambient_occlusion_techniques, indirect_techniques, reflection_techniques,
+                          glass_techniques}) {
     for (Effect& row : rows()) out.push_back(std::move(row));
   }
   return out;

@@ -12,6 +12,8 @@ namespace kaamos::effects {
 
 /// How much of the sun each surface sees: alternatives to "sun".
 std::vector<Effect> shadow_techniques();
+/// The same by shadow maps that can be filtered.
+std::vector<Effect> filtered_shadow_techniques();
 /// Short shadows found in the depth picture: alternatives to "contact", and one to "sun".
 std::vector<Effect> screen_shadow_techniques();
 /// How open the hemisphere above each surface is: alternatives to "ao".

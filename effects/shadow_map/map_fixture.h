@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,12 +22,27 @@ class MapFrame {
  public:
   static constexpr std::uint32_t kWidth = 64, kHeight = 36;
 
+  // What the constants of an effect of that name are.
+  using Change = std::function<void(const std::string& name, EffectSettings& settings)>;
+
   // Renders the effects. Those of `names` that are shadow maps have these constants in place of
   // their own.
   MapFrame(const Scene& scene, const std::vector<std::string>& names,
            const ShadowMapConstants* constants = nullptr, std::uint32_t sun_samples = 1,
            std::uint32_t width = kWidth, std::uint32_t height = kHeight,
            const std::string& backend = "embree")
+      : MapFrame(
+            scene, names,
+            [=](const std::string& name, EffectSettings& settings) {
+              if (name.rfind("sun-", 0) == 0 && constants != nullptr) {
+                settings.set_constants(*constants);
+              }
+            },
+            sun_samples, width, height, backend) {}
+
+  MapFrame(const Scene& scene, const std::vector<std::string>& names, const Change& change,
+           std::uint32_t sun_samples, std::uint32_t width, std::uint32_t height,
+           const std::string& backend)
       : scene_(scene) {
     rtapi::DeviceDesc desc;
     desc.Backend = backend;
@@ -37,7 +53,7 @@ class MapFrame {
     settings.effects = choose_effects(names);
     for (auto& [name, effect] : settings.effects) {
       if (name == "sun") effect.samples = sun_samples;
-      if (name.rfind("sun-", 0) == 0 && constants != nullptr) effect.set_constants(*constants);
+      change(name, effect);
     }
     settings.denoise = default_denoise(DenoiseMethod::kNone);
     renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();

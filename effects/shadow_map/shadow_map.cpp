@@ -37,27 +37,6 @@ rtapi::Status check(const char* what, float value, float least, float most) {
                                              std::to_string(most));
 }
 
-rtapi::Status check(const ShadowMapConstants& c) {
-  constexpr float kAny = 1e9f;
-  for (const rtapi::Status& status :
-       {check("ShadowMapConstants::method", c.method, 0, kShadowMapMethodCount - 1),
-        check("ShadowMapConstants::size", c.size, 4, kMostTexels),
-        check("ShadowMapConstants::cascades", c.cascades, 0, kMostCascades),
-        check("ShadowMapConstants::taps", c.taps, 1, kDiskPoints),
-        check("ShadowMapConstants::blocker_taps", c.blocker_taps, 1, kDiskPoints),
-        check("ShadowMapConstants::constant_bias", c.constant_bias, -kAny, kAny),
-        check("ShadowMapConstants::slope_bias", c.slope_bias, -kAny, kAny),
-        check("ShadowMapConstants::normal_offset", c.normal_offset, -kAny, kAny),
-        check("ShadowMapConstants::most_bias", c.most_bias, 0.0f, kAny),
-        check("ShadowMapConstants::radius", c.radius, 0.0f, kAny),
-        check("ShadowMapConstants::blend", c.blend, 0.0f, 1.0f),
-        check("ShadowMapConstants::split_share", c.split_share, 0.0f, 1.0f),
-        check("ShadowMapConstants::reach", c.reach, 0.0f, kAny)}) {
-    if (!status) return status;
-  }
-  return {};
-}
-
 class ShadowMapPass : public EffectPass {
  public:
   explicit ShadowMapPass(const EffectScope& scope)
@@ -67,7 +46,10 @@ class ShadowMapPass : public EffectPass {
         made_(scope.settings.get_constants<ShadowMapConstants>()) {}
 
   rtapi::Status create(const EffectScope& scope) {
-    if (const auto s = check(made_); !s) return s;
+    const auto method =
+        check("ShadowMapConstants::method", made_.method, 0, kShadowMapMethodCount - 1);
+    if (!method) return method;
+    if (const auto s = check_shadow_map(made_); !s) return s;
     const auto& draws = scope.library("shadow_map/shadow_draws");
     if (const auto s = draws_.create(scope, draws, made_.size, map_count()); !s) return s;
     const auto disk = rtapi::CreateUploadBuffer(scope.device, disk_points(kDiskPoints), "disk");
@@ -83,16 +65,7 @@ class ShadowMapPass : public EffectPass {
 
   rtapi::Status begin_frame(const Camera& camera) override {
     draws_.see_instances(camera.position());
-    SunMapsDesc desc;
-    if (scene_.sun)
-      desc.direction_to_sun = glm::normalize(glm::dvec3(scene_.sun->direction_to_sun));
-    desc.bounds = draws_.bounds();
-    desc.size = made_.size;
-    desc.cascades = made_.cascades;
-    desc.aspect = static_cast<double>(frame_.width()) / frame_.height();
-    desc.split_share = made_.split_share;
-    desc.reach = made_.reach;
-    desc.stable = (made_.flags & kShadowMapTight) == 0;
+    const auto desc = describe_sun_maps(made_, scene_, draws_.bounds(), frame_);
     draws_.set_maps(sun_maps(desc, camera));
     return {};
   }
@@ -122,6 +95,40 @@ class ShadowMapPass : public EffectPass {
 };
 
 }  // namespace
+
+rtapi::Status check_shadow_map(const ShadowMapConstants& c) {
+  constexpr float kAny = 1e9f;
+  for (const rtapi::Status& status :
+       {check("ShadowMapConstants::size", c.size, 4, kMostTexels),
+        check("ShadowMapConstants::cascades", c.cascades, 0, kMostCascades),
+        check("ShadowMapConstants::taps", c.taps, 1, kDiskPoints),
+        check("ShadowMapConstants::blocker_taps", c.blocker_taps, 1, kDiskPoints),
+        check("ShadowMapConstants::constant_bias", c.constant_bias, -kAny, kAny),
+        check("ShadowMapConstants::slope_bias", c.slope_bias, -kAny, kAny),
+        check("ShadowMapConstants::normal_offset", c.normal_offset, -kAny, kAny),
+        check("ShadowMapConstants::most_bias", c.most_bias, 0.0f, kAny),
+        check("ShadowMapConstants::radius", c.radius, 0.0f, kAny),
+        check("ShadowMapConstants::blend", c.blend, 0.0f, 1.0f),
+        check("ShadowMapConstants::split_share", c.split_share, 0.0f, 1.0f),
+        check("ShadowMapConstants::reach", c.reach, 0.0f, kAny)}) {
+    if (!status) return status;
+  }
+  return {};
+}
+
+SunMapsDesc describe_sun_maps(const ShadowMapConstants& constants, const Scene& scene,
+                              const Bounds& bounds, const Frame& frame) {
+  SunMapsDesc desc;
+  if (scene.sun) desc.direction_to_sun = glm::normalize(glm::dvec3(scene.sun->direction_to_sun));
+  desc.bounds = bounds;
+  desc.size = constants.size;
+  desc.cascades = constants.cascades;
+  desc.aspect = static_cast<double>(frame.width()) / frame.height();
+  desc.split_share = constants.split_share;
+  desc.reach = constants.reach;
+  desc.stable = (constants.flags & kShadowMapTight) == 0;
+  return desc;
+}
 
 rtapi::Result<rtapi::ShaderLibrary> shadow_draws_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_shadow_draws());

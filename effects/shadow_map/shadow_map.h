@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "effects/northlight/effect_pass.h"
+#include "effects/shadow_map/sun_maps.h"
 
 namespace kaamos::effects {
 
@@ -57,14 +58,10 @@ struct ShadowMapConstants {
   float blend = 0.1f;               ///< share of a cascade in which the next one comes in, 0 to 1
   float split_share = 0.75f;        ///< SunMapsDesc::split_share
   float reach = 0.0f;               ///< SunMapsDesc::reach, metres
-  float reduce_bleeding = 0.0f;     ///< unused by these methods
-  float exponent = 0.0f;            ///< unused by these methods
-  float back_exponent = 0.0f;       ///< unused by these methods
-  std::uint32_t terms = 0;          ///< unused by these methods
   std::uint32_t draw = 0;           ///< set by the pass
   std::uint32_t map = 0;            ///< set by the pass
 };
-static_assert(sizeof(ShadowMapConstants) == 80);
+static_assert(sizeof(ShadowMapConstants) == 64);
 
 /// The shaders that draw maps, as they are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
@@ -72,6 +69,13 @@ rtapi::Result<rtapi::ShaderLibrary> shadow_draws_library();
 /// The shaders that look maps up, as they are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> shadow_map_library();
+
+/// Says what is wrong with constants; of any method.
+/// @errors KA3060 a constant out of its range.
+rtapi::Status check_shadow_map(const ShadowMapConstants& constants);
+/// Where maps of these constants lie, over a scene with `bounds`, for the frame's picture.
+SunMapsDesc describe_sun_maps(const ShadowMapConstants& constants, const Scene& scene,
+                              const Bounds& bounds, const Frame& frame);
 
 /// The passes that ShadowMapConstants of `scope.settings` ask for. What they say about maps, their
 /// number and size, and the method, holds for the pass's life.

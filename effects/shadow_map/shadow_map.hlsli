@@ -35,12 +35,11 @@ struct ShadowMapConstants {
   float blend;           // share of a map's reach in which it goes over into the next
   float split_share;
   float reach;
-  float reduce_bleeding;
-  float exponent;
-  float back_exponent;
-  uint terms;
   uint draw;             // in `draws`
   uint map;              // in `maps`
+#ifdef KAAMOS_SHADOW_MAP_MORE
+  KAAMOS_SHADOW_MAP_MORE more;  // what the including file has besides
+#endif
 };
 
 ConstantBuffer<ShadowMapConstants> constants : register(b0, space3);
