@@ -28,6 +28,9 @@ void CompositePass::dispatch(rtapi::CommandList& list, const Frame& frame,
   pass_.dispatch(list, frame, pass, {}, frame.width(), frame.height());
 }
 
+// As in the shader, which heeds it without reflections only.
+static constexpr std::uint32_t kIsMatte = 32;
+
 rtapi::Result<ComposePass> ComposePass::create(const rtapi::Device& device, const Frame& frame,
                                                const rtapi::ShaderLibrary& library,
                                                const FrameParts& parts) {
@@ -46,6 +49,7 @@ rtapi::Result<ComposePass> ComposePass::create(const rtapi::Device& device, cons
     out.has_ |= 1u << i;
     if (const auto s = out.views_.set_unordered_access(i, *pictures[i]); !s) return s.error();
   }
+  if (parts.is_matte) out.has_ |= kIsMatte;
   return out;
 }
 

@@ -26,6 +26,9 @@ struct FrameParts {
   const rtapi::Texture* local_lights = nullptr;    ///< radiance
   const rtapi::Texture* indirect = nullptr;        ///< irradiance over pi
   const rtapi::Texture* reflection = nullptr;      ///< radiance over the specular albedo
+  /// Without `reflection`: surfaces are so rough that they reflect about what they get from all
+  /// sides, `indirect` or the sky.
+  bool is_matte = false;
 };
 
 /// The frame's radiance from all effects. [effects-spec C: Co1]

@@ -59,6 +59,7 @@ static const uint kHasAmbient = 2;
 static const uint kHasLocalLights = 4;
 static const uint kHasIndirect = 8;
 static const uint kHasReflections = 16;
+static const uint kIsMatte = 32;
 
 struct ComposeConstants {
   uint has;
@@ -90,14 +91,18 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
            EvaluateBrdf(brdf, view, frame.direction_to_sun);
   }
   if ((compose.has & kHasLocalLights) != 0) sum += local_lights[pixel].rgb;
+  float3 around;  // mean radiance from all sides
   if ((compose.has & kHasIndirect) != 0) {
-    sum += view.diffuse * indirect[pixel].rgb;
+    around = indirect[pixel].rgb;
   } else {
     const float open = (compose.has & kHasAmbient) != 0 ? ambient[pixel].x : 1.0;
-    sum += view.diffuse * SkyAround(normal) * open;
+    around = SkyAround(normal) * open;
   }
+  sum += view.diffuse * around;
   if ((compose.has & kHasReflections) != 0) {
     sum += ReflectionScale(view.specular) * reflection[pixel].rgb;
+  } else if ((compose.has & kIsMatte) != 0) {
+    sum += view.specular * around;
   }
   radiance[pixel] = float4(sum, 1.0);
 }

@@ -81,11 +81,15 @@ struct EffectSignal {
   const rtapi::Texture* FrameParts::*part = nullptr;
 };
 
+/// Materials that are at least so rough, and no metals, show no mirror images.
+inline constexpr float kMatteRoughness = 0.8f;
+
 /// What an effect reads besides the G-buffer, and what the scene must have for it.
 struct EffectNeeds {
   bool sun = false;           ///< the scene has a sun
   bool local_lights = false;  ///< the scene has local lights
   bool glass = false;         ///< the scene has glass
+  bool glossy = false;        ///< a material is not matte [kMatteRoughness], or the effect is named
   bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
   bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3
   bool motion = false;        ///< only frames of a sequence have it

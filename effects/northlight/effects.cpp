@@ -100,7 +100,7 @@ std::vector<Effect> ray_traced_effects() {
                        .is_light = true,
                        .part = &FrameParts::reflection}},
           .defaults = with_constants(ReflectionConstants{}),
-          .needs = {.lights = true, .volume = true},
+          .needs = {.glossy = true, .lights = true, .volume = true},
           .samples_option = "reflection-samples",
       },
       {

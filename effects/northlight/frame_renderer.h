@@ -199,7 +199,7 @@ class FrameRenderer {
   /// The registry.
   const std::vector<Effect>& effects() const { return effects_; }
   /// Whether an effect is rendered: chosen, and of use in this scene.
-  bool renders(const std::string& effect) const { return active(effect) != nullptr; }
+  bool renders(const std::string& effect) const;
   /// What create was given.
   const rtapi::Device& device() const { return device_; }
   /// Where everything is executed.
@@ -277,6 +277,7 @@ class FrameRenderer {
   rtapi::Status create_compose();
   const rtapi::Texture* composed(const Active& effect, std::size_t signal) const;
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
+  bool is_matte() const;
   void list_left_out();
   // frame_renderer_effects.cpp
   const Effect* what_replaces(const Effect& effect) const;

@@ -32,17 +32,24 @@ const Effect* FrameRenderer::what_replaces(const Effect& effect) const {
 bool FrameRenderer::is_of_use(const Effect& effect, const EffectSettings& settings) const {
   if (settings.keep) return true;
   if (!settings.named && what_replaces(effect) != nullptr) return false;
-  return scene_offers(scene_, effect.needs) && (!effect.needs.motion || settings_.moving);
+  EffectNeeds needs = effect.needs;
+  if (settings.named) needs.glossy = false;
+  return scene_offers(scene_, needs) && (!needs.motion || settings_.moving);
+}
+
+bool FrameRenderer::renders(const std::string& effect) const {
+  const Effect* row = find_effect(effects_, effect);
+  const auto chosen = settings_.effects.find(effect);
+  return row != nullptr && chosen != settings_.effects.end() && is_of_use(*row, chosen->second);
 }
 
 void FrameRenderer::find_active() {
   active_.clear();
   for (const Effect& effect : effects_) {
-    const auto chosen = settings_.effects.find(effect.name);
-    if (chosen == settings_.effects.end() || !is_of_use(effect, chosen->second)) continue;
+    if (!renders(effect.name)) continue;
     active_.push_back(std::make_unique<Active>());
     active_.back()->row = &effect;
-    active_.back()->settings = chosen->second;
+    active_.back()->settings = settings_.effects.at(effect.name);
     // Without a denoiser nothing would fill the other pixels.
     if (!settings_.whole_frame) active_.back()->settings.pixel_step = 1;
   }

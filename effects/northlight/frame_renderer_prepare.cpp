@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is made before the first frame: scene, pipelines, pictures, the volume of indirect light.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -19,6 +21,27 @@ namespace {
 bool has_glass(const Scene& scene) {
   return std::any_of(scene.instances.begin(), scene.instances.end(), [](const Instance& instance) {
     return (instance.mask & kMaskTransparent) != 0;
+  });
+}
+
+bool is_glossy(const Material& material) {
+  const MaterialConstants& constants = material.constants;
+  return constants.metallic > 0.0f || constants.roughness < kMatteRoughness ||
+         constants.image[kMetallicRoughnessTexture] != kNoTexture;
+}
+
+// Of what is shown; glass reflects by itself.
+bool has_glossy(const Scene& scene) {
+  const auto shows_glossy = [&](std::uint32_t mesh) {
+    const auto& geometries = scene.meshes[mesh].geometries;
+    return std::any_of(geometries.begin(), geometries.end(), [&](const Geometry& geometry) {
+      return is_glossy(scene.materials[geometry.material]);
+    });
+  };
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+    return shows_glossy(instance.mesh) ||
+           std::any_of(instance.levels.begin(), instance.levels.end(),
+                       [&](const Level& level) { return shows_glossy(level.mesh); });
   });
 }
 
@@ -61,6 +84,7 @@ std::map<std::string, EffectSettings> choose_effects(const std::vector<std::stri
 
 bool scene_offers(const Scene& scene, const EffectNeeds& needs) {
   return (!needs.sun || scene.sun) && (!needs.glass || has_glass(scene)) &&
+         (!needs.glossy || has_glossy(scene)) &&
          (!needs.local_lights || count_local_lights(scene) > 0);
 }
 
@@ -256,8 +280,9 @@ rtapi::Status FrameRenderer::create_lighting() {
 
 bool FrameRenderer::reads_volume() const {
   return settings_.whole_frame &&
-         std::any_of(active_.begin(), active_.end(),
-                     [](const auto& effect) { return effect->row->needs.volume; });
+         std::any_of(effects_.begin(), effects_.end(), [&](const Effect& effect) {
+           return effect.needs.volume && renders(effect.name);
+         });
 }
 
 rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
@@ -352,6 +377,7 @@ rtapi::Status FrameRenderer::create_compose() {
       parts.*signal.part = composed(*effect, i);
     }
   }
+  parts.is_matte = is_matte();
   const auto compose =
       ComposePass::create(device_, frame_, libraries_.at("composite/composite"), parts);
   if (!compose) return compose.error();
@@ -365,7 +391,21 @@ rtapi::Status FrameRenderer::create_compose() {
   return {};
 }
 
+// Whether reflections are chosen, and left out because nothing shows them.
+bool FrameRenderer::is_matte() const {
+  return std::any_of(effects_.begin(), effects_.end(), [&](const Effect& effect) {
+    return effect.needs.glossy && settings_.effects.count(effect.name) != 0 &&
+           active(effect.name) == nullptr && what_replaces(effect) == nullptr;
+  });
+}
+
 void FrameRenderer::list_left_out() {
+  if (is_matte()) {
+    left_out_.push_back(
+        "reflections: no material is metallic or smoother than " +
+        fmt::format("{:g}", kMatteRoughness) +
+        "; surfaces reflect what reaches them from all sides, unless reflections are named");
+  }
   for (const Effect& effect : effects_) {
     const auto chosen = settings_.effects.find(effect.name);
     const Effect* instead = what_replaces(effect);

@@ -151,6 +151,7 @@ rtapi::Result<FrameParts> FrameRenderer::parts_of(const std::vector<std::string>
       return make_error(ErrorId::kFrameRenderer, "signal \"" + name + "\" is not composed");
     }
   }
+  parts.is_matte = std::count(signals.begin(), signals.end(), "reflection") != 0 && is_matte();
   // Without indirect light the open sky would stand in for it.
   if (parts.indirect == nullptr) parts.indirect = &black_;
   return parts;

@@ -82,7 +82,8 @@ std::uint32_t pixel_offset(const EffectSettings& settings, std::uint32_t index);
 /// within one. [PassConstants::first_sample]
 std::uint32_t first_sample(const EffectSettings& settings, std::uint32_t index);
 
-/// Whether the scene has what an effect is about: a sun, local lights, glass.
+/// Whether the scene has what an effect is about: a sun, local lights, glass, glossy
+/// materials.
 bool scene_offers(const Scene& scene, const EffectNeeds& needs);
 
 /// Whether an effect among these has pictures of its own and so needs a whole frame.

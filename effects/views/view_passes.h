@@ -13,32 +13,45 @@
 
 namespace kaamos::effects {
 
-/// The shaders that are built into the program.
+/// The shaders of views of hits, which are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
-///@{
 rtapi::Result<rtapi::ShaderLibrary> hit_views_library();
+/// The shaders of views of pixels, likewise.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> pixel_views_library();
-///@}
 
-// Each has the errors of the device, of RayPass::create or of ComputePass::create, and takes a
-// renderer that has rendered a frame with what ViewNeeds name. [views.h]
+// Each takes a renderer that has rendered a frame with what ViewNeeds name. [views.h]
+//
+// Where the first reflection ray of each pixel hits, of hit_views.hlsl; the fourth channel is the
+// distance in metres (-1: it hits nothing, 0: there is no ray). Rays are as long as those of the
+// frame's reflections.
 
-/// Where the first reflection ray of each pixel hits, of hit_views.hlsl: texture coordinates, base
-/// colour, lighting alone; and the distance in metres (-1: it hits nothing, 0: there is no ray).
-/// Rays are as long as those of the frame's reflections.
-///@{
+/// Texture coordinates of hits.
+/// @errors those of the device and of RayPass::create.
 rtapi::Result<FloatImage> view_hit_uv(FrameRenderer& renderer);
+/// Base colours of hits.
+/// @errors those of the device and of RayPass::create.
 rtapi::Result<FloatImage> view_hit_albedo(FrameRenderer& renderer);
+/// Radiance of hits as if all were white and matte.
+/// @errors those of the device and of RayPass::create.
 rtapi::Result<FloatImage> view_hit_lighting(FrameRenderer& renderer);
-///@}
 
-/// What the frame holds for each pixel, of pixel_views.hlsl. `signal`: one of remembered_signals.
-///@{
+// What the frame holds for each pixel, of pixel_views.hlsl. `signal`: one of remembered_signals.
+
+/// Bottom level, instance, primitive, and whether the edge of an instance's box is there.
+/// @errors those of the device and of ComputePass::create.
 rtapi::Result<FloatImage> view_bottom_levels(FrameRenderer& renderer);
+/// Lights of the pixel's cluster, which one that is, and 1 where its list has overflowed.
+/// @errors those of the device and of ComputePass::create.
 rtapi::Result<FloatImage> view_light_clusters(FrameRenderer& renderer);
+/// Variance, its root and the mean of a signal, and frames behind them.
+/// @errors those of the device and of ComputePass::create.
 rtapi::Result<FloatImage> view_variance(FrameRenderer& renderer, const std::string& signal);
+/// Frames that the denoiser of a signal has gathered.
+/// @errors those of the device and of ComputePass::create.
 rtapi::Result<FloatImage> view_history_length(FrameRenderer& renderer, const std::string& signal);
+/// Level, number and side in metres of the cell of indirect light, and whether it is in a solid.
+/// @errors those of the device and of ComputePass::create.
 rtapi::Result<FloatImage> view_volume_cells(FrameRenderer& renderer);
-///@}
 
 }  // namespace kaamos::effects

@@ -310,7 +310,8 @@ std::vector<std::string> remembered_signals(const FrameRenderer& renderer) {
   const FrameSettings& settings = renderer.settings();
   const DenoiseMethod method = settings.denoise.method;
   const bool remembers = method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
-                         method == DenoiseMethod::kControl;
+                         method == DenoiseMethod::kControl ||
+                         method == DenoiseMethod::kAdaptiveSvgf;
   if (!settings.whole_frame || !remembers) return out;
   for (const Effect& effect : renderer.effects()) {
     if (!renderer.renders(effect.name) || !(effect.pass || effect.make)) continue;

@@ -210,6 +210,51 @@ TEST(Registry, WhatNothingReadsIsNotTraced) {
   EXPECT_FALSE(is_said);
 }
 
+// The mean of the frame's radiance.
+double mean_radiance(FrameRenderer& renderer) {
+  const FloatImage picture = renderer.read("radiance").value();
+  double sum = 0;
+  for (std::size_t i = 0; i < picture.values.size(); ++i) {
+    if (i % picture.channels != 3) sum += picture.values[i];
+  }
+  return sum / static_cast<double>(picture.values.size());
+}
+
+TEST(Registry, MatteSurfacesReflectTheLightAroundWithoutRays) {
+  Scene scene = make_room();
+  for (Material& material : scene.materials) {
+    material.constants.metallic = 0;
+    material.constants.roughness = 1;
+    material.constants.image[kMetallicRoughnessTexture] = kNoTexture;
+  }
+  const auto render = [&](const std::vector<std::string>& names) {
+    FrameSettings settings = small_settings(names);
+    for (auto& [name, effect] : settings.effects) effect.samples = 16;
+    auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
+    renderer->render().value();
+    return renderer;
+  };
+  const auto said = [](const FrameRenderer& renderer) {
+    return std::any_of(renderer.left_out().begin(), renderer.left_out().end(),
+                       [](const std::string& text) { return text.find("reflections: no") == 0; });
+  };
+  const auto left_out = render({"all"}), traced = render({"all", "reflections"});
+  EXPECT_FALSE(left_out->renders("reflections"));
+  EXPECT_TRUE(traced->renders("reflections"));
+  EXPECT_TRUE(said(*left_out));
+  EXPECT_FALSE(said(*traced));
+  const double reflected = mean_radiance(*traced);
+  const double nothing = [&] {
+    traced->read_composed({"sun", "local_lights", "indirect"}).value();
+    return mean_radiance(*traced);
+  }();
+  ASSERT_GT(reflected, nothing);
+  EXPECT_NEAR(mean_radiance(*left_out), reflected, 0.2 * (reflected - nothing));
+
+  scene.materials[0].constants.roughness = 0.5f;
+  EXPECT_TRUE(render({"all"})->renders("reflections"));
+}
+
 TEST(Registry, EveryRowHasItsShaderFileAndItsOwnNames) {
   std::set<std::string> names, signals;
   for (const Effect& effect : northlight_effects()) {
