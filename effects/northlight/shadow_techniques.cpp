@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "effects/adaptive_shadow/adaptive_shadow.h"
+#include "effects/hybrid_shadow/hybrid_shadow.h"
 #include "effects/northlight/techniques.h"
 #include "effects/shadow_map/shadow_map.h"
 
@@ -113,6 +114,32 @@ Effect sun_cascades_row() {
   return row;
 }
 
+Effect sun_hybrid_row() {
+  HybridShadowConstants defaults;
+  defaults.map = {.method = kShadowMapPcss,
+                  .flags = kPlane,
+                  .constant_bias = 0.5f,
+                  .slope_bias = 0.0f,
+                  .radius = 0.25f,
+                  .taps = 32};
+  Effect row =
+      shadow_map_row("sun-hybrid", "sun shadow by a ray, and far from what casts it by a map",
+                     "sun_hybrid", defaults.map);
+  row.library = {"hybrid_shadow/hybrid_shadow", hybrid_shadow_library};
+  row.make = make_hybrid_shadow;
+  row.defaults.set_constants(defaults);
+  HybridShadowConstants inner = defaults, most = defaults;
+  inner.map.flags |= kShadowMapInnerPenumbra;
+  most.map.size = 4096;
+  most.map.taps = 64;
+  most.map.blocker_taps = 36;
+  row.steps = {{"2048 x 2048, inner penumbra", EffectSettings().set_constants(inner)},
+               {"2048 x 2048, 16 + 32 taps", EffectSettings().set_constants(defaults)},
+               {"4096 x 4096, 36 + 64 taps", EffectSettings().set_constants(most)}};
+  row.misses = "penumbras near what casts them, and below things at several heights";
+  return row;
+}
+
 }  // namespace
 
 std::vector<Effect> shadow_techniques() {
@@ -139,6 +166,7 @@ std::vector<Effect> shadow_techniques() {
       sun_pcf_row(),
       sun_pcss_row(),
       sun_cascades_row(),
+      sun_hybrid_row(),
   };
 }
 

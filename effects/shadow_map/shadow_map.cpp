@@ -52,10 +52,9 @@ class ShadowMapPass : public EffectPass {
     if (const auto s = check_shadow_map(made_); !s) return s;
     const auto& draws = scope.library("shadow_map/shadow_draws");
     if (const auto s = draws_.create(scope, draws, made_.size, map_count()); !s) return s;
-    const auto disk = rtapi::CreateUploadBuffer(scope.device, disk_points(kDiskPoints), "disk");
+    const auto disk = bind_disk(scope);
     if (!disk) return disk.error();
     disk_ = *disk;
-    if (const auto s = views_.set_shader_resource(3, disk_, sizeof(glm::vec2)); !s) return s;
     auto look_up = ComputePass::create(scope.device, frame_, scope.library("shadow_map/shadow_map"),
                                        kEntryPoints[made_.method]);
     if (!look_up) return look_up.error();
@@ -114,6 +113,15 @@ rtapi::Status check_shadow_map(const ShadowMapConstants& c) {
     if (!status) return status;
   }
   return {};
+}
+
+rtapi::Result<rtapi::Buffer> bind_disk(const EffectScope& scope) {
+  auto disk = rtapi::CreateUploadBuffer(scope.device, disk_points(kDiskPoints), "disk");
+  if (!disk) return disk.error();
+  if (const auto s = scope.views.set_shader_resource(3, *disk, sizeof(glm::vec2)); !s) {
+    return s.error();
+  }
+  return disk;
 }
 
 SunMapsDesc describe_sun_maps(const ShadowMapConstants& constants, const Scene& scene,

@@ -73,6 +73,9 @@ rtapi::Result<rtapi::ShaderLibrary> shadow_map_library();
 /// Says what is wrong with constants; of any method.
 /// @errors KA3060 a constant out of its range.
 rtapi::Status check_shadow_map(const ShadowMapConstants& constants);
+/// The points of filters' disks, which the shaders of pcss.hlsli read from t3; it must stay.
+/// @errors those of rtapi::Device::CreateBuffer.
+rtapi::Result<rtapi::Buffer> bind_disk(const EffectScope& scope);
 /// Where maps of these constants lie, over a scene with `bounds`, for the frame's picture.
 SunMapsDesc describe_sun_maps(const ShadowMapConstants& constants, const Scene& scene,
                               const Bounds& bounds, const Frame& frame);

@@ -153,7 +153,8 @@ struct Surface {
   MapChoice choice;
 };
 
-// False where the answer is known, and written: no pixel, the sky, a surface that faces away.
+// False where the answer is known, and written: no pixel, the sky, a surface that faces away. Beyond
+// all maps it is written as lit.
 bool LoadSurface(uint2 pixel, out Surface surface) {
   surface = (Surface)0;
   uint width, height;
@@ -171,7 +172,7 @@ bool LoadSurface(uint2 pixel, out Surface surface) {
   const float angle =
       6.2831853 * blue_noise[BlueNoiseIndex(pixel, kSunPair, frame.seed)].x;
   surface.turn = float2(cos(angle), sin(angle));
-  return surface.choice.map < constants.map_count;
+  return true;
 }
 
 // A shader over all pixels of a lookup `float LOOKUP(Receiver, Surface)`.
@@ -182,6 +183,7 @@ bool LoadSurface(uint2 pixel, out Surface surface) {
     Surface surface;                                                                              \
     if (!LoadSurface(id.xy, surface)) return;                                                     \
     const MapChoice choice = surface.choice;                                                      \
+    if (choice.map >= constants.map_count) return;                                                \
     float lit = LOOKUP(MakeReceiver(choice.map, surface.position, surface.normal), surface);      \
     if (choice.next > 0.0) {                                                                      \
       const Receiver next = MakeReceiver(choice.map + 1, surface.position, surface.normal);       \
