@@ -68,4 +68,37 @@ std::uint32_t most_scene_draws(const Scene& scene) {
   return static_cast<std::uint32_t>(count);
 }
 
+std::vector<Bounds> instance_boxes(const Scene& scene) {
+  std::vector<Bounds> out;
+  for (const Instance& instance : scene.instances) {
+    Bounds box;
+    const auto add = [&](std::uint32_t mesh) {
+      const Bounds own = scene.meshes[mesh].bounds();
+      if (own.empty()) return;
+      const glm::dvec3 more = scene.meshes[mesh].skin.empty() ? glm::dvec3(0.0) : own.size();
+      box.add(own.min - more);
+      box.add(own.max + more);
+    };
+    add(instance.mesh);
+    for (const Level& level : instance.levels) add(level.mesh);
+    out.push_back(box);
+  }
+  return out;
+}
+
+Bounds draw_box(const SceneDraw& draw, const Bounds& object) {
+  Bounds out;
+  if (object.empty()) return out;
+  // GLM's columns are rows here.
+  const glm::dmat3x4 rows(draw.object_to_world);
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec4 corner((i & 1) != 0 ? object.max.x : object.min.x,
+                            (i & 2) != 0 ? object.max.y : object.min.y,
+                            (i & 4) != 0 ? object.max.z : object.min.z, 1.0);
+    out.add(glm::dvec3(glm::dot(rows[0], corner), glm::dot(rows[1], corner),
+                       glm::dot(rows[2], corner)));
+  }
+  return out;
+}
+
 }  // namespace kaamos::effects

@@ -25,6 +25,10 @@ static_assert(sizeof(SceneDraw) == 112);
 /// As kMaskSolid of effects/shaders/frame.hlsli: primary rays see everything but glass.
 inline constexpr std::uint32_t kMaskSolid = 0xFFu & ~static_cast<std::uint32_t>(kMaskTransparent);
 
+/// As kMaskWithoutLamps of effects/shaders/frame.hlsli: what rays to a light see.
+inline constexpr std::uint32_t kMaskCasters =
+    0xFFu & ~static_cast<std::uint32_t>(kMaskTransparent | kMaskEmissiveProxy);
+
 /// The draws of a scene as its instances stand in GpuScene::instances now, in their order. Left out
 /// is what no ray of instance mask `mask` can hit: other instances, inactive ones, transforms
 /// without an inverse.
@@ -33,5 +37,11 @@ std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask = kMa
 /// The most draws that any frame of the scene has: of instances with levels of detail the level
 /// with the most geometries counts.
 std::uint32_t most_scene_draws(const Scene& scene);
+
+/// By instance, around its meshes of all levels of detail, in object space. What a skeleton moves
+/// may leave the box of its bind pose: it counts as three times as large.
+std::vector<Bounds> instance_boxes(const Scene& scene);
+/// Around what a draw draws, relative to the camera; `object` is its instance's box.
+Bounds draw_box(const SceneDraw& draw, const Bounds& object);
 
 }  // namespace kaamos::effects

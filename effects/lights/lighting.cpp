@@ -7,7 +7,6 @@
 #include <string>
 
 #include "effects/common/errors.h"
-#include "effects/frame/picture.h"
 
 namespace kaamos::effects {
 
@@ -21,6 +20,19 @@ rtapi::Result<rtapi::Buffer> create_words(const rtapi::Device& device, std::uint
   desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
   desc.Name = name;
   return device.CreateBuffer(desc);
+}
+
+// Rays write it, and draws.
+rtapi::Result<rtapi::Texture> create_atlas(const rtapi::Device& device, const AtlasLayout& layout) {
+  rtapi::TextureDesc desc;
+  desc.Width = layout.width;
+  desc.Height = layout.height;
+  desc.Format = rtapi::Format::kR32G32B32A32Float;
+  desc.Flags =
+      rtapi::ResourceFlags::kAllowUnorderedAccess | rtapi::ResourceFlags::kAllowRenderTarget;
+  desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
+  desc.Name = "shadow atlas";
+  return device.CreateTexture(desc);
 }
 
 RayPassDesc shadow_map_pass(const rtapi::ShaderLibrary& library) {
@@ -60,8 +72,7 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
   Lighting out;
   out.light_count_ = light_count;
   out.layout_ = atlas_layout(light_count, frame.sun_map());
-  const auto atlas = create_picture(device, "shadow atlas", rtapi::Format::kR32G32B32A32Float,
-                                    out.layout_.width, out.layout_.height);
+  const auto atlas = create_atlas(device, out.layout_);
   if (!atlas) return atlas.error();
   out.atlas_ = *atlas;
   const auto counts = create_words(device, kClusterCount, "cluster counts");
@@ -91,6 +102,10 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
 void Lighting::update(rtapi::CommandList& list, const Frame& frame) const {
   clusters_.dispatch(list, frame, {}, PassArguments(views_), kClusterCells,
                      kClusterCount / kClusterCells);
+  if (draws_) {
+    draws_->record(list, views_);
+    return;
+  }
   if (light_count_ != 0) {
     shadow_maps_.dispatch_grid(list, frame, {}, layout_.tile_width, layout_.tile_height,
                                PassArguments(views_));
@@ -98,6 +113,17 @@ void Lighting::update(rtapi::CommandList& list, const Frame& frame) const {
   if (layout_.sun != 0) {
     sun_map_.dispatch_grid(list, frame, {}, layout_.sun, layout_.sun, PassArguments(views_));
   }
+}
+
+rtapi::Status Lighting::draw_maps(const rtapi::Device& device, const Frame& frame,
+                                  const Scene& scene, const GpuScene& gpu,
+                                  const rtapi::ShaderLibrary& library) {
+  draws_.emplace();
+  return draws_->create(device, frame, scene, gpu, library, layout_, atlas_, views_);
+}
+
+void Lighting::see(const glm::dvec3& camera_position) {
+  if (draws_) draws_->see(camera_position);
 }
 
 rtapi::Status Lighting::bind(PassViews& views) const {

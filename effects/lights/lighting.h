@@ -7,11 +7,13 @@
 #include <rtapi/rtapi.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "effects/frame/compute_pass.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/ray_pass.h"
 #include "effects/lights/light_constants.h"
+#include "effects/lights/light_map_draws.h"
 
 namespace kaamos::effects {
 
@@ -33,6 +35,12 @@ enum class SunAtHits : std::uint32_t {
   kByMap,  ///< by the sun's map in the atlas; by a ray beside it, and where FrameDesc has none
 };
 
+/// What renders the atlas of shadow maps.
+enum class LightMaps : std::uint32_t {
+  kTraced,  ///< a ray for each texel
+  kDrawn,   ///< the rasterizer [LightMapDraws]
+};
+
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> lighting_library();
@@ -46,6 +54,13 @@ class Lighting {
   static rtapi::Result<Lighting> create(const rtapi::Device& device, const Frame& frame,
                                         const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                         std::uint32_t light_count);
+  /// Lets the maps be drawn, from the next update on, with the shaders of
+  /// light_map_draws_library(). Frame and scenes must stay.
+  /// @errors those of LightMapDraws::create.
+  rtapi::Status draw_maps(const rtapi::Device& device, const Frame& frame, const Scene& scene,
+                          const GpuScene& gpu, const rtapi::ShaderLibrary& library);
+  /// Looks at where instances and lights are now; for maps that are drawn, before each update.
+  void see(const glm::dvec3& camera_position);
 
   /// Records what makes the lists and the maps for the frame's camera, with the barriers behind it.
   void update(rtapi::CommandList& list, const Frame& frame) const;
@@ -54,7 +69,7 @@ class Lighting {
   rtapi::Status bind(PassViews& views) const;
 
   /// Bytes of the atlas and the lists.
-  std::uint64_t bytes() const { return views_.bytes(); }
+  std::uint64_t bytes() const { return views_.bytes() + (draws_ ? draws_->bytes() : 0); }
   /// Shadow maps of all lights, kShadowTile texels on a side, kShadowTilesPerRow in a row, and
   /// right of them the sun's [AtlasLayout].
   const rtapi::Texture& atlas() const { return atlas_; }
@@ -70,6 +85,7 @@ class Lighting {
   rtapi::Buffer counts_, indices_;
   ComputePass clusters_;
   RayPass shadow_maps_, sun_map_;
+  std::optional<LightMapDraws> draws_;
   PassViews views_;
 };
 

@@ -236,7 +236,8 @@ void FrameRenderer::record_curvature(rtapi::CommandList& list) const {
   if (curvature_) curvature_->dispatch(list, frame_, {}, {}, frame_.width(), frame_.height());
 }
 
-void FrameRenderer::record_lights(rtapi::CommandList& list) const {
+void FrameRenderer::record_lights(rtapi::CommandList& list) {
+  lighting_->see(moment_.camera.position());
   lighting_->update(list, frame_);
   if (direct_) direct_->dispatch(list, frame_, has_strongest_effect(), settings_.light_culling);
 }

@@ -320,7 +320,7 @@ class FrameRenderer {
   rtapi::Result<Outcome> finish_whole(const Progress& progress);
   rtapi::Result<Outcome> run_effects(bool late, const Progress& progress);
   void record_curvature(rtapi::CommandList& list) const;
-  void record_lights(rtapi::CommandList& list) const;
+  void record_lights(rtapi::CommandList& list);
   std::uint64_t bytes_of(const Active& effect) const;
   std::uint64_t compose_bytes() const;
   // frame_renderer_radiance.cpp

@@ -255,6 +255,12 @@ rtapi::Status FrameRenderer::create_lighting() {
       Lighting::create(device_, frame_, gpu_, libraries_.at("lights/lighting"), lights);
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
+  if (settings_.light_maps == LightMaps::kDrawn) {
+    const auto s = lighting_->draw_maps(device_, frame_, scene_, gpu_,
+                                        libraries_.at("lights/light_map_draws"));
+    if (!s) return s;
+  }
+  lighting_->see(moment_.camera.position());
   direct_.reset();
   const bool has_main_lighting = std::any_of(
       active_.begin(), active_.end(), [](const auto& effect) { return !has_passes(*effect->row); });

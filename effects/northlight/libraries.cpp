@@ -59,6 +59,8 @@ const std::vector<PartRow>& parts() {
        [](const FrameSettings& s) { return s.curvature_to_roughness; }},
       {{"composite/composite", composite_library}, kAlways},
       {{"lights/lighting", lighting_library}, kWhole},
+      {{"lights/light_map_draws", light_map_draws_library},
+       [](const FrameSettings& s) { return s.whole_frame && s.light_maps == LightMaps::kDrawn; }},
       {{"direct/direct", direct_library}, kWhole},
       {{"indirect_diffuse/volume_bake", volume_bake_library}, kWhole},
       {{"denoise/spatial", spatial_library}, kWhole},

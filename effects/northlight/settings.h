@@ -49,6 +49,7 @@ struct FrameSettings {
   DenoiseDesc denoise;                                   ///< of a whole frame
   VolumeSettings volume;                                 ///< for effects that read it
   LightCulling light_culling = LightCulling::kClusters;  ///< of main lighting; the same picture
+  LightMaps light_maps = LightMaps::kTraced;             ///< the atlas of shadow maps
   /// Of the strongest lights' shadow maps and contact shadows.
   ContactCombination contact = ContactCombination::kProduct;
   bool taa = false;     ///< antialiasing over the frames of a sequence

@@ -13,26 +13,8 @@ using namespace rtapi;
 namespace {
 
 constexpr ResourceStates kMapState = ResourceStates::kNonPixelShaderResource;
-// As kMaskWithoutLamps of effects/shaders/frame.hlsli: what rays to the sun see.
-constexpr std::uint32_t kMaskCasters = 0xFFu & ~(kMaskTransparent | kMaskEmissiveProxy);
 constexpr std::uint32_t kDrawWord = offsetof(ShadowMapConstants, draw) / 4;
 constexpr std::uint32_t kMapWord = offsetof(ShadowMapConstants, map) / 4;
-
-// Around an instance's meshes of all levels of detail. What a skeleton moves may leave the box of
-// its bind pose: it counts as three times as large.
-Bounds instance_box(const Scene& scene, const Instance& instance) {
-  Bounds box;
-  const auto add = [&](std::uint32_t mesh) {
-    const Bounds own = scene.meshes[mesh].bounds();
-    if (own.empty()) return;
-    const glm::dvec3 more = scene.meshes[mesh].skin.empty() ? glm::dvec3(0.0) : own.size();
-    box.add(own.min - more);
-    box.add(own.max + more);
-  };
-  add(instance.mesh);
-  for (const Level& level : instance.levels) add(level.mesh);
-  return box;
-}
 
 }  // namespace
 
@@ -43,9 +25,7 @@ rtapi::Status ShadowMapDraws::create(const EffectScope& scope, const ShaderLibra
   views_ = &scope.views;
   size_ = size;
   count_ = count;
-  for (const Instance& instance : scope.scene.instances) {
-    boxes_.push_back(instance_box(scope.scene, instance));
-  }
+  boxes_ = instance_boxes(scope.scene);
   if (const auto s = create_targets(scope.device); !s) return s;
   if (const auto s = create_pipelines(scope.device, library); !s) return s;
   return create_buffers(scope.device, scope.scene);
@@ -127,28 +107,17 @@ rtapi::Status ShadowMapDraws::create_buffers(const Device& device, const Scene& 
 }
 
 void ShadowMapDraws::see_instances(const glm::dvec3& camera_position) {
-  draws_ = scene_draws(*gpu_);
-  const auto descs = gpu_->instances.data<RaytracingInstanceDesc>();
-  const auto is_unseen = [&](const SceneDraw& draw) {
-    return (descs[draw.instance].InstanceMask & kMaskCasters) == 0;
-  };
-  draws_.erase(std::remove_if(draws_.begin(), draws_.end(), is_unseen), draws_.end());
+  draws_ = scene_draws(*gpu_, kMaskCasters);
   std::copy(draws_.begin(), draws_.end(), draw_buffer_.data<SceneDraw>().begin());
   bounds_ = Bounds();
   std::size_t last = boxes_.size();
   for (const SceneDraw& draw : draws_) {
     if (draw.instance == last || draw.instance >= boxes_.size()) continue;
     last = draw.instance;
-    const Bounds& box = boxes_[last];
+    const Bounds box = draw_box(draw, boxes_[last]);
     if (box.empty()) continue;
-    for (int i = 0; i < 8; ++i) {
-      const glm::dvec4 corner((i & 1) ? box.max.x : box.min.x, (i & 2) ? box.max.y : box.min.y,
-                              (i & 4) ? box.max.z : box.min.z, 1.0);
-      // GLM's columns are rows here.
-      const glm::dmat3x4 rows(draw.object_to_world);
-      bounds_.add(camera_position + glm::dvec3(glm::dot(rows[0], corner), glm::dot(rows[1], corner),
-                                               glm::dot(rows[2], corner)));
-    }
+    bounds_.add(camera_position + box.min);
+    bounds_.add(camera_position + box.max);
   }
 }
 

@@ -51,6 +51,7 @@ struct Words {
   std::string fireflies = "retrace";
   std::string contact_combine = "product";
   std::string light_culling = "clusters";
+  std::string light_maps = "traced";
   std::string sun_at_hits = "ray";
   float firefly_limit = 0;
   float gi_length = IndirectConstants().length;
@@ -263,6 +264,7 @@ void apply(const Words& words, Options& options) {
       words.contact_combine == "min" ? ContactCombination::kMinimum : ContactCombination::kProduct;
   frame.light_culling =
       words.light_culling == "frustum" ? LightCulling::kFrustum : LightCulling::kClusters;
+  frame.light_maps = words.light_maps == "drawn" ? LightMaps::kDrawn : LightMaps::kTraced;
   if (words.sun_at_hits != "map") {
     frame.sun_map = 0;
   } else if (frame.sun_map == 0) {
@@ -364,6 +366,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "reach into the picture); the picture stays the same")
       ->capture_default_str()
       ->check(CLI::IsMember({"clusters", "frustum"}));
+  app.add_option("--light-maps", words.light_maps,
+                 "shadow maps of local lights, and the sun's: traced (a ray for each texel), drawn "
+                 "(by the rasterizer)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"traced", "drawn"}));
   app.add_option(
          "--sun-at-hits", words.sun_at_hits,
          "the sun where rays of reflections and indirect light hit: ray (a shadow ray), map "
