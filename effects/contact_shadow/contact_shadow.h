@@ -4,6 +4,8 @@
 /// [effects-spec B2.12]
 #pragma once
 
+#include <cstdint>
+
 #include "effects/frame/ray_pass.h"
 
 namespace kaamos::effects {
@@ -20,6 +22,12 @@ rtapi::Result<rtapi::ShaderLibrary> contact_shadow_library();
 /// Constants b0, space3.
 struct ContactShadowConstants {
   float length = 1.0f;  ///< of the rays, metres; 0: everything is visible
+  /// 1: rays end where penumbras get as wide as a texel of the light's shadow map, which shows what
+  /// is farther away.
+  std::uint32_t only_where_coarse = 0;
 };
+
+/// As frames have them: rays no longer than the maps require.
+inline constexpr ContactShadowConstants kContactAsNeeded = {.only_where_coarse = 1};
 
 }  // namespace kaamos::effects

@@ -11,7 +11,8 @@ RWTexture2D<float4> contact : register(u1, space3);    // visibility
 RWTexture2D<float4> sharpness : register(u2, space3);
 
 struct ContactConstants {
-  float length;  // metres
+  float length;            // metres
+  uint only_where_coarse;  // 1: rays end where the light's map is fine enough
 };
 ConstantBuffer<ContactConstants> constants : register(b0, space3);
 
@@ -24,6 +25,13 @@ struct Contact {
   float sharpness;  // of the shadow, times the blocked part
   float moved;      // the part that is blocked by what moves
 };
+
+// How far away what casts a shadow may be for its penumbra, 2 r h / (d - h) wide at a distance of h,
+// to be narrower than a texel of the light's map. Wider ones the map can show.
+float CoarseLength(LightConstants light, float distance) {
+  const float texel = light.map_texel * distance;
+  return distance * texel / max(2.0 * light.radius + texel, 1e-20);
+}
 
 Contact Open() {
   Contact contact;
@@ -53,7 +61,8 @@ Contact TraceContact(LightConstants light, float3 position, float3 normal, float
     return contact;
   }
   // The ray stops before the lamp's own surface, which must not shadow it.
-  const float longest = Contain(constants.length, kLongestRay);
+  float longest = Contain(constants.length, kLongestRay);
+  if (constants.only_where_coarse != 0) longest = min(longest, CoarseLength(light, distance));
   const float end = min(reach - light.radius, longest);
   if (!(end > 0.0)) return contact;
   const OccluderPayload occluder = TraceOccluder(position + normal * offset, direction, end);

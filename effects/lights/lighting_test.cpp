@@ -59,7 +59,7 @@ struct Stage {
   }
 
   // Mean visibility of the strongest point light over the samples.
-  FloatImage contact(float length, std::uint32_t samples) {
+  FloatImage contact(const ContactShadowConstants& constants, std::uint32_t samples) {
     const rtapi::Texture picture =
         frame.create_picture(device, "contact", rtapi::Format::kR32G32B32A32Float).value();
     const rtapi::Texture sharpness =
@@ -71,12 +71,11 @@ struct Stage {
     const RayPass pass =
         RayPass::create(device, frame, gpu, contact_shadow_pass(contact_shadow_library().value()))
             .value();
-    PassConstants constants;
-    constants.sample_count = samples;
+    PassConstants counts;
+    counts.sample_count = samples;
     rtapi::CommandList list = device.CreateCommandList().value();
     direct.dispatch(list, frame, true);
-    pass.dispatch(list, frame, constants, kHeight,
-                  PassArguments(views, ContactShadowConstants{length}));
+    pass.dispatch(list, frame, counts, kHeight, PassArguments(views, constants));
     queue.ExecuteAndWait(list).value();
     FloatImage image = read_picture(device, queue, picture).value();
     for (float& value : image.values) value /= static_cast<float>(samples);
@@ -428,7 +427,7 @@ TEST(ShadowMaps, LeaveNoShadowsInTheCornersOfARoom) {
 
 TEST(ContactShadows, OfNoLengthAreNone) {
   Stage stage(lamp_over_sphere());
-  const FloatImage image = stage.contact(0.0f, 4);
+  const FloatImage image = stage.contact({0.0f}, 4);
   const FloatImage ids = stage.frame.read(stage.device, stage.queue, kIds).value();
   const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
   for (std::uint32_t y = 0; y < kHeight; ++y) {
@@ -442,7 +441,7 @@ TEST(ContactShadows, OfNoLengthAreNone) {
 // With rays that reach the lamp, contact shadows are the exact hard shadow of a lamp without size.
 TEST(ContactShadows, AtFullLengthAreTheShadow) {
   Stage stage(lamp_over_sphere());
-  const FloatImage image = stage.contact(1e3f, 1);
+  const FloatImage image = stage.contact({1e3f}, 1);
   const FloatImage ids = stage.frame.read(stage.device, stage.queue, kIds).value();
   const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
   const glm::dvec3 eye = stage.scene.cameras.front().position();
@@ -468,12 +467,36 @@ TEST(ContactShadows, AreSoftByTheLightsRadius) {
   Scene scene = lamp_over_sphere();
   scene.lights.front().radius = 0.5f;
   Stage stage(scene);
-  const FloatImage image = stage.contact(1e3f, 64);
+  const FloatImage image = stage.contact({1e3f}, 64);
   int partial = 0;
   for (std::size_t i = 0; i < image.values.size(); i += 4) {
     partial += image.values[i] > 0.05f && image.values[i] < 0.95f;
   }
   EXPECT_GT(partial, 20);
+}
+
+// Where penumbras are wider than a texel of the map, the map can show them: rays end before. A lamp
+// without size has none.
+TEST(ContactShadows, EndWhereTheMapIsFineEnough) {
+  Scene scene = lamp_over_sphere();
+  const auto render = [&](float radius, std::uint32_t only_where_coarse) {
+    scene.lights.front().radius = radius;
+    Stage stage(scene);
+    return stage.contact({1e3f, only_where_coarse}, 16);
+  };
+  const auto same_pixels = [](const FloatImage& a, const FloatImage& b) {
+    int same = 0, brighter = 0;
+    for (std::size_t i = 0; i < a.values.size(); i += 4) {
+      same += a.values[i] == b.values[i];
+      brighter += a.values[i] > b.values[i];
+    }
+    return std::pair(same, brighter);
+  };
+  const auto all = static_cast<int>(kWidth * kHeight);
+  EXPECT_EQ(same_pixels(render(0.0f, 1), render(0.0f, 0)), std::pair(all, 0));
+  const auto [same, brighter] = same_pixels(render(0.5f, 1), render(0.5f, 0));
+  EXPECT_EQ(same + brighter, all) << "a shorter ray meets nothing else";
+  EXPECT_GT(brighter, 10);
 }
 
 // With a contact shadow that sees what the map sees, the product squares every penumbra; the

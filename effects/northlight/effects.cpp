@@ -72,7 +72,7 @@ std::vector<Effect> ray_traced_effects() {
                        .output = 1,
                        .is_visibility = true,
                        .sharpness_output = 2}},
-          .defaults = with_constants(ContactShadowConstants{}),
+          .defaults = with_constants(kContactAsNeeded),
           .needs = {.local_lights = true, .strongest_lights = true},
           .includes = "local",
           .samples_option = "contact-samples",

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "effects/contact_shadow/contact_shadow.h"
+
 namespace northlight {
 
 using namespace kaamos::effects;
@@ -43,6 +45,14 @@ std::vector<Part> parts_left_out(const Options& options, const Scene& scene) {
     for (Mesh& mesh : part.scene.meshes) {
       for (Geometry& geometry : mesh.geometries) geometry.alpha_tested = true;
     }
+    out.push_back(std::move(part));
+  }
+  if (const auto contact = options.frame.effects.find("contact");
+      contact != options.frame.effects.end() && scene_offers(scene, {.local_lights = true})) {
+    Part part{"contact shadows where maps are fine enough", scene, options};
+    auto constants = contact->second.get_constants<ContactShadowConstants>();
+    constants.only_where_coarse = 0;
+    part.options.frame.effects.at("contact").set_constants(constants);
     out.push_back(std::move(part));
   }
   for (const Effect& effect : northlight_effects()) {

@@ -54,12 +54,14 @@ MeasurePlan sun_plan() {
 MeasurePlan contact_plan(const Options& options) {
   MeasurePlan plan{.title = "Contact shadows", .signal = "visibility of the two strongest lights"};
   plan.effects = {"local", "contact"};
-  const Setting setting{.effect = "contact", .settings = options.effects.at("contact")};
-  const float length = setting.settings.get_constants<ContactShadowConstants>().length;
+  // Of this very length: what the maps could show besides is part of what is measured.
   const auto with_length = [](Setting of, float metres) {
     of.settings.set_constants(ContactShadowConstants{metres});
     return of;
   };
+  const EffectSettings& chosen = options.effects.at("contact");
+  const float length = chosen.get_constants<ContactShadowConstants>().length;
+  const Setting setting = with_length({.effect = "contact", .settings = chosen}, length);
   Setting lit = setting;
   lit.lit = true;
   lit.settings.samples = 16;

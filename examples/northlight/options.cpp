@@ -226,7 +226,9 @@ Fireflies fireflies(const std::string& name) {
 // What the words mean for the frame and its effects.
 void apply(const Words& words, Options& options) {
   FrameSettings& frame = options.frame;
-  options.effects.at("contact").set_constants(ContactShadowConstants{words.contact_length});
+  ContactShadowConstants contact = kContactAsNeeded;
+  contact.length = words.contact_length;
+  options.effects.at("contact").set_constants(contact);
   IndirectConstants indirect;
   indirect.mode = indirect_mode(words.gi_mode);
   indirect.length = words.gi_length;

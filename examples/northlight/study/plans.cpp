@@ -48,9 +48,10 @@ void name_modes(MeasurePlan& plan) {
 
 // Marches and rays look equally far.
 void match_length(const Setting& reference, Setting& setting) {
-  const float length = reference.settings.get_constants<ContactShadowConstants>().length;
+  const auto rays = reference.settings.get_constants<ContactShadowConstants>();
+  const float length = rays.length;
   if (setting.effect == reference.effect) {
-    setting.change<ContactShadowConstants>([&](auto& constants) { constants.length = length; });
+    setting.change<ContactShadowConstants>([&](auto& constants) { constants = rays; });
   } else {
     setting.change<ScreenSpaceShadowConstants>([&](auto& constants) { constants.length = length; });
   }
