@@ -32,8 +32,21 @@ EffectStep step(const char* label, const ShadowMapConstants& constants) {
 Effect sun_map_row() {
   Effect row = shadow_map_row("sun-map", "sun shadow by a depth map", "sun_map", {});
   row.steps = {step("1024 x 1024", {.size = 1024}), step("2048 x 2048", {.size = 2048}),
-               step("4096 x 4096", {.size = 4096})};
+               step("4096 x 4096", {.size = 4096}), step("8192 x 8192", {.size = 8192})};
   row.misses = "penumbras, what is thinner than a texel, and contact, where its bias opens a gap";
+  return row;
+}
+
+Effect sun_per_object_row() {
+  const auto per_object = [](std::uint32_t size) {
+    return ShadowMapConstants{.flags = kShadowMapPerObject, .size = size, .cascades = 1};
+  };
+  Effect row = shadow_map_row("sun-per-object", "sun shadow by a map, and one fitted to the hero",
+                              "sun_per_object", per_object(2048));
+  row.steps = {step("2 of 1024 x 1024", per_object(1024)),
+               step("2 of 2048 x 2048", per_object(2048)),
+               step("2 of 4096 x 4096", per_object(4096))};
+  row.misses = "what sun-map misses, beside the hero; where its map ends, shadows change at once";
   return row;
 }
 
@@ -163,6 +176,7 @@ std::vector<Effect> shadow_techniques() {
           .misses = "for up to four frames what moves, and thin shadows on calm ground",
       },
       sun_map_row(),
+      sun_per_object_row(),
       sun_pcf_row(),
       sun_pcss_row(),
       sun_cascades_row(),

@@ -107,6 +107,7 @@ rtapi::Status ShadowMapDraws::create_buffers(const Device& device, const Scene& 
 }
 
 void ShadowMapDraws::see_instances(const glm::dvec3& camera_position) {
+  camera_position_ = camera_position;
   draws_ = scene_draws(*gpu_, kMaskCasters);
   std::copy(draws_.begin(), draws_.end(), draw_buffer_.data<SceneDraw>().begin());
   bounds_ = Bounds();
@@ -119,6 +120,19 @@ void ShadowMapDraws::see_instances(const glm::dvec3& camera_position) {
     bounds_.add(camera_position + box.min);
     bounds_.add(camera_position + box.max);
   }
+}
+
+Bounds ShadowMapDraws::bounds_of(std::uint32_t instance) const {
+  Bounds out;
+  if (instance >= boxes_.size()) return out;
+  for (const SceneDraw& draw : draws_) {
+    if (draw.instance != instance) continue;
+    const Bounds box = draw_box(draw, boxes_[instance]);
+    if (box.empty()) continue;
+    out.add(camera_position_ + box.min);
+    out.add(camera_position_ + box.max);
+  }
+  return out;
 }
 
 void ShadowMapDraws::set_maps(const std::vector<SunMap>& maps) {

@@ -32,6 +32,8 @@ class ShadowMapDraws {
   void see_instances(const glm::dvec3& camera_position);
   /// Around all of it, world space.
   const Bounds& bounds() const { return bounds_; }
+  /// Around an instance of it, world space; empty if it casts none.
+  Bounds bounds_of(std::uint32_t instance) const;
   /// Sets where the maps are. Precondition: as many as there are maps.
   void set_maps(const std::vector<SunMap>& maps);
 
@@ -57,6 +59,7 @@ class ShadowMapDraws {
   std::vector<Bounds> boxes_;  // by instance, object space
   std::vector<SceneDraw> draws_;
   Bounds bounds_;
+  glm::dvec3 camera_position_{0.0};
 };
 
 }  // namespace kaamos::effects

@@ -64,7 +64,8 @@ class ShadowMapPass : public EffectPass {
 
   rtapi::Status begin_frame(const Camera& camera) override {
     draws_.see_instances(camera.position());
-    const auto desc = describe_sun_maps(made_, scene_, draws_.bounds(), frame_);
+    auto desc = describe_sun_maps(made_, scene_, draws_.bounds(), frame_);
+    if (is_per_object()) find_objects(desc);
     draws_.set_maps(sun_maps(desc, camera));
     return {};
   }
@@ -82,7 +83,22 @@ class ShadowMapPass : public EffectPass {
   std::uint64_t bytes() const override { return draws_.bytes() + disk_.size(); }
 
  private:
-  std::uint32_t map_count() const { return std::max(made_.cascades, 1u); }
+  bool is_per_object() const { return (made_.flags & kShadowMapPerObject) != 0; }
+  std::uint32_t map_count() const {
+    return is_per_object() ? made_.cascades + 1 : std::max(made_.cascades, 1u);
+  }
+
+  // What `desc` has as cascades are objects.
+  void find_objects(SunMapsDesc& desc) const {
+    const std::uint32_t count = std::exchange(desc.cascades, 0u);
+    const auto& instances = scene_.instances;
+    for (std::uint32_t i = 0; i < instances.size() && desc.objects.size() < count; ++i) {
+      if (instances[i].build_class == BuildClass::kHero)
+        desc.objects.push_back(draws_.bounds_of(i));
+    }
+    desc.objects.resize(count);
+    desc.border = made_.method == kShadowMapHard ? 0.0 : made_.radius;
+  }
 
   const Frame& frame_;
   const Scene& scene_;

@@ -35,6 +35,9 @@ enum ShadowMapFlags : std::uint32_t {
   /// PCSS's penumbra lies inside the hard shadow, from its edge to where the sun is hidden whole.
   /// For what is blended with hard shadows: it never leaves them. [effects-spec B2.13]
   kShadowMapInnerPenumbra = 16,
+  /// `cascades` counts objects instead: the scene's first instances of BuildClass::kHero have a map
+  /// of their own, besides the scene's. Those that it lacks have the scene's. [effects-spec S3]
+  kShadowMapPerObject = 32,
 };
 
 /// Constants b0, space3: mirrors ShadowMapConstants of shadow_map.hlsli. A texel is one of the map
@@ -43,7 +46,7 @@ struct ShadowMapConstants {
   std::uint32_t method = kShadowMapHard;  ///< ShadowMapMethod
   std::uint32_t flags = 0;                ///< ShadowMapFlags
   std::uint32_t size = 2048;              ///< texels along a map's side, 4 to 16,384
-  std::uint32_t cascades = 0;             ///< 0: one map over the scene; up to 4
+  std::uint32_t cascades = 0;             ///< or objects; 0: one map over the scene; up to 4
   /// What a surface is taken to be nearer to the sun: `constant_bias` texels, and `slope_bias`
   /// times the tangent of the angle between its normal and the sun, `most_bias` at most.
   ///@{

@@ -54,6 +54,7 @@ static const uint kReceiverPlane = 1;
 static const uint kGrid = 2;
 static const uint kSurveyRule = 4;
 static const uint kInnerPenumbra = 16;
+static const uint kPerObject = 32;
 static const uint kDiskPoints = 64;
 
 bool Has(uint flag) { return (constants.flags & flag) != 0; }
@@ -145,6 +146,24 @@ MapChoice ChooseMap(float view_z) {
   return result;
 }
 
+// The finest map that holds all that a filter around the point reads: what casts a shadow there lies
+// in the same texels. The last map holds the scene.
+MapChoice ChooseFinestMap(float3 position) {
+  MapChoice result;
+  result.map = 0;
+  result.next = 0.0;
+  while (result.map + 1 < constants.map_count) {
+    const ShadowMap map = maps[result.map];
+    const float border = 1.0 + abs(constants.normal_offset) +
+                         (constants.method == 0 ? 0.0 : constants.radius / map.texel);
+    const float2 at =
+        float2(dot(map.to_map[0], float4(position, 1)), dot(map.to_map[1], float4(position, 1)));
+    if (all(at > border) && all(at < float(constants.size) - border)) break;
+    ++result.map;
+  }
+  return result;
+}
+
 // What the pixel of a thread shows, and whether the maps have to be asked.
 struct Surface {
   float3 position;
@@ -168,7 +187,8 @@ bool LoadSurface(uint2 pixel, out Surface surface) {
     visibility[pixel] = float4(0, 0, 0, 1);
     return false;
   }
-  surface.choice = ChooseMap(g_view_z[pixel]);
+  surface.choice =
+      Has(kPerObject) ? ChooseFinestMap(surface.position) : ChooseMap(g_view_z[pixel]);
   const float angle =
       6.2831853 * blue_noise[BlueNoiseIndex(pixel, kSunPair, frame.seed)].x;
   surface.turn = float2(cos(angle), sin(angle));

@@ -40,6 +40,17 @@ Square square_around(const Bounds& box) {
   return {glm::dvec2(box.center()) - 0.5 * side, side};
 }
 
+Bounds seen_along(const Axes& axes, const Bounds& box, double border) {
+  Bounds out;
+  if (box.empty()) return out;
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 at = in_axes(axes, corner_of(box, i));
+    out.add(at - border);
+    out.add(at + border);
+  }
+  return out;
+}
+
 // Two texels more than the square has: its corner goes down to a whole texel of the world.
 SunMap place(const SunMapsDesc& desc, const Axes& axes, const Square& square, double begin,
              double range, const Camera& camera, bool snapped) {
@@ -106,7 +117,20 @@ std::vector<SunMap> sun_maps(const SunMapsDesc& desc, const Camera& camera) {
   const double margin = std::max(1e-3 * box.size().z, 1e-6);
   const double begin = box.min.z - margin, range = box.size().z + 2 * margin;
   if (desc.cascades == 0) {
-    return {place(desc, axes, square_around(box), begin, range, camera, true)};
+    const Square all = square_around(box);
+    std::vector<Square> squares;
+    for (const Bounds& object : desc.objects) {
+      const Square own = square_around(seen_along(axes, object, desc.border));
+      squares.push_back(!object.empty() && own.side < all.side ? own : all);
+    }
+    const auto is_finer = [](const Square& a, const Square& b) { return a.side < b.side; };
+    std::stable_sort(squares.begin(), squares.end(), is_finer);
+    squares.push_back(all);
+    std::vector<SunMap> maps;
+    for (const Square& square : squares) {
+      maps.push_back(place(desc, axes, square, begin, range, camera, true));
+    }
+    return maps;
   }
   const double near = std::max(camera.near_plane, 1e-6);
   far = std::max(desc.reach > 0 ? desc.reach : far, 2 * near);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where the sun's shadow maps lie: one over the whole scene, or cascades over parts of what the
-/// camera sees. [effects-spec B2.1, B2.2]
+/// Where the sun's shadow maps lie: one over the whole scene, besides it some over single objects,
+/// or cascades over parts of what the camera sees. [effects-spec B2.1, B2.2, part A: S3]
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,8 @@ struct SunMapsDesc {
   Bounds bounds;                         ///< of what casts and receives shadows, world space
   std::uint32_t size = 2048;             ///< texels along a map's side, at least 4
   std::uint32_t cascades = 0;            ///< 0: one map over `bounds`
+  std::vector<Bounds> objects;           ///< without cascades: each has a map of its own, besides
+  double border = 0;                     ///< metres that objects' maps reach farther on each side
   double aspect = 1;                     ///< width over height of the picture
   double split_share = 0.75;  ///< of the logarithmic split; the rest is the even one, 0 to 1
   double reach = 0;  ///< view depth where the last cascade ends, metres; 0: all of `bounds`
@@ -42,7 +44,8 @@ struct SunMapsDesc {
 /// the rest of the even one. 0 < near < far. [Zhang et al. 2006; effects-spec B2.2]
 double cascade_split(double near, double far, double share, std::uint32_t i, std::uint32_t count);
 
-/// The maps for a camera, nearest first.
+/// The maps for a camera: cascades nearest first; of objects the finest first, and the scene's
+/// last. An empty object, or one whose map would be no finer, has the scene's once more.
 std::vector<SunMap> sun_maps(const SunMapsDesc& desc, const Camera& camera);
 
 }  // namespace kaamos::effects
