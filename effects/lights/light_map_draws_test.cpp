@@ -131,6 +131,32 @@ TEST_P(LightMapDraw, SeesWhatRaysSee) {
   EXPECT_LT(off, 1e-3 * sum);
 }
 
+// The eight pictures of a point light meet without a gap, also where the middles of texels lie on
+// the octahedron's edges: in a closed room each texel sees a wall, where rays see it.
+TEST_P(LightMapDraw, FacesMeetWithoutASeam) {
+  Scene scene = room();
+  scene.lights.clear();
+  add_lamp(scene, "lamp", {0.1, 1.1, 0.2}, 50.0f, 0.02f);
+  const Rendered traced = render(scene, GetParam(), LightMaps::kTraced, 0);
+  const Rendered drawn = render(scene, GetParam(), LightMaps::kDrawn, 0);
+  int gaps = 0, edges = 0, other = 0;
+  for (std::uint32_t y = 0; y < kShadowTile; ++y) {
+    for (std::uint32_t x = 0; x < kShadowTile; ++x) {
+      const float w = traced.atlas.at(x, y, 3), seen = drawn.atlas.at(x, y, 3);
+      gaps += w != 0 && seen == 0;
+      // The axes, and the square that stands on its corner between them.
+      const int along = std::abs(2 * static_cast<int>(x) + 1 - static_cast<int>(kShadowTile));
+      const int across = std::abs(2 * static_cast<int>(y) + 1 - static_cast<int>(kShadowTile));
+      if (along > 1 && across > 1 && along + across != static_cast<int>(kShadowTile)) continue;
+      ++edges;
+      other += std::abs(w - seen) > 0.01f * w;
+    }
+  }
+  EXPECT_EQ(gaps, 0);
+  EXPECT_GT(edges, 700);
+  EXPECT_LE(other, edges / 100);
+}
+
 // Light falls through the holes of leaves: drawn maps discard what rays ignore.
 TEST(LightMapDraws, HolesAreOpen) {
   Scene scene = make_foliage({});
