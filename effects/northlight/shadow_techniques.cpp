@@ -102,6 +102,24 @@ Effect sun_pcss_row() {
   return row;
 }
 
+Effect sun_backprojection_row() {
+  const auto backprojection = [](std::uint32_t rows) {
+    return ShadowMapConstants{.method = kShadowMapBackprojection,
+                              .flags = kPlane,
+                              .constant_bias = 0.5f,
+                              .slope_bias = 0.0f,
+                              .radius = 0.25f,
+                              .taps = rows};
+  };
+  Effect row =
+      shadow_map_row("sun-backprojection", "sun shadow by what a map's texels hide of the sun",
+                     "sun_backprojection", backprojection(16));
+  row.steps = {step("8 x 8 texels", backprojection(8)), step("16 x 16 texels", backprojection(16)),
+               step("32 x 32 texels", backprojection(32))};
+  row.misses = "what stands behind another thing, which the map does not have";
+  return row;
+}
+
 Effect sun_cascades_row() {
   const ShadowMapConstants defaults = {.method = kShadowMapPcss,
                                        .flags = kPlane,
@@ -179,6 +197,7 @@ std::vector<Effect> shadow_techniques() {
       sun_per_object_row(),
       sun_pcf_row(),
       sun_pcss_row(),
+      sun_backprojection_row(),
       sun_cascades_row(),
       sun_hybrid_row(),
   };

@@ -62,6 +62,19 @@ Blockers FindBlockers(Receiver receiver, float2 turn) {
   return result;
 }
 
+// Metres from a surface to the nearest to the sun of what stands in between, by the same taps; 0:
+// they meet nothing. `search` in texels.
+float FarthestBlocker(Receiver receiver, float search, float2 turn) {
+  float gap = 0.0;
+  const uint taps = max(constants.blocker_taps, 1u);
+  for (uint i = 0; i < taps; ++i) {
+    const int2 tap = int2(floor(receiver.at + search * DiskTap(i, turn)));
+    const float depth = OccluderDepth(receiver.map, tap);
+    if (depth < DepthAt(receiver, float2(tap) + 0.5)) gap = max(gap, receiver.depth - depth);
+  }
+  return gap;
+}
+
 float SoftVisibility(Receiver receiver, Blockers blockers, float2 turn) {
   if (!blockers.searched) return IsLit(receiver, int2(floor(receiver.at)));
   if (blockers.count == 0.0) return 1.0;

@@ -19,8 +19,8 @@ namespace {
 constexpr std::uint32_t kDiskPoints = 64;  // of shadow_map.hlsli
 constexpr std::uint32_t kMostTexels = 16384, kMostCascades = 4;
 
-constexpr const char* kEntryPoints[kShadowMapMethodCount] = {"ShadowMapHard", "ShadowMapPcf",
-                                                             "ShadowMapPcss"};
+constexpr const char* kEntryPoints[kShadowMapMethodCount] = {
+    "ShadowMapHard", "ShadowMapPcf", "ShadowMapPcss", "ShadowMapBackprojection"};
 
 rtapi::Status check(const char* what, std::uint32_t value, std::uint32_t least,
                     std::uint32_t most) {

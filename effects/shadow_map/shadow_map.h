@@ -19,6 +19,8 @@ enum ShadowMapMethod : std::uint32_t {
   kShadowMapHard,  ///< one texel
   kShadowMapPcf,   ///< percentage-closer filtering, of one width [Reeves, Salesin & Cook 1987]
   kShadowMapPcss,  ///< as wide as the penumbra [Fernando 2005]
+  /// What texels hide of the sun, seen from the surface [Guennebaud, Barthe & Paulin 2006]
+  kShadowMapBackprojection,
   kShadowMapMethodCount
 };
 
@@ -53,10 +55,10 @@ struct ShadowMapConstants {
   float constant_bias = 1.5f;
   float slope_bias = 1.5f;
   ///@}
-  float normal_offset = 0.0f;       ///< texels along the normal, times the sine of that angle
-  float most_bias = 8.0f;           ///< texels
-  float radius = 0.03f;             ///< of PCF's filter, and the most of PCSS's, metres
-  std::uint32_t taps = 16;          ///< of the filter, 1 to 64
+  float normal_offset = 0.0f;  ///< texels along the normal, times the sine of that angle
+  float most_bias = 8.0f;      ///< texels
+  float radius = 0.03f;        ///< of PCF's filter, and the most of PCSS's, metres
+  std::uint32_t taps = 16;     ///< of the filter, 1 to 64; of backprojection: in a row, of as many
   std::uint32_t blocker_taps = 16;  ///< of PCSS's search, 1 to 64
   float blend = 0.1f;               ///< share of a cascade in which the next one comes in, 0 to 1
   float split_share = 0.75f;        ///< SunMapsDesc::split_share

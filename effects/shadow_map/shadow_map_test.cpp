@@ -43,27 +43,36 @@ TEST_P(ShadowMaps, SayWhatRaysSay) {
   EXPECT_GT(wrong.difference("sun", "sun_map"), std::sqrt(0.5));
 }
 
-// Cascades with the penumbra's search and filter: rendered twice the same, and on Vulkan but for
-// rounding at the edges of texels.
+// Cascades with the penumbra's search and filter, and with backprojection: rendered twice the same,
+// and on Vulkan but for rounding at the edges of texels.
 TEST_P(ShadowMaps, SoftCascadesAreTheSame) {
-  const ShadowMapConstants soft = {.method = kShadowMapPcss,
-                                   .flags = kShadowMapReceiverPlane,
-                                   .size = 256,
-                                   .cascades = 3,
-                                   .constant_bias = 0.5f,
-                                   .slope_bias = 0,
-                                   .radius = 0.25f};
-  FloatImage said[2];
+  const auto soft = [](const std::string& name, EffectSettings& settings) {
+    ShadowMapConstants constants = {.method = kShadowMapPcss,
+                                    .flags = kShadowMapReceiverPlane,
+                                    .size = 256,
+                                    .cascades = 3,
+                                    .constant_bias = 0.5f,
+                                    .slope_bias = 0,
+                                    .radius = 0.25f};
+    if (name == "sun-backprojection") constants.method = kShadowMapBackprojection;
+    settings.set_constants(constants);
+  };
+  FloatImage said[2][2];
   for (int i = 0; i < 2; ++i) {
-    MapFrame frame(make_peter_panning({}), {"sun-cascades"}, &soft, 1, 64, 36,
+    MapFrame frame(make_peter_panning({}), {"sun-cascades", "sun-backprojection"}, soft, 1, 64, 36,
                    i == 0 ? "embree" : GetParam());
-    said[i] = frame.read("sun_cascades");
+    said[0][i] = frame.read("sun_cascades");
+    said[1][i] = frame.read("sun_backprojection");
   }
-  std::size_t other = 0;
-  for (std::size_t i = 0; i < said[0].values.size(); i += said[0].channels) {
-    other += std::abs(said[0].values[i] - said[1].values[i]) > 1e-4;
+  for (const auto& [one, two] : said) {
+    std::size_t other = 0, partly = 0;
+    for (std::size_t i = 0; i < one.values.size(); i += one.channels) {
+      other += std::abs(one.values[i] - two.values[i]) > 1e-4;
+      partly += one.values[i] > 0 && one.values[i] < 1;
+    }
+    EXPECT_LE(other, GetParam() == "embree" ? 0u : 64u * 36 / 50) << other;
+    EXPECT_GT(partly, 10u);
   }
-  EXPECT_LE(other, GetParam() == "embree" ? 0u : 64u * 36 / 50) << other;
 }
 
 // Leaves have holes in their texture, and their shadows have them, too: without them the mean would

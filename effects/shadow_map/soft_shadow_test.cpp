@@ -98,6 +98,29 @@ TEST(SoftShadow, WidthFollowsOneOccluderAndNotTwo) {
   for (int part = 0; part < 3; ++part) EXPECT_LT(error[part], hard[part]) << part;
 }
 
+// Below one flat sheet the squares of the map's texels are the sheet, and the sum is its part of
+// the sun; below two that overlap, what both hide counts twice. [effects-spec S11]
+TEST(SoftShadow, BackprojectionSumsWhatTexelsHide) {
+  ShadowMapConstants constants = kPcss;
+  constants.method = kShadowMapBackprojection;
+  const auto error = line_errors("sun-backprojection", "sun_backprojection", constants);
+  const auto pcss = line_errors("sun-pcss", "sun_pcss", kPcss);
+  for (const int part : {0, 2}) EXPECT_LT(error[part], 0.7 * pcss[part]) << part;
+  EXPECT_GT(error[1], 4 * error[2]);
+  MapFrame frame(sheets(1), {"sun-backprojection"}, &constants);
+  const FloatImage said = frame.read("sun_backprojection");
+  int darker = 0, brighter = 0;
+  for (const std::size_t i : frame.floor()) {
+    const glm::dvec3 p = frame.position(i);
+    if (!is_by_edge(p, 1)) continue;
+    const double off = said.values[said.channels * i] - sheet_visibility(kWideSun, 1, p.x);
+    darker += off < -0.05;
+    brighter += off > 0.05;
+  }
+  EXPECT_GT(brighter, 50);
+  EXPECT_LT(darker, brighter / 10);
+}
+
 // A sun that is a point: what one texel says. [effects-spec E.2]
 TEST(SoftShadow, PointSunIsHard) {
   constexpr PeterPanningDesc kPoint = {.angular_radius = 0};
