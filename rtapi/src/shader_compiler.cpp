@@ -4,10 +4,12 @@
 #include <filesystem>
 
 #include "rtapi/src/error_table.h"
+#include "rtapi/src/shader_reflection.h"
 #include "runtime/hlsl/driver/build_library.h"
 #include "runtime/hlsl/driver/frontend.h"
 #include "runtime/hlsl/driver/host_compiler.h"
 #include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/front/print_tokens.h"
 #include "runtime/hlsl/glsl/spirv.h"
 #include "runtime/hlsl/interpret/interpret.h"
 
@@ -40,6 +42,35 @@ hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
   out.strict = options.Strict;
   return out;
 }
+
+// Files that the application has.
+class CallbackLoader : public hlsl::FileLoader {
+ public:
+  explicit CallbackLoader(const ShaderCompileOptions& options) : options_(options) {}
+  std::optional<hlsl::LoadedFile> load(const std::string& path, std::string*) override {
+    std::optional<std::string> text = options_.ReadFile(path);
+    if (!text) return std::nullopt;
+    return hlsl::LoadedFile{path, hlsl::normalize_path(path), std::move(*text)};
+  }
+
+ private:
+  const ShaderCompileOptions& options_;
+};
+
+// What reads the files: the application, or the disk.
+class Loaders {
+ public:
+  explicit Loaders(const ShaderCompileOptions& options) : options_(options), callback_(options) {}
+  hlsl::FileLoader& chosen() {
+    if (options_.ReadFile) return callback_;
+    return disk_;
+  }
+
+ private:
+  const ShaderCompileOptions& options_;
+  CallbackLoader callback_;
+  hlsl::DiskFileLoader disk_;
+};
 
 ShaderDiagnosticSeverity severity_of(hlsl::Severity severity) {
   switch (severity) {
@@ -129,20 +160,40 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
 
 }  // namespace
 
+ShaderPreprocessing PreprocessShader(const ShaderCompileOptions& options) {
+  Loaders loaders(options);
+  hlsl::SourceManager sources(loaders.chosen());
+  hlsl::DiagnosticEngine diagnostics({.strict = options.Strict});
+  const auto tokens = hlsl::preprocess_source(frontend_options(options), sources, diagnostics);
+  ShaderPreprocessing out;
+  out.Diagnostics = convert(diagnostics, sources, options.NoWarnings);
+  if (!tokens || diagnostics.has_errors()) {
+    out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
+                                   hlsl::render_all(diagnostics, sources));
+    return out;
+  }
+  out.Text = hlsl::print_tokens(*tokens, sources);
+  return out;
+}
+
 ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
-  hlsl::DiskFileLoader loader;
-  hlsl::SourceManager sources(loader);
+  Loaders loaders(options);
+  hlsl::SourceManager sources(loaders.chosen());
   hlsl::DiagnosticEngine diagnostics({.strict = options.Strict});
   auto module = hlsl::compile_to_ir(frontend_options(options), sources, diagnostics);
 
   ShaderCompilation out;
   out.Diagnostics = convert(diagnostics, sources, options.NoWarnings);
   out.Dependencies = sources.loaded_paths();
+  for (const auto& [path, file] : sources.loaded_files()) {
+    out.Sources.push_back({path, file->text});
+  }
   if (!module || (options.WarningsAsErrors && diagnostics.warning_count() > 0)) {
     out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
                                    hlsl::render_all(diagnostics, sources));
     return out;
   }
+  out.Reflection = detail::Reflect(*module);
   if (options.CheckOnly) return out;
   if (options.Interpret) {
     interpret(options, std::move(module), out);

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <rtapi/result.h>
 #include <rtapi/shader_library.h>
+#include <rtapi/shader_reflection.h>
 
 namespace rtapi {
 
@@ -19,6 +21,13 @@ namespace rtapi {
 struct ShaderDefine {
   std::string Name = {};    ///< of the macro
   std::string Value = "1";  ///< what it stands for
+};
+
+/// The text of a file, and the path by which the compiler asked for it: "shaders/a.hlsli" where
+/// "shaders/main.hlsl" has `#include "a.hlsli"`.
+struct ShaderSourceFile {
+  std::string Path = {};  ///< with `/`
+  std::string Text = {};  ///< as it was read
 };
 
 /// What to compile and how. The members are DXC's options by their meaning.
@@ -29,12 +38,15 @@ struct ShaderCompileOptions {
   std::string EntryPoint = {};             ///< -E, unless a library
   std::vector<ShaderDefine> Defines = {};  ///< -D
   std::vector<std::string> IncludeDirectories = {};  ///< -I
-  std::vector<std::string> Exports = {};             ///< -exports "a;b=c"; empty: everything
-  std::optional<uint32_t> AutoBindingSpace = {};     ///< -auto-binding-space
-  std::string HlslVersion = "2021";                  ///< -HV: "2018", or else 2021
-  bool RowMajorMatrices = false;                     ///< -Zpr
-  bool Native16BitTypes = false;                     ///< -enable-16bit-types
-  bool ExternalLinkage = false;                      ///< -default-linkage external
+  /// Reads files instead of the disk, on the calling thread: the text at a path, or nothing if
+  /// there is no file, and the next of IncludeDirectories is tried. Empty: the disk is read.
+  std::function<std::optional<std::string>(const std::string& path)> ReadFile = {};
+  std::vector<std::string> Exports = {};          ///< -exports "a;b=c"; empty: everything
+  std::optional<uint32_t> AutoBindingSpace = {};  ///< -auto-binding-space
+  std::string HlslVersion = "2021";               ///< -HV: "2018", or else 2021
+  bool RowMajorMatrices = false;                  ///< -Zpr
+  bool Native16BitTypes = false;                  ///< -enable-16bit-types
+  bool ExternalLinkage = false;                   ///< -default-linkage external
   /// -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
   /// [DXR: Availability]
   std::optional<bool> PayloadQualifiers = {};
@@ -82,7 +94,10 @@ struct ShaderCompilation {
   ShaderLibrary Library;  ///< empty on error
   std::vector<ShaderDiagnostic> Diagnostics;  ///< in the order in which they were found
   std::vector<std::string> Dependencies;      ///< every file read, the main one first
-  bool FromCache = false;                     ///< nothing had to be built
+  /// The texts of all files that were read, by path; with Source, without the main one.
+  std::vector<ShaderSourceFile> Sources;
+  ShaderReflection Reflection;  ///< empty on error; with CheckOnly too
+  bool FromCache = false;       ///< nothing had to be built
 };
 
 /// Compiles HLSL into a library for both backends and loads it. Takes the C++ compiler's time,
@@ -93,5 +108,18 @@ struct ShaderCompilation {
 /// interpreter cannot run the code; KA2760, KA2761 no SPIR-V could be made of it; KA0910 the result
 /// cannot be loaded.
 ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options);
+
+/// What came of preprocessing.
+struct ShaderPreprocessing {
+  rtapi::Status Status;  ///< an error's message holds every error diagnostic's Text
+  std::string Text;      ///< with line directives; empty on error
+  std::vector<ShaderDiagnostic> Diagnostics;  ///< in the order in which they were found
+};
+
+/// Runs the preprocessor alone [DXC: -P]: macros are expanded and files included. Of the options,
+/// those of the source, of macros and files, Target and HlslVersion count.
+/// @errors in ShaderPreprocessing::Status: KA2752 the source or the target is wrong, which the
+/// diagnostics explain.
+ShaderPreprocessing PreprocessShader(const ShaderCompileOptions& options);
 
 }  // namespace rtapi

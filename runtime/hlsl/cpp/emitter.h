@@ -47,6 +47,8 @@ class CppEmitter {
  private:
   friend class WideEmitter;  // prints into the same unit
 
+  void emit_unoptimised();
+
   // types.cpp
   std::string type(const ir::Type* type);
   void emit_structs();

@@ -55,21 +55,12 @@ std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text)
   return requests;
 }
 
-std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, SourceManager& sources,
+std::optional<TokenList> preprocess_source(const FrontendOptions& options, SourceManager& sources,
                                            DiagnosticEngine& diagnostics) {
   const int minor = minor_version(options.target);
   if (minor < 0) {
     diagnostics.report(DiagnosticId::kUnknownTarget, {}, {options.target});
-    return nullptr;
-  }
-  const auto exports = parse_exports(options.exports);
-  if (!exports) {
-    diagnostics.report(DiagnosticId::kExportSyntax, {}, {options.exports});
-    return nullptr;
-  }
-  if (options.payload_qualifiers.value_or(false) && minor < 6) {
-    diagnostics.report(DiagnosticId::kPayloadTarget, {}, {options.target});
-    return nullptr;
+    return std::nullopt;
   }
   PreprocessOptions preprocess;
   preprocess.include_folders = options.include_folders;
@@ -81,10 +72,27 @@ std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, Sourc
   preprocess.shader_model_minor = static_cast<uint32_t>(minor);
   preprocess.hlsl_version = options.hlsl_version;
   preprocess.enable_16bit_types = options.native_16bit;
+  return options.text
+             ? preprocess_text(options.path, *options.text, preprocess, sources, diagnostics)
+             : preprocess_file(options.path, preprocess, sources, diagnostics);
+}
+
+std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, SourceManager& sources,
+                                           DiagnosticEngine& diagnostics) {
+  const int minor = minor_version(options.target);
+  const auto exports = parse_exports(options.exports);
+  if (minor >= 0 && !exports) {
+    diagnostics.report(DiagnosticId::kExportSyntax, {}, {options.exports});
+    return nullptr;
+  }
+  if (minor >= 0 && options.payload_qualifiers.value_or(false) && minor < 6) {
+    diagnostics.report(DiagnosticId::kPayloadTarget, {}, {options.target});
+    return nullptr;
+  }
+  auto tokens = preprocess_source(options, sources, diagnostics);
+  if (!tokens) return nullptr;
   auto parsed = std::make_unique<ParsedSource>();
-  parsed->tokens =
-      options.text ? preprocess_text(options.path, *options.text, preprocess, sources, diagnostics)
-                   : preprocess_file(options.path, preprocess, sources, diagnostics);
+  parsed->tokens = *std::move(tokens);
   // What the missing file declares would only be reported as undeclared.
   for (const Diagnostic& diagnostic : diagnostics.diagnostics()) {
     const bool is_missing = diagnostic.id == DiagnosticId::kIncludeNotFound ||

@@ -43,6 +43,10 @@ struct FrontendOptions {
 std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
                                           DiagnosticEngine& diagnostics);
 
+// Empty if a profile is unknown; errors of the source are in `diagnostics` only.
+std::optional<TokenList> preprocess_source(const FrontendOptions& options, SourceManager& sources,
+                                           DiagnosticEngine& diagnostics);
+
 // A source up to its syntax tree, and how it is to be checked.
 struct ParsedSource {
   TokenList tokens;

@@ -95,8 +95,8 @@ const std::vector<std::string>& flags_of(Optimisation optimisation) {
     return more;
   };
   static const std::vector<std::string> none = with({"-O0"});
-  // HLSL functions are not inlined and there is a frame pointer, so that the stack shows every
-  // shader function.
+  // For the headers' functions; shaders are not optimised at all (emit_unoptimised). A frame
+  // pointer shows the stack everywhere.
   static const std::vector<std::string> debug =
       with({"-Og", "-g", "-fno-inline-functions-called-once", "-fno-inline-small-functions",
             "-fno-optimize-sibling-calls", "-fno-omit-frame-pointer"});
