@@ -107,16 +107,24 @@ function(kaamos_install_headers)
       install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     endif()
   endforeach()
+  # What D3D12 programs include instead of Win32's headers, and Microsoft's own. They are in a folder
+  # of their own, because they have the names of Windows' headers.
+  if(TARGET kaamos_d3d12)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/d3d12/include/win" "${KAAMOS_DIRECTX_INCLUDE_DIR}/directx"
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos-d3d12" FILES_MATCHING PATTERN "*.h")
+    install(FILES "${KAAMOS_DIRECTX_INCLUDE_DIR}/wsl/wrladapter.h" "${KAAMOS_DIRECTX_INCLUDE_DIR}/wsl/winadapter.h"
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos-d3d12/wsl")
+  endif()
   # Headers of the effects include each other as "effects/...", which also works below
   # include/kaamos. Their shader files are installed with them.
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
     FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
-    PATTERN "*_test_support.h" EXCLUDE)
+    PATTERN "*_test_support.h" EXCLUDE PATTERN "*_fixture.h" EXCLUDE)
 endfunction()
 
 function(kaamos_install_package)
   kaamos_collect_libraries(libraries "${PROJECT_SOURCE_DIR}/runtime" "${PROJECT_SOURCE_DIR}/rtapi"
-    "${PROJECT_SOURCE_DIR}/effects")
+    "${PROJECT_SOURCE_DIR}/d3d12" "${PROJECT_SOURCE_DIR}/effects")
   foreach(library IN LISTS libraries)
     string(REGEX REPLACE "^kaamos_" "" name ${library})
     set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
@@ -128,7 +136,7 @@ function(kaamos_install_package)
   kaamos_collect_dependencies(KAAMOS_DEPENDENCIES ${libraries})
 
   set(programs)
-  foreach(program IN ITEMS kaamos-hlsl northlight kaamos-conformance)
+  foreach(program IN ITEMS kaamos-hlsl kaamos-dxc northlight kaamos-conformance)
     if(TARGET ${program})
       list(APPEND programs ${program})
       kaamos_add_alias(${program} ${program})
@@ -147,8 +155,8 @@ function(kaamos_install_package)
     COMPATIBILITY SameMinorVersion)
   install(FILES "${PROJECT_BINARY_DIR}/kaamosConfig.cmake" "${PROJECT_BINARY_DIR}/kaamosConfigVersion.cmake"
     DESTINATION "${KAAMOS_PACKAGE_DIR}")
-  install(FILES "${PROJECT_SOURCE_DIR}/cmake/KaamosShaders.cmake" DESTINATION "${KAAMOS_PACKAGE_DIR}"
-    OPTIONAL)
+  install(FILES "${PROJECT_SOURCE_DIR}/cmake/KaamosShaders.cmake" "${PROJECT_SOURCE_DIR}/cmake/KaamosD3d12.cmake"
+    DESTINATION "${KAAMOS_PACKAGE_DIR}" OPTIONAL)
   install(FILES "${PROJECT_SOURCE_DIR}/runtime/shader/gdb/kaamos_gdb.py"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/kaamos/gdb")
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

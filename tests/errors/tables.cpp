@@ -80,6 +80,15 @@ std::vector<Row> effects() {
   };
 }
 
+std::vector<Row> d3d12() {
+  return {
+#define KAAMOS_D3D12_ERROR(number, name, code, title, rule, cure) \
+  {number, "error", #code, title, rule, cure},
+#include "d3d12/com/errors.inc"
+#undef KAAMOS_D3D12_ERROR
+  };
+}
+
 // So that Markdown shows the text as it is. An underscore inside a word needs no escape.
 std::string escaped(std::string_view text) {
   const auto in_word = [&](size_t i) {
@@ -150,6 +159,11 @@ const std::vector<Layer>& all_layers() {
        "and pictures; KA302n: scenes; KA304n: frames. Table: `effects/common/errors.inc`.",
        {{3000, 3099}},
        effects()},
+      {"D3D12 facade",
+       "What `d3d12` itself refuses, by an `HRESULT` and a message of the info queue; what `rtapi` "
+       "refuses keeps its id. Table: `d3d12/com/errors.inc`.",
+       {{4000, 4099}},
+       d3d12()},
   };
   return layers;
 }

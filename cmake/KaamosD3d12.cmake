@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+# kaamos_add_d3d12_program: host code written for Windows and D3D12, compiled for Linux by clang.
+include_guard()
+
+# Sets KAAMOS_D3D12_HEADER_FOLDERS beforehand: folders whose headers stand for Win32's and DirectX's.
+
+find_program(KAAMOS_CLANG NAMES clang++ clang++-19 clang++-18 clang++-17 clang++-16 clang++-15 clang++-14)
+mark_as_advanced(KAAMOS_CLANG)
+
+# Windows' compiler extensions, without the macro that says it is Microsoft's compiler.
+set(KAAMOS_D3D12_COMPILE_OPTIONS
+  -fms-extensions -fms-compatibility -fms-compatibility-version=19.30 -U_MSC_VER
+  -Wno-unknown-pragmas -Wno-microsoft -Wno-nonportable-include-path)
+
+# Writes a header with the macros that clang defines for Linux and leaves out in MS mode, without
+# which the system's headers do not compile.
+function(kaamos_write_gnu_predefines file)
+  set(command "${KAAMOS_CLANG}" -x c++ -std=gnu++17 -dM -E /dev/null)
+  execute_process(COMMAND ${command} OUTPUT_VARIABLE gnu COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${command} ${KAAMOS_D3D12_COMPILE_OPTIONS} OUTPUT_VARIABLE ms COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE ";" "" gnu "${gnu}")
+  string(REPLACE "\n" ";" gnu "${gnu}")
+  set(text "")
+  foreach(line IN LISTS gnu)
+    string(REGEX MATCH "^#define ([A-Za-z0-9_]+)" name "${line}")
+    set(name "${CMAKE_MATCH_1}")
+    if(name AND NOT ms MATCHES "#define ${name}[ (\n]")
+      string(APPEND text "#ifndef ${name}\n${line}\n#endif\n")
+    endif()
+  endforeach()
+  file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT "${text}")
+endfunction()
+
+# Writes a file for clang's -ivfsoverlay that shows the headers of a list of folders, and below, in one
+# folder `root` whose names match in any case. The first folder wins. Where `root` is such a folder
+# itself, its own headers get the match.
+function(kaamos_write_header_overlay file root)
+  set(entries "")
+  set(seen)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB_RECURSE headers RELATIVE "${folder}" CONFIGURE_DEPENDS "${folder}/*.h" "${folder}/*.hpp" "${folder}/*.inl")
+    foreach(header IN LISTS headers)
+      string(TOLOWER "${header}" key)
+      if(key IN_LIST seen)
+        continue()
+      endif()
+      list(APPEND seen "${key}")
+      string(APPEND entries "  {'name': '${header}', 'type': 'file', 'external-contents': '${folder}/${header}'},\n")
+    endforeach()
+  endforeach()
+  file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT
+"{'version': 0, 'case-sensitive': 'false', 'use-external-names': 'true', 'roots': [
+ {'name': '${root}', 'type': 'directory', 'contents': [
+${entries} ]}]}
+")
+endfunction()
+
+# kaamos_add_d3d12_shader(SOURCE OUTPUT_VARIABLE [PROFILE lib_6_3] [ENTRY main] [HEADER file.h]
+#   [VARIABLE g_name] [OPTIONS more options of dxc ...])
+# Compiles an HLSL file by kaamos-dxc, at build time, to NAME.cso (NAME.ENTRY.cso) beside the programs; with HEADER
+# also to an array VARIABLE in that header, below a folder that is an include folder of programs.
+# Adds the files to the list OUTPUT_VARIABLE, for SHADERS of kaamos_add_d3d12_program.
+function(kaamos_add_d3d12_shader source outputs)
+  cmake_parse_arguments(arg "" "PROFILE;ENTRY;HEADER;VARIABLE" "OPTIONS" ${ARGN})
+  if(NOT arg_PROFILE)
+    set(arg_PROFILE lib_6_3)
+  endif()
+  get_filename_component(source "${source}" ABSOLUTE)
+  get_filename_component(name "${source}" NAME_WE)
+  if(arg_ENTRY)
+    string(APPEND name ".${arg_ENTRY}")
+  endif()
+  set(object "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.cso")
+  set(flags -T ${arg_PROFILE} ${arg_OPTIONS})
+  if(arg_ENTRY)
+    list(APPEND flags -E ${arg_ENTRY})
+  endif()
+  set(made "${object}")
+  if(arg_HEADER)
+    set(header "${CMAKE_CURRENT_BINARY_DIR}/d3d12_shaders/${arg_HEADER}")
+    get_filename_component(folder "${header}" DIRECTORY)
+    file(MAKE_DIRECTORY "${folder}")
+    list(APPEND flags -Fh "${header}")
+    list(APPEND made "${header}")
+    if(arg_VARIABLE)
+      list(APPEND flags -Vn ${arg_VARIABLE})
+    endif()
+  endif()
+  add_custom_command(
+    OUTPUT ${made}
+    COMMAND kaamos::kaamos-dxc ${flags} -Fo "${object}" -MF "${object}.d" "${source}"
+    DEPENDS "${source}" kaamos::kaamos-dxc
+    DEPFILE "${object}.d"
+    COMMENT "Compiling ${name} for D3D12"
+    VERBATIM)
+  set(${outputs} ${${outputs}} ${made} PARENT_SCOPE)
+endfunction()
+
+# kaamos_add_d3d12_program(TARGET SOURCES a.cpp ... [SHADERS files of kaamos_add_d3d12_shader ...]
+#   [INCLUDES folder ...] [DEFINES NAME=VALUE ...] [OPTIONS more options of clang ...])
+# Makes a program of sources that are written for Windows: <windows.h>, <d3d12.h>, <d3dx12.h>,
+# <dxgi1_6.h>, <wrl/client.h>, in any letter case and with backslashes; it begins in main, wmain,
+# WinMain or wWinMain. Without clang there is no target, and a status message says so.
+function(kaamos_add_d3d12_program target)
+  cmake_parse_arguments(arg "" "" "SOURCES;SHADERS;INCLUDES;DEFINES;OPTIONS" ${ARGN})
+  if(NOT arg_SOURCES)
+    message(FATAL_ERROR "kaamos_add_d3d12_program(${target}): no SOURCES given")
+  endif()
+  if(NOT KAAMOS_CLANG)
+    message(STATUS "${target} is left out: D3D12 programs need clang++ (Debian: package clang)")
+    return()
+  endif()
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}.d3d12")
+  set(overlays "${folder}/headers.yaml")
+  kaamos_write_header_overlay("${folder}/headers.yaml" "${folder}/headers" ${KAAMOS_D3D12_HEADER_FOLDERS})
+  set(includes)
+  foreach(own IN LISTS CMAKE_CURRENT_SOURCE_DIR arg_INCLUDES)
+    get_filename_component(own "${own}" ABSOLUTE)
+    string(MD5 name "${own}")
+    kaamos_write_header_overlay("${folder}/${name}.yaml" "${own}" "${own}")
+    list(APPEND overlays "${folder}/${name}.yaml")
+    list(APPEND includes -I "${own}")
+  endforeach()
+  kaamos_write_gnu_predefines("${folder}/gnu_predefines.h")
+  set(flags ${KAAMOS_D3D12_COMPILE_OPTIONS} -std=gnu++17 -fPIC -include "${folder}/gnu_predefines.h"
+    -I "${CMAKE_CURRENT_BINARY_DIR}/d3d12_shaders" ${includes} -isystem "${folder}/headers"
+    -include kaamos_crt.h)
+  foreach(overlay IN LISTS overlays)
+    list(APPEND flags -ivfsoverlay "${overlay}")
+  endforeach()
+  foreach(define IN LISTS arg_DEFINES)
+    list(APPEND flags "-D${define}")
+  endforeach()
+  set(objects)
+  foreach(source IN LISTS arg_SOURCES)
+    get_filename_component(source "${source}" ABSOLUTE)
+    get_filename_component(name "${source}" NAME)
+    get_filename_component(own "${source}" DIRECTORY)
+    set(object "${folder}/${name}.o")
+    add_custom_command(
+      OUTPUT "${object}"
+      COMMAND "${KAAMOS_CLANG}" ${flags} -I "${own}" "$<IF:$<CONFIG:Debug>,-O0;-g,-O2>" ${arg_OPTIONS}
+              -MD -MF "${object}.d" -c "${source}" -o "${object}"
+      DEPENDS "${source}" ${arg_SHADERS} ${overlays}
+      DEPFILE "${object}.d"
+      COMMENT "Building D3D12 program ${target}: ${name}"
+      COMMAND_EXPAND_LISTS
+      VERBATIM)
+    list(APPEND objects "${object}")
+  endforeach()
+  set_source_files_properties(${objects} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+  add_executable(${target} ${objects} ${arg_SHADERS})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(${target} PRIVATE kaamos::d3d12_main kaamos::d3d12)
+endfunction()

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// COM objects: identity, reference counts, and which interfaces an object has.
+#pragma once
+
+#include <atomic>
+#include <utility>
+
+#include <directx/d3d12.h>
+#include <directx/dxcore_interface.h>
+#include <dxcapi.h>
+#include <dxgi1_6.h>
+#include <dxgidebug.h>
+#include <kaamos_adapter.h>
+
+#include "d3d12/com/missing.h"
+#include "d3d12/generated/d3d12_entries.h"
+
+namespace kaamos::d3d12 {
+
+inline constexpr GUID kIUnknown = {0, 0, 0, {0xC0, 0, 0, 0, 0, 0, 0, 0x46}};
+
+/// An object with the interfaces of all of `Entries`, generated classes or classes that derive from
+/// them. It is born with one reference. Any version of an interface leads to the object, and all of
+/// them to the same IUnknown. [COM: QueryInterface rules]
+template <class First, class... Rest>
+class ComObject : public First, public Rest... {
+ public:
+  ComObject() = default;
+  template <class... Arguments>
+  explicit ComObject(std::in_place_t, Arguments&&... arguments)
+      : First(std::forward<Arguments>(arguments)...) {}
+  ComObject(const ComObject&) = delete;
+  ComObject& operator=(const ComObject&) = delete;
+
+  HRESULT STDMETHODCALLTYPE QueryInterface(REFIID riid, void** object) override {
+    if (object == nullptr) return E_POINTER;
+    void* found = nullptr;
+    if (riid == kIUnknown) {
+      found = static_cast<IUnknown*>(static_cast<First*>(this));
+    } else if (offers(riid)) {
+      found = find<First>(riid);
+      ((found = found != nullptr ? found : find<Rest>(riid)), ...);
+    }
+    *object = found;
+    if (found == nullptr) return E_NOINTERFACE;
+    AddRef();
+    return S_OK;
+  }
+
+  ULONG STDMETHODCALLTYPE AddRef() override {
+    return references_.fetch_add(1, std::memory_order_relaxed) + 1;
+  }
+
+  ULONG STDMETHODCALLTYPE Release() override {
+    const ULONG left = references_.fetch_sub(1, std::memory_order_acq_rel) - 1;
+    if (left == 0) delete this;
+    return left;
+  }
+
+ protected:
+  virtual ~ComObject() = default;
+  /// False hides an interface: that of the debug layer where it is off.
+  virtual bool offers(REFIID) const { return true; }
+
+ private:
+  // Versions derive from each other, so that the newest one serves for all.
+  template <class Entries>
+  void* find(REFIID riid) {
+    for (const InterfaceId& id : Entries::kInterfaces) {
+      if (riid == id.guid) return static_cast<Entries*>(this);
+    }
+    return nullptr;
+  }
+
+  std::atomic<ULONG> references_{1};
+};
+
+/// Hands a new object to the caller as the interface asked for. The object is freed if it does not
+/// have that interface, or if the caller only asked whether it could be made (S_FALSE).
+template <class Object>
+HRESULT hand_out(Object* made, REFIID riid, void** object) {
+  HRESULT result = S_FALSE;
+  if (object != nullptr) result = made->QueryInterface(riid, object);
+  made->Release();
+  return result;
+}
+
+}  // namespace kaamos::d3d12

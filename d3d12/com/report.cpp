@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "d3d12/com/report.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <string_view>
+
+namespace kaamos::d3d12 {
+
+namespace {
+
+struct Sinks {
+  std::recursive_mutex mutex;  // a callback of a queue may meet another error
+  std::map<uint64_t, MessageSink> sinks;
+  uint64_t next = 1;
+  int muted = 0;
+};
+
+Sinks& all_sinks() {
+  static Sinks sinks;
+  return sinks;
+}
+
+// Which messages are printed: those at least this grave. Severities count downwards.
+int printed_severity() {
+  const char* setting = std::getenv("KAAMOS_D3D12_MESSAGES");
+  const std::string_view text = setting != nullptr ? setting : "errors";
+  if (text == "none") return -1;
+  return text == "all" ? D3D12_MESSAGE_SEVERITY_MESSAGE : D3D12_MESSAGE_SEVERITY_ERROR;
+}
+
+const char* severity_name(D3D12_MESSAGE_SEVERITY severity) {
+  switch (severity) {
+    case D3D12_MESSAGE_SEVERITY_CORRUPTION:
+      return "CORRUPTION";
+    case D3D12_MESSAGE_SEVERITY_ERROR:
+      return "ERROR";
+    case D3D12_MESSAGE_SEVERITY_WARNING:
+      return "WARNING";
+    case D3D12_MESSAGE_SEVERITY_INFO:
+      return "INFO";
+    case D3D12_MESSAGE_SEVERITY_MESSAGE:
+      break;
+  }
+  return "MESSAGE";
+}
+
+}  // namespace
+
+HRESULT to_hresult(rtapi::ErrorCode code) {
+  switch (code) {
+    case rtapi::ErrorCode::kInvalidArgument:
+      return E_INVALIDARG;
+    case rtapi::ErrorCode::kInvalidCall:
+      return DXGI_ERROR_INVALID_CALL;
+    case rtapi::ErrorCode::kOutOfMemory:
+      return E_OUTOFMEMORY;
+    case rtapi::ErrorCode::kUnsupported:
+      return DXGI_ERROR_UNSUPPORTED;
+    case rtapi::ErrorCode::kNotFound:
+      return DXGI_ERROR_NOT_FOUND;
+    case rtapi::ErrorCode::kDeviceRemoved:
+      return DXGI_ERROR_DEVICE_REMOVED;
+    case rtapi::ErrorCode::kFailed:
+      break;
+  }
+  return E_FAIL;
+}
+
+void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+  Sinks& all = all_sinks();
+  // One message at a time, so that lines of several threads do not mix.
+  std::lock_guard lock(all.mutex);
+  if (all.muted == 0 && severity <= printed_severity()) {
+    std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), error.message.c_str());
+  }
+  for (auto& [id, sink] : all.sinks) sink(severity, error);
+}
+
+void mute_output(bool muted) {
+  Sinks& all = all_sinks();
+  std::lock_guard lock(all.mutex);
+  all.muted += muted ? 1 : -1;
+}
+
+HRESULT fail(const rtapi::Error& error) {
+  report(D3D12_MESSAGE_SEVERITY_ERROR, error);
+  return to_hresult(error.code);
+}
+
+HRESULT fail(ErrorId id, const std::string& detail) {
+  return fail(make_error(id, detail));
+}
+
+HRESULT check(const rtapi::Status& status) {
+  return status.ok() ? S_OK : fail(status.error());
+}
+
+uint64_t add_sink(MessageSink sink) {
+  Sinks& all = all_sinks();
+  std::lock_guard lock(all.mutex);
+  all.sinks.emplace(all.next, std::move(sink));
+  return all.next++;
+}
+
+void remove_sink(uint64_t id) {
+  Sinks& all = all_sinks();
+  std::lock_guard lock(all.mutex);
+  all.sinks.erase(id);
+}
+
+}  // namespace kaamos::d3d12

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What the private part of a shader's container holds: the options and every file that the
+// compiler read, so that the shader can be compiled for either backend where it is used.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <rtapi/shader_compiler.h>
+
+#include "d3d12/container/container.h"
+
+namespace kaamos::d3d12 {
+
+inline constexpr uint32_t kSourcePart = fourcc("KAAM");
+
+struct ShaderSource {
+  rtapi::ShaderCompileOptions options;  // Source holds the main file; ReadFile is empty
+  std::vector<rtapi::ShaderSourceFile> files;
+};
+
+std::vector<std::byte> write_source(const ShaderSource& source);
+/// @errors KA4020 the part was made by another version of this library, or is damaged.
+rtapi::Result<ShaderSource> read_source(std::span<const std::byte> part);
+
+/// The source of a container.
+/// @errors KA4020 it is no container, or one of another compiler.
+rtapi::Result<ShaderSource> source_of_container(const void* bytes, size_t size);
+
+/// The options with the files as what `#include` finds.
+rtapi::ShaderCompileOptions compile_options(ShaderSource source);
+
+}  // namespace kaamos::d3d12

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Threads and this process. [Win32: processthreadsapi.h]
+#pragma once
+
+#include <handleapi.h>
+#include <kaamos_text.h>
+#include <stdlib.h>
+
+typedef DWORD(WINAPI* LPTHREAD_START_ROUTINE)(LPVOID);
+#define CREATE_SUSPENDED 0x4
+#define THREAD_PRIORITY_NORMAL 0
+#define THREAD_PRIORITY_ABOVE_NORMAL 1
+#define THREAD_PRIORITY_HIGHEST 2
+
+/// The handle is set when the thread has ended. `flags` must be 0.
+EXTERN_C HANDLE WINAPI CreateThread(LPSECURITY_ATTRIBUTES attributes, SIZE_T stack_size,
+                                    LPTHREAD_START_ROUTINE start, LPVOID parameter, DWORD flags,
+                                    LPDWORD id);
+EXTERN_C DWORD WINAPI GetCurrentThreadId();
+EXTERN_C DWORD WINAPI GetCurrentProcessId();
+inline HANDLE GetCurrentThread() {
+  return (HANDLE)(LONG_PTR)-2;
+}
+inline BOOL SetThreadPriority(HANDLE, int) {
+  return TRUE;
+}
+inline HRESULT SetThreadDescription(HANDLE, PCWSTR) {
+  return S_OK;
+}
+inline BOOL SwitchToThread() {
+  return FALSE;
+}
+[[noreturn]] inline void ExitProcess(UINT code) {
+  exit((int)code);
+}

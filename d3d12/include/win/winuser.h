@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Windows of a program: of the size it asks for, never shown, without input. A window lives for
+// KAAMOS_FRAMES frames (default 3), then it is closed as if its user had done so.
+// [Win32: winuser.h, wingdi.h]
+#pragma once
+
+#include <handleapi.h>
+#include <kaamos_text.h>
+#include <windef.h>
+
+typedef LRESULT(CALLBACK* WNDPROC)(HWND, UINT, WPARAM, LPARAM);
+
+typedef struct tagWNDCLASSEXA {
+  UINT cbSize;
+  UINT style;
+  WNDPROC lpfnWndProc;
+  int cbClsExtra;
+  int cbWndExtra;
+  HINSTANCE hInstance;
+  HICON hIcon;
+  HCURSOR hCursor;
+  HBRUSH hbrBackground;
+  LPCSTR lpszMenuName;
+  LPCSTR lpszClassName;
+  HICON hIconSm;
+} WNDCLASSEXA, *LPWNDCLASSEXA;
+typedef struct tagWNDCLASSEXW {
+  UINT cbSize;
+  UINT style;
+  WNDPROC lpfnWndProc;
+  int cbClsExtra;
+  int cbWndExtra;
+  HINSTANCE hInstance;
+  HICON hIcon;
+  HCURSOR hCursor;
+  HBRUSH hbrBackground;
+  LPCWSTR lpszMenuName;
+  LPCWSTR lpszClassName;
+  HICON hIconSm;
+} WNDCLASSEXW, *LPWNDCLASSEXW;
+typedef struct tagWNDCLASSA {
+  UINT style;
+  WNDPROC lpfnWndProc;
+  int cbClsExtra;
+  int cbWndExtra;
+  HINSTANCE hInstance;
+  HICON hIcon;
+  HCURSOR hCursor;
+  HBRUSH hbrBackground;
+  LPCSTR lpszMenuName;
+  LPCSTR lpszClassName;
+} WNDCLASSA, *LPWNDCLASSA;
+typedef struct tagWNDCLASSW {
+  UINT style;
+  WNDPROC lpfnWndProc;
+  int cbClsExtra;
+  int cbWndExtra;
+  HINSTANCE hInstance;
+  HICON hIcon;
+  HCURSOR hCursor;
+  HBRUSH hbrBackground;
+  LPCWSTR lpszMenuName;
+  LPCWSTR lpszClassName;
+} WNDCLASSW, *LPWNDCLASSW;
+typedef struct tagCREATESTRUCTA {
+  LPVOID lpCreateParams;
+  HINSTANCE hInstance;
+  HMENU hMenu;
+  HWND hwndParent;
+  int cy;
+  int cx;
+  int y;
+  int x;
+  LONG style;
+  LPCSTR lpszName;
+  LPCSTR lpszClass;
+  DWORD dwExStyle;
+} CREATESTRUCTA, *LPCREATESTRUCTA;
+typedef struct tagCREATESTRUCTW {
+  LPVOID lpCreateParams;
+  HINSTANCE hInstance;
+  HMENU hMenu;
+  HWND hwndParent;
+  int cy;
+  int cx;
+  int y;
+  int x;
+  LONG style;
+  LPCWSTR lpszName;
+  LPCWSTR lpszClass;
+  DWORD dwExStyle;
+} CREATESTRUCTW, *LPCREATESTRUCTW;
+typedef struct tagMSG {
+  HWND hwnd;
+  UINT message;
+  WPARAM wParam;
+  LPARAM lParam;
+  DWORD time;
+  POINT pt;
+} MSG, *PMSG, *LPMSG;
+typedef struct tagPAINTSTRUCT {
+  HDC hdc;
+  BOOL fErase;
+  RECT rcPaint;
+  BOOL fRestore;
+  BOOL fIncUpdate;
+  BYTE rgbReserved[32];
+} PAINTSTRUCT, *PPAINTSTRUCT, *LPPAINTSTRUCT;
+typedef struct tagMINMAXINFO {
+  POINT ptReserved;
+  POINT ptMaxSize;
+  POINT ptMaxPosition;
+  POINT ptMinTrackSize;
+  POINT ptMaxTrackSize;
+} MINMAXINFO, *PMINMAXINFO, *LPMINMAXINFO;
+typedef struct tagMONITORINFO {
+  DWORD cbSize;
+  RECT rcMonitor;
+  RECT rcWork;
+  DWORD dwFlags;
+} MONITORINFO, *LPMONITORINFO;
+
+KAAMOS_TEXT_TYPE(WNDCLASSEX);
+KAAMOS_TEXT_TYPE(WNDCLASS);
+KAAMOS_TEXT_TYPE(CREATESTRUCT);
+KAAMOS_TEXT_TYPE(LPCREATESTRUCT);
+
+#include <winuser_constants.h>
+
+// Classes and windows
+EXTERN_C ATOM WINAPI RegisterClassA(const WNDCLASSA* desc);
+EXTERN_C ATOM WINAPI RegisterClassW(const WNDCLASSW* desc);
+EXTERN_C ATOM WINAPI RegisterClassExA(const WNDCLASSEXA* desc);
+EXTERN_C ATOM WINAPI RegisterClassExW(const WNDCLASSEXW* desc);
+EXTERN_C BOOL WINAPI UnregisterClassA(LPCSTR name, HINSTANCE instance);
+EXTERN_C BOOL WINAPI UnregisterClassW(LPCWSTR name, HINSTANCE instance);
+/// CW_USEDEFAULT is 1280 by 720. Frames and title bars take no space.
+///@{
+EXTERN_C HWND WINAPI CreateWindowExA(DWORD ex_style, LPCSTR class_name, LPCSTR title, DWORD style,
+                                     int x, int y, int width, int height, HWND parent, HMENU menu,
+                                     HINSTANCE instance, LPVOID parameter);
+EXTERN_C HWND WINAPI CreateWindowExW(DWORD ex_style, LPCWSTR class_name, LPCWSTR title, DWORD style,
+                                     int x, int y, int width, int height, HWND parent, HMENU menu,
+                                     HINSTANCE instance, LPVOID parameter);
+///@}
+EXTERN_C BOOL WINAPI DestroyWindow(HWND window);
+EXTERN_C BOOL WINAPI IsWindow(HWND window);
+EXTERN_C BOOL WINAPI ShowWindow(HWND window, int command);
+EXTERN_C BOOL WINAPI UpdateWindow(HWND window);
+EXTERN_C BOOL WINAPI IsWindowVisible(HWND window);
+EXTERN_C BOOL WINAPI SetWindowPos(HWND window, HWND after, int x, int y, int width, int height,
+                                  UINT flags);
+EXTERN_C BOOL WINAPI MoveWindow(HWND window, int x, int y, int width, int height, BOOL repaint);
+EXTERN_C BOOL WINAPI GetClientRect(HWND window, LPRECT rect);
+EXTERN_C BOOL WINAPI GetWindowRect(HWND window, LPRECT rect);
+EXTERN_C LONG_PTR WINAPI SetWindowLongPtrA(HWND window, int index, LONG_PTR value);
+EXTERN_C LONG_PTR WINAPI SetWindowLongPtrW(HWND window, int index, LONG_PTR value);
+EXTERN_C LONG_PTR WINAPI GetWindowLongPtrA(HWND window, int index);
+EXTERN_C LONG_PTR WINAPI GetWindowLongPtrW(HWND window, int index);
+EXTERN_C BOOL WINAPI SetWindowTextA(HWND window, LPCSTR text);
+EXTERN_C BOOL WINAPI SetWindowTextW(HWND window, LPCWSTR text);
+EXTERN_C int WINAPI GetWindowTextA(HWND window, LPSTR text, int count);
+EXTERN_C int WINAPI GetWindowTextW(HWND window, LPWSTR text, int count);
+
+// Messages
+EXTERN_C BOOL WINAPI PeekMessageA(LPMSG message, HWND window, UINT first, UINT last, UINT remove);
+EXTERN_C BOOL WINAPI PeekMessageW(LPMSG message, HWND window, UINT first, UINT last, UINT remove);
+EXTERN_C BOOL WINAPI GetMessageA(LPMSG message, HWND window, UINT first, UINT last);
+EXTERN_C BOOL WINAPI GetMessageW(LPMSG message, HWND window, UINT first, UINT last);
+EXTERN_C LRESULT WINAPI DispatchMessageA(const MSG* message);
+EXTERN_C LRESULT WINAPI DispatchMessageW(const MSG* message);
+EXTERN_C LRESULT WINAPI SendMessageA(HWND window, UINT message, WPARAM wparam, LPARAM lparam);
+EXTERN_C LRESULT WINAPI SendMessageW(HWND window, UINT message, WPARAM wparam, LPARAM lparam);
+EXTERN_C BOOL WINAPI PostMessageA(HWND window, UINT message, WPARAM wparam, LPARAM lparam);
+EXTERN_C BOOL WINAPI PostMessageW(HWND window, UINT message, WPARAM wparam, LPARAM lparam);
+EXTERN_C LRESULT WINAPI DefWindowProcA(HWND window, UINT message, WPARAM wparam, LPARAM lparam);
+EXTERN_C LRESULT WINAPI DefWindowProcW(HWND window, UINT message, WPARAM wparam, LPARAM lparam);
+EXTERN_C void WINAPI PostQuitMessage(int code);
+EXTERN_C HDC WINAPI BeginPaint(HWND window, LPPAINTSTRUCT paint);
+EXTERN_C BOOL WINAPI EndPaint(HWND window, const PAINTSTRUCT* paint);
+EXTERN_C BOOL WINAPI ValidateRect(HWND window, const RECT* rect);
+EXTERN_C BOOL WINAPI InvalidateRect(HWND window, const RECT* rect, BOOL erase);
+inline BOOL TranslateMessage(const MSG*) {
+  return FALSE;
+}
+
+/// Writes to the standard error stream; the answer is IDOK, or IDYES where there is no such button.
+///@{
+EXTERN_C int WINAPI MessageBoxA(HWND window, LPCSTR text, LPCSTR caption, UINT type);
+EXTERN_C int WINAPI MessageBoxW(HWND window, LPCWSTR text, LPCWSTR caption, UINT type);
+///@}
+/// The one monitor has 1920 by 1080 pixels.
+///@{
+EXTERN_C int WINAPI GetSystemMetrics(int index);
+EXTERN_C BOOL WINAPI GetMonitorInfoA(HMONITOR monitor, LPMONITORINFO info);
+EXTERN_C BOOL WINAPI GetMonitorInfoW(HMONITOR monitor, LPMONITORINFO info);
+///@}
+
+// Frames take no space, so that a window's rectangle is that of its content.
+inline BOOL AdjustWindowRect(LPRECT, DWORD, BOOL) {
+  return TRUE;
+}
+inline BOOL AdjustWindowRectEx(LPRECT, DWORD, BOOL, DWORD) {
+  return TRUE;
+}
+inline HMONITOR MonitorFromWindow(HWND, DWORD) {
+  return (HMONITOR)(LONG_PTR)1;
+}
+
+// There is no input, cursor or icon.
+inline HCURSOR LoadCursorA(HINSTANCE, LPCSTR) {
+  return (HCURSOR)(LONG_PTR)1;
+}
+inline HCURSOR LoadCursorW(HINSTANCE, LPCWSTR) {
+  return (HCURSOR)(LONG_PTR)1;
+}
+inline HICON LoadIconA(HINSTANCE, LPCSTR) {
+  return (HICON)(LONG_PTR)1;
+}
+inline HICON LoadIconW(HINSTANCE, LPCWSTR) {
+  return (HICON)(LONG_PTR)1;
+}
+inline HCURSOR SetCursor(HCURSOR) {
+  return NULL;
+}
+inline int ShowCursor(BOOL show) {
+  return show ? 0 : -1;
+}
+inline SHORT GetAsyncKeyState(int) {
+  return 0;
+}
+inline SHORT GetKeyState(int) {
+  return 0;
+}
+inline BOOL GetCursorPos(LPPOINT point) {
+  return point->x = point->y = 0, TRUE;
+}
+inline BOOL SetCursorPos(int, int) {
+  return TRUE;
+}
+inline BOOL ScreenToClient(HWND, LPPOINT) {
+  return TRUE;
+}
+inline BOOL ClientToScreen(HWND, LPPOINT) {
+  return TRUE;
+}
+inline HWND SetCapture(HWND) {
+  return NULL;
+}
+inline BOOL ReleaseCapture() {
+  return TRUE;
+}
+inline HWND SetFocus(HWND) {
+  return NULL;
+}
+inline BOOL SetForegroundWindow(HWND) {
+  return TRUE;
+}
+inline BOOL SetProcessDPIAware() {
+  return TRUE;
+}
+inline UINT GetDpiForWindow(HWND) {
+  return 96;
+}
+
+// Nothing is drawn with GDI.
+typedef DWORD COLORREF;
+#define RGB(r, g, b) ((COLORREF)((r) | ((g) << 8) | ((b) << 16)))
+#define WHITE_BRUSH 0
+#define BLACK_BRUSH 4
+inline HGDIOBJ GetStockObject(int index) {
+  return (HGDIOBJ)(LONG_PTR)(index + 1);
+}
+inline BOOL DeleteObject(HGDIOBJ) {
+  return TRUE;
+}
+inline HDC GetDC(HWND) {
+  return (HDC)(LONG_PTR)1;
+}
+inline int ReleaseDC(HWND, HDC) {
+  return 1;
+}
+
+KAAMOS_TEXT_CALL(RegisterClass);
+KAAMOS_TEXT_CALL(RegisterClassEx);
+KAAMOS_TEXT_CALL(UnregisterClass);
+KAAMOS_TEXT_CALL(CreateWindowEx);
+KAAMOS_TEXT_CALL(SetWindowLongPtr);
+KAAMOS_TEXT_CALL(GetWindowLongPtr);
+KAAMOS_TEXT_CALL(SetWindowText);
+KAAMOS_TEXT_CALL(GetWindowText);
+KAAMOS_TEXT_CALL(PeekMessage);
+KAAMOS_TEXT_CALL(GetMessage);
+KAAMOS_TEXT_CALL(DispatchMessage);
+KAAMOS_TEXT_CALL(SendMessage);
+KAAMOS_TEXT_CALL(PostMessage);
+KAAMOS_TEXT_CALL(DefWindowProc);
+KAAMOS_TEXT_CALL(MessageBox);
+KAAMOS_TEXT_CALL(GetMonitorInfo);
+KAAMOS_TEXT_CALL(LoadCursor);
+KAAMOS_TEXT_CALL(LoadIcon);
+template <class... Arguments>
+HWND CreateWindow(Arguments... arguments) {
+  return CreateWindowEx(0, arguments...);
+}

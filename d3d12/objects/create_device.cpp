@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// D3D12CreateDevice, and the other functions that hand out the first object.
+#include <cstdlib>
+
+#include <kaamos_adapter.h>
+#include "d3d12/objects/debug.h"
+#include "d3d12/objects/device.h"
+
+namespace kaamos::d3d12 {
+
+namespace {
+
+// The backend of an adapter; without one, KAAMOS_BACKEND's, else the first.
+std::string backend_of(IUnknown* adapter) {
+  Microsoft::WRL::ComPtr<IKaamosAdapter> ours;
+  if (adapter != nullptr &&
+      SUCCEEDED(adapter->QueryInterface(__uuidof(IKaamosAdapter),
+                                        reinterpret_cast<void**>(ours.GetAddressOf())))) {
+    return ours->GetBackend();
+  }
+  const char* chosen = std::getenv("KAAMOS_BACKEND");
+  return chosen != nullptr ? chosen : "";
+}
+
+// The number of a backend in the list of devices, which DXGI's adapters have too.
+LUID luid_of(const std::string& backend) {
+  const auto devices = rtapi::EnumerateDevices();
+  for (size_t i = 0; i < devices.size(); ++i) {
+    if (devices[i].Backend == backend) return {static_cast<DWORD>(i + 1), 0};
+  }
+  return {0, 0};
+}
+
+D3D12_MESSAGE_SEVERITY severity_of(rtapi::MessageSeverity severity) {
+  switch (severity) {
+    case rtapi::MessageSeverity::kInfo:
+      return D3D12_MESSAGE_SEVERITY_INFO;
+    case rtapi::MessageSeverity::kWarning:
+      return D3D12_MESSAGE_SEVERITY_WARNING;
+    case rtapi::MessageSeverity::kError:
+      break;
+  }
+  return D3D12_MESSAGE_SEVERITY_ERROR;
+}
+
+HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, void** device) {
+  if (device != nullptr) *device = nullptr;
+  if (level > D3D_FEATURE_LEVEL_12_1) {
+    return fail(ErrorId::kAdapter, "D3D12CreateDevice: MinimumFeatureLevel is " +
+                                       std::to_string(level) +
+                                       "; the highest is 49408 (D3D_FEATURE_LEVEL_12_1).");
+  }
+  rtapi::DeviceDesc desc;
+  std::string backend = backend_of(adapter);
+  if (backend.empty()) {
+    const auto devices = rtapi::EnumerateDevices();
+    if (devices.empty()) {
+      return fail(ErrorId::kAdapter, "D3D12CreateDevice: this build has no backend.");
+    }
+    backend = devices.front().Backend;
+  }
+  desc.Backend = backend;
+  desc.Checked = debug_layer_enabled();
+  desc.OnMessage = [](const rtapi::Message& message) {
+    report(severity_of(message.Severity), {message.Id, rtapi::ErrorCode::kFailed, message.Text});
+  };
+  auto made = rtapi::CreateDevice(desc);
+  if (!made) return fail(made.error());
+  return hand_out(new Device(*made, desc.Checked, luid_of(backend)), riid, device);
+}
+
+}  // namespace
+
+}  // namespace kaamos::d3d12
+
+using namespace kaamos::d3d12;  // NOLINT: the exported functions below are global
+
+extern "C" {
+
+HRESULT WINAPI D3D12CreateDevice(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid,
+                                 void** device) {
+  return create_device(adapter, level, riid, device);
+}
+
+HRESULT WINAPI D3D12GetDebugInterface(REFIID riid, void** debug) {
+  return get_debug_interface(riid, debug);
+}
+
+// Experimental shader models are those that are not signed, which every shader is here.
+HRESULT WINAPI D3D12EnableExperimentalFeatures(UINT count, const IID* ids, void*, UINT*) {
+  for (UINT i = 0; i < count; ++i) {
+    if (ids[i] != D3D12ExperimentalShaderModels) {
+      return fail(ErrorId::kAdapter, "D3D12EnableExperimentalFeatures: pIIDs[" + std::to_string(i) +
+                                         "] is not D3D12ExperimentalShaderModels, the only one.");
+    }
+  }
+  return S_OK;
+}
+
+HRESULT WINAPI D3D12GetInterface(REFCLSID class_id, REFIID riid, void** object) {
+  if (class_id == CLSID_D3D12Debug) return get_debug_interface(riid, object);
+  if (object != nullptr) *object = nullptr;
+  return fail(ErrorId::kAdapter,
+              "D3D12GetInterface: the class is not CLSID_D3D12Debug, the only one.");
+}
+
+}  // extern "C"

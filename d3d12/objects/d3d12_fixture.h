@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A device of the facade for tests, and the messages that it gave.
+#pragma once
+
+#include <windows.h>
+
+#include <directx/d3d12.h>
+#include <dxguids/dxguids.h>
+#include <gtest/gtest.h>
+#include <wrl/client.h>
+
+#include <string>
+#include <vector>
+
+#include "d3d12/com/report.h"
+
+namespace kaamos::d3d12 {
+
+using Microsoft::WRL::ComPtr;
+
+class D3d12Test : public testing::Test {
+ protected:
+  void SetUp() override {
+    mute_output(true);
+    sink_ = add_sink([this](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+      if (severity <= D3D12_MESSAGE_SEVERITY_ERROR) messages_.push_back(error.message);
+    });
+    ASSERT_EQ(
+        D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(device_.GetAddressOf())),
+        S_OK);
+    D3D12_COMMAND_QUEUE_DESC queue = {};
+    ASSERT_EQ(device_->CreateCommandQueue(&queue, IID_PPV_ARGS(queue_.GetAddressOf())), S_OK);
+    ASSERT_EQ(device_->CreateCommandAllocator(D3D12_COMMAND_LIST_TYPE_DIRECT,
+                                              IID_PPV_ARGS(allocator_.GetAddressOf())),
+              S_OK);
+    ASSERT_EQ(device_->CreateCommandList(0, D3D12_COMMAND_LIST_TYPE_DIRECT, allocator_.Get(),
+                                         nullptr, IID_PPV_ARGS(list_.GetAddressOf())),
+              S_OK);
+  }
+
+  void TearDown() override {
+    remove_sink(sink_);
+    mute_output(false);
+  }
+
+  ComPtr<ID3D12Resource> buffer(UINT64 bytes, D3D12_HEAP_TYPE type,
+                                D3D12_RESOURCE_STATES state = D3D12_RESOURCE_STATE_COMMON,
+                                D3D12_RESOURCE_FLAGS flags = D3D12_RESOURCE_FLAG_NONE) {
+    D3D12_HEAP_PROPERTIES heap = {};
+    heap.Type = type;
+    D3D12_RESOURCE_DESC desc = {};
+    desc.Dimension = D3D12_RESOURCE_DIMENSION_BUFFER;
+    desc.Width = bytes;
+    desc.Height = desc.DepthOrArraySize = desc.MipLevels = 1;
+    desc.SampleDesc.Count = 1;
+    desc.Layout = D3D12_TEXTURE_LAYOUT_ROW_MAJOR;
+    desc.Flags = flags;
+    ComPtr<ID3D12Resource> out;
+    EXPECT_EQ(device_->CreateCommittedResource(&heap, D3D12_HEAP_FLAG_NONE, &desc, state, nullptr,
+                                               IID_PPV_ARGS(out.GetAddressOf())),
+              S_OK);
+    return out;
+  }
+
+  // Closes and runs the list, waits as programs do, and opens it again.
+  void run() {
+    ASSERT_EQ(list_->Close(), S_OK);
+    ID3D12CommandList* lists[] = {list_.Get()};
+    queue_->ExecuteCommandLists(1, lists);
+    ComPtr<ID3D12Fence> fence;
+    ASSERT_EQ(device_->CreateFence(0, D3D12_FENCE_FLAG_NONE, IID_PPV_ARGS(fence.GetAddressOf())),
+              S_OK);
+    ASSERT_EQ(queue_->Signal(fence.Get(), 1), S_OK);
+    const HANDLE event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+    ASSERT_EQ(fence->SetEventOnCompletion(1, event), S_OK);
+    ASSERT_EQ(WaitForSingleObject(event, INFINITE), WAIT_OBJECT_0);
+    CloseHandle(event);
+    ASSERT_EQ(allocator_->Reset(), S_OK);
+    ASSERT_EQ(list_->Reset(allocator_.Get(), nullptr), S_OK);
+  }
+
+  ComPtr<ID3D12Device5> device_;
+  ComPtr<ID3D12CommandQueue> queue_;
+  ComPtr<ID3D12CommandAllocator> allocator_;
+  ComPtr<ID3D12GraphicsCommandList4> list_;
+  std::vector<std::string> messages_;
+
+ private:
+  uint64_t sink_ = 0;
+};
+
+}  // namespace kaamos::d3d12

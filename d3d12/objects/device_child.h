@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// ID3D12DeviceChild: an object that keeps its device alive.
+#pragma once
+
+#include <wrl/client.h>
+
+#include "d3d12/com/private_data.h"
+
+namespace kaamos::d3d12 {
+
+class Device;
+
+/// What a device made. `First` derives from ID3D12DeviceChild.
+template <class First, class... Rest>
+class DeviceChild : public NamedObject<First, Rest...> {
+ public:
+  /// `device`: the device as ID3D12Device, which stays alive as long as the object.
+  explicit DeviceChild(ID3D12Device* device) : device_(device) {}
+
+  HRESULT STDMETHODCALLTYPE GetDevice(REFIID riid, void** device) override {
+    return device_->QueryInterface(riid, device);
+  }
+
+ protected:
+  ID3D12Device* device() const { return device_.Get(); }
+
+ private:
+  Microsoft::WRL::ComPtr<ID3D12Device> device_;
+};
+
+}  // namespace kaamos::d3d12

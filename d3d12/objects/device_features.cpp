@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// CheckFeatureSupport: what rtapi has, and no more.
+#include <cstring>
+
+#include "d3d12/objects/device.h"
+#include "d3d12/objects/format_support.h"
+
+namespace kaamos::d3d12 {
+
+namespace {
+
+// Answers a query whose structure is `Data`, if the size is right.
+template <class Data, class Fill>
+HRESULT answer(void* data, UINT size, const Fill& fill) {
+  if (data == nullptr || size != sizeof(Data)) {
+    return fail(ErrorId::kNullPointer, "CheckFeatureSupport: pFeatureSupportData is null, or of " +
+                                           std::to_string(size) + " bytes instead of " +
+                                           std::to_string(sizeof(Data)) + ".");
+  }
+  return fill(*static_cast<Data*>(data));
+}
+
+// The same for structures that only hold answers: what `fill` does not set is no.
+template <class Data, class Fill>
+HRESULT options(void* data, UINT size, const Fill& fill) {
+  return answer<Data>(data, size, [&](Data& out) {
+    out = {};
+    fill(out);
+    return S_OK;
+  });
+}
+
+constexpr D3D_FEATURE_LEVEL kHighestLevel = D3D_FEATURE_LEVEL_12_1;
+constexpr D3D_SHADER_MODEL kHighestShaderModel = D3D_SHADER_MODEL_6_6;
+constexpr UINT kAddressBits = 40;  // of a buffer; BufferDesc::SizeInBytes
+
+HRESULT feature_levels(D3D12_FEATURE_DATA_FEATURE_LEVELS& out) {
+  if (out.NumFeatureLevels == 0 || out.pFeatureLevelsRequested == nullptr) return E_INVALIDARG;
+  out.MaxSupportedFeatureLevel = {};
+  for (UINT i = 0; i < out.NumFeatureLevels; ++i) {
+    const D3D_FEATURE_LEVEL level = out.pFeatureLevelsRequested[i];
+    if (level <= kHighestLevel) {
+      out.MaxSupportedFeatureLevel = std::max(out.MaxSupportedFeatureLevel, level);
+    }
+  }
+  return S_OK;
+}
+
+}  // namespace
+
+HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size) {
+  switch (feature) {
+    case D3D12_FEATURE_D3D12_OPTIONS:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS>(data, size, [](auto& out) {
+        out.DoublePrecisionFloatShaderOps = TRUE;
+        out.ResourceBindingTier = D3D12_RESOURCE_BINDING_TIER_3;
+        out.TypedUAVLoadAdditionalFormats = TRUE;
+        out.MaxGPUVirtualAddressBitsPerResource = kAddressBits;
+        out.VPAndRTArrayIndexFromAnyShaderFeedingRasterizerSupportedWithoutGSEmulation = TRUE;
+        out.ResourceHeapTier = D3D12_RESOURCE_HEAP_TIER_2;
+      });
+    case D3D12_FEATURE_ARCHITECTURE:
+      return answer<D3D12_FEATURE_DATA_ARCHITECTURE>(data, size, [](auto& out) {
+        if (out.NodeIndex != 0) return E_INVALIDARG;
+        out = {0, FALSE, TRUE, TRUE};
+        return S_OK;
+      });
+    case D3D12_FEATURE_ARCHITECTURE1:
+      return answer<D3D12_FEATURE_DATA_ARCHITECTURE1>(data, size, [](auto& out) {
+        if (out.NodeIndex != 0) return E_INVALIDARG;
+        out = {0, FALSE, TRUE, TRUE, FALSE};
+        return S_OK;
+      });
+    case D3D12_FEATURE_FEATURE_LEVELS:
+      return answer<D3D12_FEATURE_DATA_FEATURE_LEVELS>(data, size, feature_levels);
+    case D3D12_FEATURE_FORMAT_SUPPORT:
+      return answer<D3D12_FEATURE_DATA_FORMAT_SUPPORT>(data, size, [this](auto& out) {
+        out = format_support(device_, out.Format);
+        return S_OK;
+      });
+    case D3D12_FEATURE_MULTISAMPLE_QUALITY_LEVELS:
+      return answer<D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS>(data, size, [](auto& out) {
+        out.NumQualityLevels = out.SampleCount == 1 ? 1 : 0;
+        return S_OK;
+      });
+    case D3D12_FEATURE_FORMAT_INFO:
+      return answer<D3D12_FEATURE_DATA_FORMAT_INFO>(data, size, [](auto& out) {
+        const auto format = static_cast<rtapi::Format>(out.Format);
+        if (rtapi::GetFormatInfo(format).bytes == 0) return E_INVALIDARG;
+        out.PlaneCount = rtapi::HasStencil(format) ? 2 : 1;
+        return S_OK;
+      });
+    case D3D12_FEATURE_GPU_VIRTUAL_ADDRESS_SUPPORT:
+      return options<D3D12_FEATURE_DATA_GPU_VIRTUAL_ADDRESS_SUPPORT>(data, size, [](auto& out) {
+        out = {kAddressBits, 47};
+      });
+    case D3D12_FEATURE_SHADER_MODEL:
+      // A program asks with the highest model it knows and gets the lower of the two.
+      return answer<D3D12_FEATURE_DATA_SHADER_MODEL>(data, size, [](auto& out) {
+        if (out.HighestShaderModel < D3D_SHADER_MODEL_5_1) return E_INVALIDARG;
+        out.HighestShaderModel = std::min(out.HighestShaderModel, kHighestShaderModel);
+        return S_OK;
+      });
+    case D3D12_FEATURE_ROOT_SIGNATURE:
+      return answer<D3D12_FEATURE_DATA_ROOT_SIGNATURE>(data, size, [](auto& out) {
+        if (out.HighestVersion < D3D_ROOT_SIGNATURE_VERSION_1_0) return E_INVALIDARG;
+        out.HighestVersion = std::min(out.HighestVersion, D3D_ROOT_SIGNATURE_VERSION_1_1);
+        return S_OK;
+      });
+    case D3D12_FEATURE_COMMAND_QUEUE_PRIORITY:
+      return answer<D3D12_FEATURE_DATA_COMMAND_QUEUE_PRIORITY>(data, size, [](auto& out) {
+        out.PriorityForTypeIsSupported = out.CommandListType == D3D12_COMMAND_LIST_TYPE_DIRECT ||
+                                         out.CommandListType == D3D12_COMMAND_LIST_TYPE_COMPUTE ||
+                                         out.CommandListType == D3D12_COMMAND_LIST_TYPE_COPY;
+        return S_OK;
+      });
+    case D3D12_FEATURE_SERIALIZATION:
+      return answer<D3D12_FEATURE_DATA_SERIALIZATION>(data, size, [](auto& out) {
+        if (out.NodeIndex != 0) return E_INVALIDARG;
+        out.HeapSerializationTier = D3D12_HEAP_SERIALIZATION_TIER_0;
+        return S_OK;
+      });
+    case D3D12_FEATURE_D3D12_OPTIONS1:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS1>(data, size, [this](auto& out) {
+        const uint32_t lanes = device_.GetDesc().WaveLanes;
+        out.WaveOps = TRUE;
+        out.WaveLaneCountMin = lanes != 0 ? lanes : 8;
+        out.WaveLaneCountMax = out.WaveLaneCountMin;
+        out.TotalLaneCount = out.WaveLaneCountMin * device_.GetInfo().HardwareThreads;
+        out.ExpandedComputeResourceStates = TRUE;
+        out.Int64ShaderOps = TRUE;
+      });
+    case D3D12_FEATURE_D3D12_OPTIONS2:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS2>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS3:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS3>(
+          data, size, [](auto& out) { out.CopyQueueTimestampQueriesSupported = TRUE; });
+    case D3D12_FEATURE_D3D12_OPTIONS4:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS4>(
+          data, size, [](auto& out) { out.Native16BitShaderOpsSupported = TRUE; });
+    case D3D12_FEATURE_D3D12_OPTIONS5:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS5>(data, size, [this](auto& out) {
+        out.RenderPassesTier = D3D12_RENDER_PASS_TIER_0;
+        out.RaytracingTier = static_cast<D3D12_RAYTRACING_TIER>(device_.GetDesc().Tier);
+      });
+    case D3D12_FEATURE_D3D12_OPTIONS6:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS6>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS7:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS7>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS8:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS8>(
+          data, size, [](auto& out) { out.UnalignedBlockTexturesSupported = TRUE; });
+    case D3D12_FEATURE_D3D12_OPTIONS9:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS9>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS10:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS10>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS11:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS11>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS12:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS12>(data, size, [](auto& out) {
+        out.MSPrimitivesPipelineStatisticIncludesCulledPrimitives = D3D12_TRI_STATE_FALSE;
+      });
+    case D3D12_FEATURE_D3D12_OPTIONS13:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS13>(data, size, [](auto& out) {
+        out.InvertedViewportHeightFlipsYSupported = TRUE;
+        out.InvertedViewportDepthFlipsZSupported = TRUE;
+      });
+    case D3D12_FEATURE_D3D12_OPTIONS14:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS14>(data, size, [](auto&) {});
+    case D3D12_FEATURE_D3D12_OPTIONS15:
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS15>(data, size, [](auto&) {});
+    case D3D12_FEATURE_EXISTING_HEAPS:
+      return options<D3D12_FEATURE_DATA_EXISTING_HEAPS>(data, size, [](auto&) {});
+    case D3D12_FEATURE_SHADER_CACHE:
+      return options<D3D12_FEATURE_DATA_SHADER_CACHE>(data, size, [](auto& out) {
+        out.SupportFlags = D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_INPROC_CACHE |
+                           D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_DISK_CACHE;
+      });
+    case D3D12_FEATURE_CROSS_NODE:
+      return options<D3D12_FEATURE_DATA_CROSS_NODE>(data, size, [](auto&) {});
+    case D3D12_FEATURE_DISPLAYABLE:
+      return options<D3D12_FEATURE_DATA_DISPLAYABLE>(data, size, [](auto&) {});
+    default:
+      return E_INVALIDARG;  // as D3D12 answers of features that it does not know
+  }
+}
+
+}  // namespace kaamos::d3d12

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Root signatures, compute and graphics pipelines, command signatures.
+#include <windows.h>
+
+#include <directx/d3dx12.h>
+
+#include "d3d12/compiler/shader_bytecode.h"
+#include "d3d12/objects/device.h"
+#include "d3d12/objects/pipeline_objects.h"
+#include "d3d12/objects/root_signature_blob.h"
+
+namespace kaamos::d3d12 {
+
+namespace {
+
+// The root signature that a pipeline names, or else that of one of its shaders.
+// [D3D12: pRootSignature]
+rtapi::Result<rtapi::RootSignature> root_signature_for(const rtapi::Device& device,
+                                                       ID3D12RootSignature* named,
+                                                       const D3D12_SHADER_BYTECODE& shader) {
+  if (named != nullptr) return rtapi_root_signature(named);
+  const auto desc = root_signature_of_blob(shader.pShaderBytecode, shader.BytecodeLength);
+  if (!desc) return desc.error();
+  return device.CreateRootSignature(*desc);
+}
+
+rtapi::BlendDesc blend_desc(const D3D12_BLEND_DESC& desc) {
+  rtapi::BlendDesc out;
+  out.AlphaToCoverageEnable = desc.AlphaToCoverageEnable != FALSE;
+  out.IndependentBlendEnable = desc.IndependentBlendEnable != FALSE;
+  for (size_t i = 0; i < out.RenderTarget.size(); ++i) {
+    const D3D12_RENDER_TARGET_BLEND_DESC& from = desc.RenderTarget[i];
+    rtapi::RenderTargetBlendDesc& to = out.RenderTarget[i];
+    to.BlendEnable = from.BlendEnable != FALSE;
+    to.LogicOpEnable = from.LogicOpEnable != FALSE;
+    to.SrcBlend = static_cast<rtapi::Blend>(from.SrcBlend);
+    to.DestBlend = static_cast<rtapi::Blend>(from.DestBlend);
+    to.BlendOp = static_cast<rtapi::BlendOp>(from.BlendOp);
+    to.SrcBlendAlpha = static_cast<rtapi::Blend>(from.SrcBlendAlpha);
+    to.DestBlendAlpha = static_cast<rtapi::Blend>(from.DestBlendAlpha);
+    to.BlendOpAlpha = static_cast<rtapi::BlendOp>(from.BlendOpAlpha);
+    to.RenderTargetWriteMask = static_cast<rtapi::ColorWriteEnable>(from.RenderTargetWriteMask);
+  }
+  return out;
+}
+
+rtapi::RasterizerDesc rasterizer_desc(const D3D12_RASTERIZER_DESC& desc) {
+  rtapi::RasterizerDesc out;
+  out.FillMode = static_cast<rtapi::FillMode>(desc.FillMode);
+  out.CullMode = static_cast<rtapi::CullMode>(desc.CullMode);
+  out.FrontCounterClockwise = desc.FrontCounterClockwise != FALSE;
+  out.DepthBias = desc.DepthBias;
+  out.DepthBiasClamp = desc.DepthBiasClamp;
+  out.SlopeScaledDepthBias = desc.SlopeScaledDepthBias;
+  out.DepthClipEnable = desc.DepthClipEnable != FALSE;
+  return out;
+}
+
+rtapi::DepthStencilDesc depth_stencil_desc(const D3D12_DEPTH_STENCIL_DESC& desc) {
+  rtapi::DepthStencilDesc out;
+  out.DepthEnable = desc.DepthEnable != FALSE;
+  out.DepthWriteMask = static_cast<rtapi::DepthWriteMask>(desc.DepthWriteMask);
+  out.DepthFunc = static_cast<rtapi::ComparisonFunc>(desc.DepthFunc);
+  out.StencilEnable = desc.StencilEnable != FALSE;
+  return out;
+}
+
+// What rtapi's description has no member for. What it has and refuses is left to it.
+rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
+  const auto refuse = [](const std::string& detail) {
+    return rtapi::Status(make_error(ErrorId::kPipeline, detail));
+  };
+  if (desc.HS.BytecodeLength != 0 || desc.DS.BytecodeLength != 0 || desc.GS.BytecodeLength != 0) {
+    return refuse("HS, DS and GS: there are no hull, domain and geometry shaders here.");
+  }
+  if (desc.StreamOutput.NumEntries != 0 || desc.StreamOutput.NumStrides != 0) {
+    return refuse("StreamOutput: there is no stream output here.");
+  }
+  if (desc.SampleDesc.Count > 1) {
+    return refuse("SampleDesc.Count is " + std::to_string(desc.SampleDesc.Count) +
+                  "; targets have one sample here.");
+  }
+  if (desc.NumRenderTargets > D3D12_SIMULTANEOUS_RENDER_TARGET_COUNT) {
+    return refuse("NumRenderTargets is " + std::to_string(desc.NumRenderTargets) +
+                  "; there are at most 8.");
+  }
+  if (desc.RasterizerState.ConservativeRaster != D3D12_CONSERVATIVE_RASTERIZATION_MODE_OFF) {
+    return refuse("RasterizerState.ConservativeRaster is on; it is not offered.");
+  }
+  if (desc.InputLayout.NumElements != 0 && desc.InputLayout.pInputElementDescs == nullptr) {
+    return refuse("InputLayout.pInputElementDescs is null.");
+  }
+  return {};
+}
+
+}  // namespace
+
+HRESULT Device::CreateRootSignature(UINT, const void* blob, SIZE_T size, REFIID riid,
+                                    void** root_signature) {
+  if (root_signature != nullptr) *root_signature = nullptr;
+  const auto desc = root_signature_of_blob(blob, size);
+  if (!desc) return fail(desc.error());
+  auto made = device_.CreateRootSignature(*desc);
+  if (!made) return fail(made.error());
+  return hand_out(new RootSignature(this, *made), riid, root_signature);
+}
+
+HRESULT Device::create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, REFIID riid,
+                               void** pipeline) {
+  const auto shader = load_shader(desc.CS.pShaderBytecode, desc.CS.BytecodeLength);
+  if (!shader) return fail(shader.error());
+  const auto root_signature = root_signature_for(device_, desc.pRootSignature, desc.CS);
+  if (!root_signature) return fail(root_signature.error());
+  auto made =
+      device_.CreateComputePipelineState({.pRootSignature = *root_signature, .CS = *shader});
+  if (!made) return fail(made.error());
+  return hand_out(new PipelineState(this, *made), riid, pipeline);
+}
+
+HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, REFIID riid,
+                                void** pipeline) {
+  if (const rtapi::Status status = check_graphics(desc); !status) return fail(status.error());
+  rtapi::GraphicsPipelineStateDesc out;
+  for (auto [bytecode, shader] : {std::pair{&desc.VS, &out.VS}, std::pair{&desc.PS, &out.PS}}) {
+    if (bytecode->BytecodeLength == 0) continue;
+    auto library = load_shader(bytecode->pShaderBytecode, bytecode->BytecodeLength);
+    if (!library) return fail(library.error());
+    shader->Library = *std::move(library);
+  }
+  const auto root_signature = root_signature_for(device_, desc.pRootSignature, desc.VS);
+  if (!root_signature) return fail(root_signature.error());
+  out.pRootSignature = *root_signature;
+  out.BlendState = blend_desc(desc.BlendState);
+  out.SampleMask = desc.SampleMask;
+  out.RasterizerState = rasterizer_desc(desc.RasterizerState);
+  out.DepthStencilState = depth_stencil_desc(desc.DepthStencilState);
+  for (UINT i = 0; i < desc.InputLayout.NumElements; ++i) {
+    const D3D12_INPUT_ELEMENT_DESC& element = desc.InputLayout.pInputElementDescs[i];
+    out.InputLayout.push_back({element.SemanticName != nullptr ? element.SemanticName : "",
+                               element.SemanticIndex, static_cast<rtapi::Format>(element.Format),
+                               element.InputSlot, element.AlignedByteOffset,
+                               static_cast<rtapi::InputClassification>(element.InputSlotClass),
+                               element.InstanceDataStepRate});
+  }
+  out.IBStripCutValue = static_cast<rtapi::IndexBufferStripCutValue>(desc.IBStripCutValue);
+  out.PrimitiveTopologyType = static_cast<rtapi::PrimitiveTopologyType>(desc.PrimitiveTopologyType);
+  for (UINT i = 0; i < desc.NumRenderTargets; ++i) {
+    out.RTVFormats.push_back(static_cast<rtapi::Format>(desc.RTVFormats[i]));
+  }
+  out.DSVFormat = static_cast<rtapi::Format>(desc.DSVFormat);
+  auto made = device_.CreateGraphicsPipelineState(out);
+  if (!made) return fail(made.error());
+  return hand_out(new PipelineState(this, *made), riid, pipeline);
+}
+
+HRESULT Device::CreateComputePipelineState(const D3D12_COMPUTE_PIPELINE_STATE_DESC* desc,
+                                           REFIID riid, void** pipeline) {
+  if (pipeline != nullptr) *pipeline = nullptr;
+  if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateComputePipelineState: pDesc.");
+  return create_compute(*desc, riid, pipeline);
+}
+
+HRESULT Device::CreateGraphicsPipelineState(const D3D12_GRAPHICS_PIPELINE_STATE_DESC* desc,
+                                            REFIID riid, void** pipeline) {
+  if (pipeline != nullptr) *pipeline = nullptr;
+  if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateGraphicsPipelineState: pDesc.");
+  return create_graphics(*desc, riid, pipeline);
+}
+
+// Microsoft's own helper parses the stream.
+HRESULT Device::CreatePipelineState(const D3D12_PIPELINE_STATE_STREAM_DESC* desc, REFIID riid,
+                                    void** pipeline) {
+  if (pipeline != nullptr) *pipeline = nullptr;
+  if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreatePipelineState: pDesc.");
+  CD3DX12_PIPELINE_STATE_STREAM2_PARSE_HELPER parsed;
+  if (FAILED(D3DX12ParsePipelineStream(*desc, &parsed))) {
+    return fail(ErrorId::kPipeline, "CreatePipelineState: the stream of " +
+                                        std::to_string(desc->SizeInBytes) +
+                                        " bytes is damaged, or names a subobject twice.");
+  }
+  const D3D12_SHADER_BYTECODE& mesh =
+      static_cast<const D3D12_SHADER_BYTECODE&>(parsed.PipelineStream.MS);
+  if (mesh.BytecodeLength != 0) {
+    return fail(ErrorId::kPipeline, "CreatePipelineState: MS: there are no mesh shaders here.");
+  }
+  const D3D12_COMPUTE_PIPELINE_STATE_DESC compute = parsed.PipelineStream.ComputeDescV0();
+  if (compute.CS.BytecodeLength != 0) return create_compute(compute, riid, pipeline);
+  return create_graphics(parsed.PipelineStream.GraphicsDescV0(), riid, pipeline);
+}
+
+HRESULT Device::CreateCommandSignature(const D3D12_COMMAND_SIGNATURE_DESC* desc,
+                                       ID3D12RootSignature* root_signature, REFIID riid,
+                                       void** signature) {
+  if (signature != nullptr) *signature = nullptr;
+  if (desc == nullptr || (desc->NumArgumentDescs != 0 && desc->pArgumentDescs == nullptr)) {
+    return fail(ErrorId::kNullPointer, "CreateCommandSignature: pDesc or pArgumentDescs.");
+  }
+  static_assert(sizeof(rtapi::IndirectArgumentDesc) == sizeof(D3D12_INDIRECT_ARGUMENT_DESC));
+  const auto* arguments =
+      reinterpret_cast<const rtapi::IndirectArgumentDesc*>(desc->pArgumentDescs);
+  auto made = device_.CreateCommandSignature(
+      {.ByteStride = desc->ByteStride,
+       .ArgumentDescs = {arguments, arguments + desc->NumArgumentDescs}},
+      rtapi_root_signature(root_signature));
+  if (!made) return fail(made.error());
+  return hand_out(new CommandSignature(this, *made), riid, signature);
+}
+
+}  // namespace kaamos::d3d12

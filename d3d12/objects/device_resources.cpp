@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// Heaps and resources.
+#include "d3d12/objects/device.h"
+#include "d3d12/objects/heap.h"
+#include "d3d12/objects/resource.h"
+
+namespace kaamos::d3d12 {
+
+namespace {
+
+constexpr uint64_t kPlacement = D3D12_DEFAULT_RESOURCE_PLACEMENT_ALIGNMENT;
+
+// What a heap of properties is among the three that rtapi has. A custom heap is told by its page
+// property. [D3D12: D3D12_HEAP_PROPERTIES]
+rtapi::Result<rtapi::HeapType> heap_type(const D3D12_HEAP_PROPERTIES& heap) {
+  switch (heap.Type) {
+    case D3D12_HEAP_TYPE_DEFAULT:
+      return rtapi::HeapType::kDefault;
+    case D3D12_HEAP_TYPE_UPLOAD:
+      return rtapi::HeapType::kUpload;
+    case D3D12_HEAP_TYPE_READBACK:
+      return rtapi::HeapType::kReadback;
+    case D3D12_HEAP_TYPE_CUSTOM:
+      switch (heap.CPUPageProperty) {
+        case D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE:
+          return rtapi::HeapType::kDefault;
+        case D3D12_CPU_PAGE_PROPERTY_WRITE_COMBINE:
+          return rtapi::HeapType::kUpload;
+        case D3D12_CPU_PAGE_PROPERTY_WRITE_BACK:
+          return rtapi::HeapType::kReadback;
+        default:
+          break;
+      }
+      break;
+    default:
+      break;
+  }
+  return make_error(ErrorId::kHeap,
+                    "heap type " + std::to_string(heap.Type) + " with CPUPageProperty " +
+                        std::to_string(heap.CPUPageProperty) +
+                        "; use DEFAULT, UPLOAD, READBACK, or CUSTOM with a page property.");
+}
+
+rtapi::Result<rtapi::Resource> make_buffer(const rtapi::Device& device,
+                                           const D3D12_HEAP_PROPERTIES& heap,
+                                           const D3D12_RESOURCE_DESC1& desc,
+                                           D3D12_RESOURCE_STATES state) {
+  if (desc.Layout != D3D12_TEXTURE_LAYOUT_ROW_MAJOR || desc.Height != 1 ||
+      desc.DepthOrArraySize != 1 || desc.MipLevels != 1 || desc.Format != DXGI_FORMAT_UNKNOWN ||
+      desc.SampleDesc.Count != 1) {
+    return make_error(
+        ErrorId::kResource,
+        "a buffer has Layout ROW_MAJOR (1), Height, DepthOrArraySize, MipLevels and "
+        "SampleDesc.Count 1, and Format UNKNOWN (0); here: " +
+            std::to_string(desc.Layout) + ", " + std::to_string(desc.Height) + ", " +
+            std::to_string(desc.DepthOrArraySize) + ", " + std::to_string(desc.MipLevels) + ", " +
+            std::to_string(desc.SampleDesc.Count) + ", " + std::to_string(desc.Format) + ".");
+  }
+  const auto type = heap_type(heap);
+  if (!type) return type.error();
+  rtapi::BufferDesc out;
+  out.SizeInBytes = desc.Width;
+  out.Heap = *type;
+  out.Flags =
+      static_cast<rtapi::ResourceFlags>(desc.Flags & D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS);
+  out.InitialState = static_cast<rtapi::ResourceStates>(state);
+  auto buffer = device.CreateBuffer(out);
+  if (!buffer) return buffer.error();
+  return rtapi::Resource(*buffer);
+}
+
+rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
+                                            const D3D12_HEAP_PROPERTIES& heap,
+                                            const D3D12_RESOURCE_DESC1& desc,
+                                            D3D12_RESOURCE_STATES state,
+                                            const D3D12_CLEAR_VALUE* clear) {
+  const auto type = heap_type(heap);
+  if (!type) return type.error();
+  if (*type != rtapi::HeapType::kDefault) {
+    return make_error(ErrorId::kResource, "a texture on heap type " + std::to_string(heap.Type) +
+                                              "; textures lie on the default heap (1).");
+  }
+  auto out = texture_desc(desc);
+  if (!out) return out.error();
+  out->InitialState = static_cast<rtapi::ResourceStates>(state);
+  if (clear != nullptr) {
+    out->OptimizedClearValue.Format = static_cast<rtapi::Format>(clear->Format);
+    std::copy_n(clear->Color, 4, out->OptimizedClearValue.Color);
+  }
+  auto texture = device.CreateTexture(*out);
+  if (!texture) return texture.error();
+  return rtapi::Resource(*texture);
+}
+
+HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS flags,
+                      const D3D12_RESOURCE_DESC1& desc, D3D12_RESOURCE_STATES state,
+                      const D3D12_CLEAR_VALUE* clear,
+                      const Microsoft::WRL::ComPtr<ID3D12Heap>& placed_in, REFIID riid,
+                      void** resource) {
+  auto made = desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER
+                  ? make_buffer(device.rtapi_device(), heap, desc, state)
+                  : make_texture(device.rtapi_device(), heap, desc, state, clear);
+  if (!made) return fail(made.error());
+  return hand_out(new Resource(&device, *std::move(made), desc, heap, flags, placed_in), riid,
+                  resource);
+}
+
+uint64_t round_up(uint64_t value, uint64_t to) {
+  return (value + to - 1) / to * to;
+}
+
+}  // namespace
+
+HRESULT Device::CreateCommittedResource2(const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags,
+                                         const D3D12_RESOURCE_DESC1* desc,
+                                         D3D12_RESOURCE_STATES state,
+                                         const D3D12_CLEAR_VALUE* clear,
+                                         ID3D12ProtectedResourceSession*, REFIID riid,
+                                         void** resource) {
+  if (resource != nullptr) *resource = nullptr;
+  if (heap == nullptr || desc == nullptr) {
+    return fail(ErrorId::kNullPointer, "CreateCommittedResource: pHeapProperties or pDesc.");
+  }
+  return make_resource(*this, *heap, flags, *desc, state, clear, nullptr, riid, resource);
+}
+
+HRESULT Device::CreateCommittedResource1(const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags,
+                                         const D3D12_RESOURCE_DESC* desc,
+                                         D3D12_RESOURCE_STATES state,
+                                         const D3D12_CLEAR_VALUE* clear,
+                                         ID3D12ProtectedResourceSession* session, REFIID riid,
+                                         void** resource) {
+  const D3D12_RESOURCE_DESC1 desc1 =
+      desc != nullptr ? with_sampler_feedback(*desc) : D3D12_RESOURCE_DESC1{};
+  return CreateCommittedResource2(heap, flags, desc != nullptr ? &desc1 : nullptr, state, clear,
+                                  session, riid, resource);
+}
+
+HRESULT Device::CreateCommittedResource(const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags,
+                                        const D3D12_RESOURCE_DESC* desc,
+                                        D3D12_RESOURCE_STATES state, const D3D12_CLEAR_VALUE* clear,
+                                        REFIID riid, void** resource) {
+  return CreateCommittedResource1(heap, flags, desc, state, clear, nullptr, riid, resource);
+}
+
+HRESULT Device::CreateHeap1(const D3D12_HEAP_DESC* desc, ID3D12ProtectedResourceSession*,
+                            REFIID riid, void** heap) {
+  if (heap != nullptr) *heap = nullptr;
+  if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateHeap: pDesc.");
+  if (const auto type = heap_type(desc->Properties); !type) return fail(type.error());
+  if (desc->SizeInBytes == 0) return fail(ErrorId::kHeap, "SizeInBytes is 0.");
+  if (desc->Alignment != 0 && desc->Alignment != kPlacement &&
+      desc->Alignment != D3D12_DEFAULT_MSAA_RESOURCE_PLACEMENT_ALIGNMENT) {
+    return fail(ErrorId::kHeap,
+                "Alignment is " + std::to_string(desc->Alignment) + "; it is 0, 65536 or 4194304.");
+  }
+  D3D12_HEAP_DESC stored = *desc;
+  if (stored.Alignment == 0) stored.Alignment = kPlacement;
+  return hand_out(new Heap(this, stored), riid, heap);
+}
+
+HRESULT Device::CreateHeap(const D3D12_HEAP_DESC* desc, REFIID riid, void** heap) {
+  return CreateHeap1(desc, nullptr, riid, heap);
+}
+
+HRESULT Device::CreatePlacedResource1(ID3D12Heap* heap, UINT64 offset,
+                                      const D3D12_RESOURCE_DESC1* desc, D3D12_RESOURCE_STATES state,
+                                      const D3D12_CLEAR_VALUE* clear, REFIID riid,
+                                      void** resource) {
+  if (resource != nullptr) *resource = nullptr;
+  if (heap == nullptr || desc == nullptr) {
+    return fail(ErrorId::kNullPointer, "CreatePlacedResource: pHeap or pDesc.");
+  }
+  const D3D12_HEAP_DESC heap_desc = heap->GetDesc();
+  D3D12_RESOURCE_DESC plain = {
+      desc->Dimension, desc->Alignment, desc->Width,      desc->Height, desc->DepthOrArraySize,
+      desc->MipLevels, desc->Format,    desc->SampleDesc, desc->Layout, desc->Flags};
+  const D3D12_RESOURCE_ALLOCATION_INFO info = GetResourceAllocationInfo(0, 1, &plain);
+  if (info.SizeInBytes == UINT64_MAX) {
+    return fail(ErrorId::kResource, "CreatePlacedResource: the desc describes no resource.");
+  }
+  if (offset % info.Alignment != 0 || offset > heap_desc.SizeInBytes ||
+      info.SizeInBytes > heap_desc.SizeInBytes - offset) {
+    return fail(ErrorId::kHeap, "CreatePlacedResource: bytes " + std::to_string(offset) + " to " +
+                                    std::to_string(offset + info.SizeInBytes) + " of a heap of " +
+                                    std::to_string(heap_desc.SizeInBytes) +
+                                    "; the offset is a multiple of " +
+                                    std::to_string(info.Alignment) + ".");
+  }
+  return make_resource(*this, heap_desc.Properties, heap_desc.Flags, *desc, state, clear, heap,
+                       riid, resource);
+}
+
+HRESULT Device::CreatePlacedResource(ID3D12Heap* heap, UINT64 offset,
+                                     const D3D12_RESOURCE_DESC* desc, D3D12_RESOURCE_STATES state,
+                                     const D3D12_CLEAR_VALUE* clear, REFIID riid, void** resource) {
+  const D3D12_RESOURCE_DESC1 desc1 =
+      desc != nullptr ? with_sampler_feedback(*desc) : D3D12_RESOURCE_DESC1{};
+  return CreatePlacedResource1(heap, offset, desc != nullptr ? &desc1 : nullptr, state, clear, riid,
+                               resource);
+}
+
+D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo1(
+    UINT, UINT count, const D3D12_RESOURCE_DESC* descs, D3D12_RESOURCE_ALLOCATION_INFO1* infos) {
+  D3D12_RESOURCE_ALLOCATION_INFO all = {0, kPlacement};
+  for (UINT i = 0; i < count; ++i) {
+    uint64_t bytes = descs[i].Width;
+    if (descs[i].Dimension != D3D12_RESOURCE_DIMENSION_BUFFER) {
+      const D3D12_RESOURCE_DESC1 desc1 = with_sampler_feedback(descs[i]);
+      auto texture = texture_desc(desc1);
+      rtapi::Result<uint64_t> total = texture.ok() ? rtapi::Result<uint64_t>(uint64_t{0})
+                                                   : rtapi::Result<uint64_t>(texture.error());
+      if (texture.ok()) {
+        // A chain of mips that rtapi is to count itself has at most 15 levels.
+        const uint32_t slices = descs[i].Dimension == D3D12_RESOURCE_DIMENSION_TEXTURE3D
+                                    ? 1
+                                    : descs[i].DepthOrArraySize;
+        uint32_t mips = descs[i].MipLevels;
+        for (uint32_t side =
+                 std::max<uint32_t>({static_cast<uint32_t>(descs[i].Width), descs[i].Height, 1});
+             descs[i].MipLevels == 0 && side != 0; side /= 2) {
+          ++mips;
+        }
+        std::vector<rtapi::PlacedSubresourceFootprint> layouts;
+        total = device_.GetCopyableFootprints(*texture, 0, mips * slices, 0, &layouts);
+      }
+      if (!total) {
+        fail(total.error());
+        return {UINT64_MAX, kPlacement};
+      }
+      bytes = *total;
+    }
+    const uint64_t size = round_up(std::max<uint64_t>(bytes, 1), kPlacement);
+    if (infos != nullptr) infos[i] = {all.SizeInBytes, kPlacement, size};
+    all.SizeInBytes += size;
+  }
+  return all;
+}
+
+D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo(UINT visible_mask, UINT count,
+                                                                 const D3D12_RESOURCE_DESC* descs) {
+  return GetResourceAllocationInfo1(visible_mask, count, descs, nullptr);
+}
+
+D3D12_HEAP_PROPERTIES Device::GetCustomHeapProperties(UINT, D3D12_HEAP_TYPE type) {
+  const D3D12_CPU_PAGE_PROPERTY page =
+      type == D3D12_HEAP_TYPE_UPLOAD     ? D3D12_CPU_PAGE_PROPERTY_WRITE_COMBINE
+      : type == D3D12_HEAP_TYPE_READBACK ? D3D12_CPU_PAGE_PROPERTY_WRITE_BACK
+                                         : D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE;
+  return {D3D12_HEAP_TYPE_CUSTOM, page, D3D12_MEMORY_POOL_L0, 1, 1};
+}
+
+void Device::GetCopyableFootprints1(const D3D12_RESOURCE_DESC1* desc, UINT first, UINT count,
+                                    UINT64 base_offset, D3D12_PLACED_SUBRESOURCE_FOOTPRINT* layouts,
+                                    UINT* row_counts, UINT64* row_sizes, UINT64* total) {
+  if (desc == nullptr) return;
+  std::vector<rtapi::PlacedSubresourceFootprint> placed;
+  std::vector<uint32_t> rows;
+  std::vector<uint64_t> bytes;
+  rtapi::Result<uint64_t> end = uint64_t{0};
+  if (desc->Dimension == D3D12_RESOURCE_DIMENSION_BUFFER) {
+    // One row of bytes.
+    rtapi::PlacedSubresourceFootprint footprint;
+    footprint.Offset = base_offset;
+    footprint.Footprint = {rtapi::Format::kUnknown, static_cast<uint32_t>(desc->Width), 1, 1,
+                           static_cast<uint32_t>(round_up(desc->Width, 256))};
+    placed.push_back(footprint);
+    rows.push_back(1);
+    bytes.push_back(desc->Width);
+    end = desc->Width;
+  } else if (const auto texture = texture_desc(*desc); !texture) {
+    end = texture.error();
+  } else {
+    end =
+        device_.GetCopyableFootprints(*texture, first, count, base_offset, &placed, &rows, &bytes);
+  }
+  // D3D12 reports a failure as all bits set.
+  if (!end) fail(end.error());
+  static_assert(sizeof(rtapi::PlacedSubresourceFootprint) ==
+                sizeof(D3D12_PLACED_SUBRESOURCE_FOOTPRINT));
+  for (UINT i = 0; i < count; ++i) {
+    const bool known = end.ok() && i < placed.size();
+    if (layouts != nullptr) {
+      std::memset(&layouts[i], 0xFF, sizeof(layouts[i]));
+      if (known) std::memcpy(&layouts[i], &placed[i], sizeof(layouts[i]));
+    }
+    if (row_counts != nullptr) row_counts[i] = known ? rows[i] : UINT32_MAX;
+    if (row_sizes != nullptr) row_sizes[i] = known ? bytes[i] : UINT64_MAX;
+  }
+  if (total != nullptr) *total = end.ok() ? *end : UINT64_MAX;
+}
+
+void Device::GetCopyableFootprints(const D3D12_RESOURCE_DESC* desc, UINT first, UINT count,
+                                   UINT64 base_offset, D3D12_PLACED_SUBRESOURCE_FOOTPRINT* layouts,
+                                   UINT* row_counts, UINT64* row_sizes, UINT64* total) {
+  if (desc == nullptr) return;
+  const D3D12_RESOURCE_DESC1 desc1 = with_sampler_feedback(*desc);
+  GetCopyableFootprints1(&desc1, first, count, base_offset, layouts, row_counts, row_sizes, total);
+}
+
+}  // namespace kaamos::d3d12

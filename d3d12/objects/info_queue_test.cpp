@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Stored messages, filters and callbacks of the debug layer.
+#include <cstring>
+
+#include "d3d12/objects/d3d12_fixture.h"
+
+namespace kaamos::d3d12 {
+namespace {
+
+class InfoQueueCalls : public D3d12Test {
+ protected:
+  void SetUp() override {
+    D3d12Test::SetUp();
+    ComPtr<ID3D12Debug> debug;
+    ASSERT_EQ(D3D12GetDebugInterface(IID_PPV_ARGS(debug.GetAddressOf())), S_OK);
+    debug->EnableDebugLayer();
+    ASSERT_EQ(
+        D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(checked_.GetAddressOf())),
+        S_OK);
+    ComPtr<ID3D12Debug4> off;
+    debug.As(&off);
+    off->DisableDebugLayer();
+    ASSERT_EQ(checked_.As(&info_), S_OK);
+  }
+
+  // A heap of no descriptors: KA0620.
+  void make_error_happen() {
+    D3D12_DESCRIPTOR_HEAP_DESC desc = {};
+    ID3D12DescriptorHeap* heap = nullptr;
+    EXPECT_EQ(checked_->CreateDescriptorHeap(&desc, IID_PPV_ARGS(&heap)), E_INVALIDARG);
+  }
+
+  ComPtr<ID3D12Device> checked_;
+  ComPtr<ID3D12InfoQueue1> info_;
+};
+
+TEST_F(InfoQueueCalls, AMessageHasD3D12sIdAndTheWholeText) {
+  make_error_happen();
+  ASSERT_EQ(info_->GetNumStoredMessages(), 1u);
+  SIZE_T size = 0;
+  ASSERT_EQ(info_->GetMessage(0, nullptr, &size), S_FALSE);
+  std::vector<uint64_t> memory(size / 8 + 1);
+  auto* message = reinterpret_cast<D3D12_MESSAGE*>(memory.data());
+  ASSERT_EQ(info_->GetMessage(0, message, &size), S_OK);
+  EXPECT_EQ(message->ID, D3D12_MESSAGE_ID_CREATE_DESCRIPTOR_HEAP_INVALID_DESC);
+  EXPECT_EQ(message->Severity, D3D12_MESSAGE_SEVERITY_ERROR);
+  EXPECT_EQ(message->Category, D3D12_MESSAGE_CATEGORY_STATE_CREATION);
+  EXPECT_EQ(message->DescriptionByteLength, std::strlen(message->pDescription) + 1);
+  EXPECT_EQ(std::string(message->pDescription).substr(0, 6), "KA0620");
+  EXPECT_EQ(info_->GetMessage(1, message, &size), E_INVALIDARG);
+}
+
+TEST_F(InfoQueueCalls, DeniedMessagesAreNotStored) {
+  D3D12_MESSAGE_ID ids[] = {D3D12_MESSAGE_ID_CREATE_DESCRIPTOR_HEAP_INVALID_DESC};
+  D3D12_INFO_QUEUE_FILTER filter = {};
+  filter.DenyList.NumIDs = 1;
+  filter.DenyList.pIDList = ids;
+  ASSERT_EQ(info_->PushStorageFilter(&filter), S_OK);
+  make_error_happen();
+  EXPECT_EQ(info_->GetNumStoredMessages(), 0u);
+  EXPECT_EQ(info_->GetNumMessagesDeniedByStorageFilter(), 1u);
+  SIZE_T size = 0;
+  ASSERT_EQ(info_->GetStorageFilter(nullptr, &size), S_OK);
+  EXPECT_EQ(size, sizeof(filter) + sizeof(ids));
+  std::vector<uint64_t> memory(size / 8 + 1);
+  auto* copy = reinterpret_cast<D3D12_INFO_QUEUE_FILTER*>(memory.data());
+  ASSERT_EQ(info_->GetStorageFilter(copy, &size), S_OK);
+  ASSERT_EQ(copy->DenyList.NumIDs, 1u);
+  EXPECT_EQ(copy->DenyList.pIDList[0], ids[0]);
+  info_->PopStorageFilter();
+  make_error_happen();
+  EXPECT_EQ(info_->GetNumStoredMessages(), 1u);
+}
+
+TEST_F(InfoQueueCalls, ARetrievalFilterHidesWhatIsStored) {
+  make_error_happen();
+  ASSERT_EQ(info_->AddApplicationMessage(D3D12_MESSAGE_SEVERITY_INFO, "frame 1"), S_OK);
+  D3D12_MESSAGE_SEVERITY severities[] = {D3D12_MESSAGE_SEVERITY_INFO};
+  D3D12_INFO_QUEUE_FILTER filter = {};
+  filter.AllowList.NumSeverities = 1;
+  filter.AllowList.pSeverityList = severities;
+  ASSERT_EQ(info_->PushRetrievalFilter(&filter), S_OK);
+  EXPECT_EQ(info_->GetNumStoredMessages(), 2u);
+  EXPECT_EQ(info_->GetNumStoredMessagesAllowedByRetrievalFilter(), 1u);
+  SIZE_T size = 1024;
+  std::vector<uint64_t> memory(128);
+  auto* message = reinterpret_cast<D3D12_MESSAGE*>(memory.data());
+  ASSERT_EQ(info_->GetMessage(0, message, &size), S_OK);
+  EXPECT_STREQ(message->pDescription, "frame 1");
+}
+
+TEST_F(InfoQueueCalls, TheOldestMessagesGoWhenTheLimitIsReached) {
+  ASSERT_EQ(info_->SetMessageCountLimit(2), S_OK);
+  for (const char* text : {"one", "two", "three"}) {
+    info_->AddApplicationMessage(D3D12_MESSAGE_SEVERITY_INFO, text);
+  }
+  EXPECT_EQ(info_->GetNumStoredMessages(), 2u);
+  EXPECT_EQ(info_->GetNumMessagesDiscardedByMessageCountLimit(), 1u);
+  info_->ClearStoredMessages();
+  EXPECT_EQ(info_->GetNumStoredMessages(), 0u);
+}
+
+TEST_F(InfoQueueCalls, ACallbackGetsEveryMessageUntilItIsTakenBack) {
+  std::vector<std::string> texts;
+  DWORD cookie = 0;
+  ASSERT_EQ(info_->RegisterMessageCallback(
+                [](D3D12_MESSAGE_CATEGORY, D3D12_MESSAGE_SEVERITY, D3D12_MESSAGE_ID, LPCSTR text,
+                   void* context) {
+                  static_cast<std::vector<std::string>*>(context)->emplace_back(text);
+                },
+                D3D12_MESSAGE_CALLBACK_FLAG_NONE, &texts, &cookie),
+            S_OK);
+  make_error_happen();
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_EQ(texts[0].substr(0, 6), "KA0620");
+  ASSERT_EQ(info_->UnregisterMessageCallback(cookie), S_OK);
+  make_error_happen();
+  EXPECT_EQ(texts.size(), 1u);
+  EXPECT_EQ(info_->UnregisterMessageCallback(cookie), E_INVALIDARG);
+}
+
+}  // namespace
+}  // namespace kaamos::d3d12

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Draws, what they read and write, and clears of targets.
+#include "d3d12/com/report.h"
+#include "d3d12/objects/graphics_command_list.h"
+
+namespace kaamos::d3d12 {
+
+namespace {
+
+// Structures with the same bytes, see list_raytracing.cpp.
+template <class To, class From>
+std::span<const To> same_bytes(const From* from, size_t count) {
+  static_assert(sizeof(To) == sizeof(From) && alignof(To) <= alignof(From));
+  return {reinterpret_cast<const To*>(from), from != nullptr ? count : 0};
+}
+
+}  // namespace
+
+void GraphicsCommandList::DrawInstanced(UINT vertices, UINT instances, UINT start_vertex,
+                                        UINT start_instance) {
+  list_.DrawInstanced(vertices, instances, start_vertex, start_instance);
+}
+
+void GraphicsCommandList::DrawIndexedInstanced(UINT indices, UINT instances, UINT start_index,
+                                               INT base_vertex, UINT start_instance) {
+  list_.DrawIndexedInstanced(indices, instances, start_index, base_vertex, start_instance);
+}
+
+void GraphicsCommandList::IASetPrimitiveTopology(D3D12_PRIMITIVE_TOPOLOGY topology) {
+  list_.IASetPrimitiveTopology(static_cast<rtapi::PrimitiveTopology>(topology));
+}
+
+void GraphicsCommandList::IASetIndexBuffer(const D3D12_INDEX_BUFFER_VIEW* view) {
+  const auto same = same_bytes<rtapi::IndexBufferView>(view, 1);
+  list_.IASetIndexBuffer(same.empty() ? nullptr : same.data());
+}
+
+void GraphicsCommandList::IASetVertexBuffers(UINT start_slot, UINT count,
+                                             const D3D12_VERTEX_BUFFER_VIEW* views) {
+  // Null for the views unsets the slots.
+  const std::vector<rtapi::VertexBufferView> none(views == nullptr ? count : 0);
+  list_.IASetVertexBuffers(start_slot, views == nullptr
+                                           ? std::span<const rtapi::VertexBufferView>(none)
+                                           : same_bytes<rtapi::VertexBufferView>(views, count));
+}
+
+void GraphicsCommandList::RSSetViewports(UINT count, const D3D12_VIEWPORT* viewports) {
+  list_.RSSetViewports(same_bytes<rtapi::Viewport>(viewports, count));
+}
+
+void GraphicsCommandList::RSSetScissorRects(UINT count, const D3D12_RECT* rects) {
+  list_.RSSetScissorRects(same_bytes<rtapi::Rect>(rects, count));
+}
+
+void GraphicsCommandList::OMSetRenderTargets(UINT count, const D3D12_CPU_DESCRIPTOR_HANDLE* targets,
+                                             BOOL single_handle,
+                                             const D3D12_CPU_DESCRIPTOR_HANDLE* depth) {
+  static_assert(sizeof(rtapi::CpuDescriptorHandle) == sizeof(D3D12_CPU_DESCRIPTOR_HANDLE));
+  list_.OMSetRenderTargets(count, reinterpret_cast<const rtapi::CpuDescriptorHandle*>(targets),
+                           single_handle != FALSE,
+                           reinterpret_cast<const rtapi::CpuDescriptorHandle*>(depth));
+}
+
+void GraphicsCommandList::OMSetBlendFactor(const FLOAT factor[4]) {
+  list_.OMSetBlendFactor(factor);
+}
+
+void GraphicsCommandList::ClearRenderTargetView(D3D12_CPU_DESCRIPTOR_HANDLE view,
+                                                const FLOAT color[4], UINT rect_count,
+                                                const D3D12_RECT* rects) {
+  list_.ClearRenderTargetView({view.ptr}, color, same_bytes<rtapi::Rect>(rects, rect_count));
+}
+
+void GraphicsCommandList::ClearDepthStencilView(D3D12_CPU_DESCRIPTOR_HANDLE view,
+                                                D3D12_CLEAR_FLAGS flags, FLOAT depth, UINT8 stencil,
+                                                UINT rect_count, const D3D12_RECT* rects) {
+  list_.ClearDepthStencilView({view.ptr}, static_cast<rtapi::ClearFlags>(flags), depth, stencil,
+                              same_bytes<rtapi::Rect>(rects, rect_count));
+}
+
+// A render pass is its targets, and clears where it begins with one.
+void GraphicsCommandList::BeginRenderPass(UINT count,
+                                          const D3D12_RENDER_PASS_RENDER_TARGET_DESC* targets,
+                                          const D3D12_RENDER_PASS_DEPTH_STENCIL_DESC* depth,
+                                          D3D12_RENDER_PASS_FLAGS) {
+  std::vector<D3D12_CPU_DESCRIPTOR_HANDLE> handles;
+  for (UINT i = 0; i < count; ++i) handles.push_back(targets[i].cpuDescriptor);
+  OMSetRenderTargets(count, handles.data(), FALSE,
+                     depth != nullptr ? &depth->cpuDescriptor : nullptr);
+  for (UINT i = 0; i < count; ++i) {
+    const D3D12_RENDER_PASS_BEGINNING_ACCESS& access = targets[i].BeginningAccess;
+    if (access.Type == D3D12_RENDER_PASS_BEGINNING_ACCESS_TYPE_CLEAR) {
+      ClearRenderTargetView(targets[i].cpuDescriptor, access.Clear.ClearValue.Color, 0, nullptr);
+    }
+  }
+  if (depth != nullptr &&
+      depth->DepthBeginningAccess.Type == D3D12_RENDER_PASS_BEGINNING_ACCESS_TYPE_CLEAR) {
+    ClearDepthStencilView(depth->cpuDescriptor, D3D12_CLEAR_FLAG_DEPTH,
+                          depth->DepthBeginningAccess.Clear.ClearValue.DepthStencil.Depth, 0, 0,
+                          nullptr);
+  }
+}
+
+}  // namespace kaamos::d3d12

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// D3D12's categories and ids of messages, where one fits.
+#pragma once
+
+#include <directx/d3d12sdklayers.h>
+
+#include <cstdint>
+
+namespace kaamos::d3d12 {
+
+struct MessageKind {
+  D3D12_MESSAGE_CATEGORY category;
+  D3D12_MESSAGE_ID id;
+};
+
+/// Of an error's number, 712 for KA0712. Errors that D3D12 has no id for get
+/// D3D12_MESSAGE_ID_UNKNOWN and a category by their range.
+MessageKind message_kind(uint16_t number);
+
+}  // namespace kaamos::d3d12

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// ID3D12Resource over rtapi's buffers and textures.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include "d3d12/com/report.h"
+#include "d3d12/objects/device_child.h"
+
+namespace kaamos::d3d12 {
+
+/// A committed or placed resource.
+class Resource final : public DeviceChild<ID3D12ResourceEntries> {
+ public:
+  Resource(ID3D12Device* device, rtapi::Resource resource, const D3D12_RESOURCE_DESC1& desc,
+           const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags,
+           Microsoft::WRL::ComPtr<ID3D12Heap> placed_in);
+
+  const rtapi::Resource& rtapi_resource() const { return resource_; }
+  bool is_buffer() const { return std::holds_alternative<rtapi::Buffer>(resource_); }
+  /// Empty if the resource is of the other kind.
+  rtapi::Buffer buffer() const;
+  rtapi::Texture texture() const;
+
+  HRESULT STDMETHODCALLTYPE Map(UINT subresource, const D3D12_RANGE* read_range,
+                                void** data) override;
+  void STDMETHODCALLTYPE Unmap(UINT, const D3D12_RANGE*) override {}
+  D3D12_RESOURCE_DESC STDMETHODCALLTYPE GetDesc() override;
+  D3D12_RESOURCE_DESC1 STDMETHODCALLTYPE GetDesc1() override { return desc_; }
+  D3D12_GPU_VIRTUAL_ADDRESS STDMETHODCALLTYPE GetGPUVirtualAddress() override;
+  HRESULT STDMETHODCALLTYPE GetHeapProperties(D3D12_HEAP_PROPERTIES* properties,
+                                              D3D12_HEAP_FLAGS* flags) override;
+  HRESULT STDMETHODCALLTYPE GetProtectedResourceSession(REFIID, void** session) override {
+    if (session != nullptr) *session = nullptr;
+    return DXGI_ERROR_NOT_FOUND;
+  }
+
+ protected:
+  void rename(const std::string& name) override;
+
+ private:
+  rtapi::Resource resource_;
+  D3D12_RESOURCE_DESC1 desc_;
+  D3D12_HEAP_PROPERTIES heap_;
+  D3D12_HEAP_FLAGS heap_flags_;
+  Microsoft::WRL::ComPtr<ID3D12Heap> placed_in_;
+};
+
+/// What is behind an interface of this library; nothing of null.
+///@{
+inline rtapi::Resource rtapi_resource(ID3D12Resource* resource) {
+  return resource != nullptr ? static_cast<Resource*>(resource)->rtapi_resource()
+                             : rtapi::Resource{};
+}
+inline rtapi::Buffer rtapi_buffer(ID3D12Resource* resource) {
+  return resource != nullptr ? static_cast<Resource*>(resource)->buffer() : rtapi::Buffer{};
+}
+inline rtapi::Texture rtapi_texture(ID3D12Resource* resource) {
+  return resource != nullptr ? static_cast<Resource*>(resource)->texture() : rtapi::Texture{};
+}
+///@}
+
+/// The desc of GetDesc1 for that of GetDesc.
+D3D12_RESOURCE_DESC1 with_sampler_feedback(const D3D12_RESOURCE_DESC& desc);
+
+/// rtapi's description of a texture. Refuses what rtapi has no member for: several samples, unknown
+/// layouts.
+/// @errors KA4011.
+rtapi::Result<rtapi::TextureDesc> texture_desc(const D3D12_RESOURCE_DESC1& desc);
+
+}  // namespace kaamos::d3d12

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Descriptions of state objects, from D3D12's to rtapi's.
+#pragma once
+
+#include <directx/d3d12.h>
+
+#include <rtapi/rtapi.h>
+
+namespace kaamos::d3d12 {
+
+/// Subobjects keep their order and their indices; associations, which point to a subobject, name
+/// its index. Libraries are compiled or found in the cache.
+/// @errors KA4022 a subobject of an unknown type, a null pointer, an association with a subobject
+/// that is not in the array; KA4020 bytecode; what compiling reports.
+rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT_DESC& desc);
+
+}  // namespace kaamos::d3d12

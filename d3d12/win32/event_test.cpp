@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <windows.h>
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "d3d12/com/report.h"
+
+namespace kaamos::d3d12 {
+namespace {
+
+TEST(Event, AnAutoResetEventLetsOneWaitGo) {
+  const HANDLE event = CreateEvent(nullptr, FALSE, TRUE, nullptr);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_OBJECT_0);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_TIMEOUT);
+  EXPECT_TRUE(CloseHandle(event));
+}
+
+TEST(Event, AManualResetEventStaysSet) {
+  const HANDLE event = CreateEvent(nullptr, TRUE, FALSE, nullptr);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_TIMEOUT);
+  SetEvent(event);
+  EXPECT_EQ(WaitForSingleObject(event, INFINITE), WAIT_OBJECT_0);
+  EXPECT_EQ(WaitForSingleObject(event, INFINITE), WAIT_OBJECT_0);
+  ResetEvent(event);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_TIMEOUT);
+  CloseHandle(event);
+}
+
+TEST(Event, AWaitEndsWhenAnotherThreadSetsIt) {
+  const HANDLE event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+  std::thread other([event] { SetEvent(event); });
+  EXPECT_EQ(WaitForSingleObject(event, INFINITE), WAIT_OBJECT_0);
+  other.join();
+  CloseHandle(event);
+}
+
+TEST(Event, OfSeveralTheFirstThatIsSetIsTold) {
+  HANDLE events[3];
+  for (HANDLE& event : events) event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+  SetEvent(events[2]);
+  EXPECT_EQ(WaitForMultipleObjects(3, events, FALSE, INFINITE), WAIT_OBJECT_0 + 2);
+  EXPECT_EQ(WaitForMultipleObjects(3, events, FALSE, 0), WAIT_TIMEOUT);
+  for (HANDLE event : events) SetEvent(event);
+  EXPECT_EQ(WaitForMultipleObjects(3, events, TRUE, INFINITE), WAIT_OBJECT_0);
+  EXPECT_EQ(WaitForSingleObject(events[1], 0), WAIT_TIMEOUT);  // the wait for all took it
+  for (HANDLE event : events) CloseHandle(event);
+}
+
+TEST(Event, AClosedHandleIsAnErrorAndItsDuplicateLives) {
+  const HANDLE event = CreateEvent(nullptr, TRUE, FALSE, nullptr);
+  HANDLE other = nullptr;
+  ASSERT_TRUE(DuplicateHandle(GetCurrentProcess(), event, GetCurrentProcess(), &other, 0, FALSE,
+                              DUPLICATE_SAME_ACCESS));
+  CloseHandle(event);
+  mute_output(true);
+  EXPECT_FALSE(SetEvent(event));
+  EXPECT_EQ(GetLastError(), ERROR_INVALID_HANDLE);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_FAILED);
+  mute_output(false);
+  EXPECT_TRUE(SetEvent(other));
+  EXPECT_EQ(WaitForSingleObject(other, 0), WAIT_OBJECT_0);
+  CloseHandle(other);
+}
+
+TEST(Clock, ItDoesNotGoBack) {
+  LARGE_INTEGER before, after, frequency;
+  QueryPerformanceCounter(&before);
+  Sleep(1);
+  QueryPerformanceCounter(&after);
+  QueryPerformanceFrequency(&frequency);
+  EXPECT_GE((after.QuadPart - before.QuadPart) * 1000, frequency.QuadPart);
+}
+
+}  // namespace
+}  // namespace kaamos::d3d12

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <process.h>
+#include <shellapi.h>
+#include <windows.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "d3d12/com/report.h"
+
+namespace kaamos::d3d12 {
+namespace {
+
+DWORD WINAPI add_one(LPVOID value) {
+  return static_cast<DWORD>(InterlockedIncrement(static_cast<LONG*>(value)));
+}
+
+TEST(Thread, ItsHandleIsSetWhenItHasEnded) {
+  LONG value = 0;
+  std::vector<HANDLE> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.push_back(CreateThread(nullptr, 0, &add_one, &value, 0, nullptr));
+    ASSERT_NE(threads.back(), nullptr);
+  }
+  EXPECT_EQ(WaitForMultipleObjects(8, threads.data(), TRUE, INFINITE), WAIT_OBJECT_0);
+  EXPECT_EQ(value, 8);
+  for (HANDLE thread : threads) EXPECT_TRUE(CloseHandle(thread));
+}
+
+TEST(Thread, OneThatWouldStartSuspendedIsRefused) {
+  mute_output(true);
+  EXPECT_EQ(CreateThread(nullptr, 0, &add_one, nullptr, CREATE_SUSPENDED, nullptr), nullptr);
+  mute_output(false);
+  EXPECT_EQ(GetLastError(), ERROR_INVALID_PARAMETER);
+}
+
+std::vector<std::wstring> split(const wchar_t* line) {
+  int count = 0;
+  LPWSTR* list = CommandLineToArgvW(line, &count);
+  std::vector<std::wstring> out(list, list + count);
+  LocalFree(list);
+  return out;
+}
+
+// Win32's own examples of the rule for backslashes and quotation marks.
+TEST(CommandLine, BackslashesCountBeforeAQuotationMarkOnly) {
+  using Words = std::vector<std::wstring>;
+  EXPECT_EQ(split(LR"(p "abc" d e)"), (Words{L"p", L"abc", L"d", L"e"}));
+  EXPECT_EQ(split(LR"(p a\\b d"e f"g h)"), (Words{L"p", LR"(a\\b)", L"de fg", L"h"}));
+  EXPECT_EQ(split(LR"(p a\\\"b c d)"), (Words{L"p", LR"(a\"b)", L"c", L"d"}));
+  EXPECT_EQ(split(LR"(p a\\\\"b c" d e)"), (Words{L"p", LR"(a\\b c)", L"d", L"e"}));
+}
+
+TEST(CommandLine, IsThisPrograms) {
+  EXPECT_NE(std::string(GetCommandLineA()).find("win32_test"), std::string::npos);
+  char path[MAX_PATH] = {};
+  EXPECT_EQ(GetEnvironmentVariableA("KAAMOS_NO_SUCH_VARIABLE", path, MAX_PATH), 0u);
+}
+
+TEST(CriticalSection, AThreadMayEnterItTwice) {
+  CRITICAL_SECTION section;
+  InitializeCriticalSection(&section);
+  EnterCriticalSection(&section);
+  EXPECT_TRUE(TryEnterCriticalSection(&section));
+  LeaveCriticalSection(&section);
+  LeaveCriticalSection(&section);
+  DeleteCriticalSection(&section);
+}
+
+}  // namespace
+}  // namespace kaamos::d3d12
