@@ -255,6 +255,9 @@ class VulkanExamples : public testing::TestWithParam<const char*> {};
 TEST_P(VulkanExamples, DrawWhatEmbreeDraws) {
   KAAMOS_NEED_VULKAN();
   const std::string name = GetParam();
+  if (const std::string why = kaamos::test::why_driver_cannot_compile(name); !why.empty()) {
+    GTEST_SKIP() << why;
+  }
   const fs::path folder = fs::path(KAAMOS_BINARY_DIR) / "parity";
   fs::create_directories(folder);
   const std::string program = std::string(KAAMOS_BINARY_DIR) + "/bin/" + name;

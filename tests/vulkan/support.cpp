@@ -61,4 +61,13 @@ ValidationGuard::ValidationGuard() = default;
 ValidationGuard::~ValidationGuard() = default;
 #endif
 
+std::string why_driver_cannot_compile(const std::string& program) {
+#if defined(__x86_64__)
+  if (program == "13-hybrid" && !__builtin_cpu_supports("avx512f")) {
+    return "LICM: this processor has no AVX-512, and lavapipe takes too long to compile 13-hybrid";
+  }
+#endif
+  return "";
+}
+
 }  // namespace kaamos::test
