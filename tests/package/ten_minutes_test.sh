@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# ten_minutes_test.sh CMAKE BUILD SOURCE WORK: runs every command block of examples/d3d12/TEN_MINUTES.md, but those
+# by hand, against an installed package, and finds in the output what the page says of it.
+set -euo pipefail
+cmake=$1 build=$2 source=$3 work=$4
+page=$source/examples/d3d12/TEN_MINUTES.md
+if ! command -v clang++ > /dev/null; then
+  echo "clang is not installed (apt install clang)"
+  exit 77
+fi
+rm -rf "$work"
+mkdir -p "$work"
+trap 'rm -rf "$work"' EXIT
+"$cmake" --install "$build" --prefix "$work/sdk" > /dev/null
+export KAAMOS_SDK=$work/sdk KAAMOS_SOURCE=$source
+
+# A backend that is not there, and a debugger, are left out.
+awk '/^<!-- by hand -->/ { skip = 1 }
+     /^```sh/ { if (!skip) inside = 1; skip = 0; next }
+     /^```/ { inside = 0 }
+     inside' "$page" > "$work/blocks.sh"
+[[ ${KAAMOS_REQUIRE_VULKAN:-} == 1 ]] || sed -i '/KAAMOS_BACKEND=vulkan/d' "$work/blocks.sh"
+command -v gdb > /dev/null || sed -i '/^gdb /,/[^\\]$/d' "$work/blocks.sh"
+cd "$work"
+if ! bash -euo pipefail blocks.sh > output.txt 2>&1; then
+  cat output.txt
+  exit 1
+fi
+
+# expect WHAT TEXT: the output has the text.
+expect() {
+  grep -qF -- "$2" output.txt && return
+  echo "$page: the output has no $1 (\"$2\"):"
+  cat output.txt
+  exit 1
+}
+while IFS= read -r line; do expect "message of the broken record" "$line"; done \
+  < <(awk '/^```text/ { inside = 1; next } /^```/ { inside = 0 } inside' "$page")
+[[ -s my-program/triangle.ppm ]] || expect picture triangle.ppm
+if command -v gdb > /dev/null; then
+  expect "stop in the shader" "triangle.hlsl:39"
+  expect "value of the barycentrics" "\$1 = {e = {0."
+  expect "call stack" "RayGen"
+fi
