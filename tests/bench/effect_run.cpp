@@ -5,7 +5,8 @@ namespace kaamos::bench {
 
 using namespace effects;
 
-EffectRun::EffectRun(const std::string& effect, Fixtures& fixtures) : effect_(effect) {
+EffectRun::EffectRun(const std::string& effect, Fixtures& fixtures, RayOrder order)
+    : effect_(effect) {
   rtapi::DeviceDesc desc;
   desc.Threads = fixtures.threads();
   FrameSettings settings;
@@ -13,7 +14,7 @@ EffectRun::EffectRun(const std::string& effect, Fixtures& fixtures) : effect_(ef
   settings.height = fixtures.options().height;
   settings.effects = choose_effects({effect});
   settings.whole_frame = need_whole_frame(settings.effects);
-  settings.order = RayOrder::kDirection;
+  settings.order = order;
   settings.volume.given = std::make_shared<IndirectVolume>();
   renderer_ =
       FrameRenderer::create(rtapi::CreateDevice(desc).value(), fixtures.scene().scene, settings)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs one effect over the lounge, with its rays in pixel order or sorted by direction.
+// Runs one effect over the lounge, with its rays in pixel order or sorted.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,9 @@ namespace kaamos::bench {
 
 class EffectRun {
  public:
-  // `effect`: its name in the registry.
-  EffectRun(const std::string& effect, Fixtures& fixtures);
+  // `effect`: its name in the registry; `order`: of sorted rays.
+  EffectRun(const std::string& effect, Fixtures& fixtures,
+            effects::RayOrder order = effects::RayOrder::kDirection);
 
   // Computes the rays' keys and sorts them.
   void sort();

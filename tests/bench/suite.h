@@ -63,8 +63,11 @@ std::vector<Case> hlsl_cases();       // hlsl_cases.cpp
 std::vector<Case> compute_cases();    // compute_cases.cpp
 std::vector<Case> sorting_cases();    // sorting_cases.cpp
 std::vector<Case> claims_cases();     // claims_cases.cpp
+std::vector<Case> light_cases();      // light_cases.cpp
+std::vector<Case> structure_cases();  // structure_cases.cpp
 std::vector<Case> frame_cases();      // frame_cases.cpp
 std::vector<Case> reference_cases();  // reference_cases.cpp
+std::vector<Case> facade_cases();     // facade_cases.cpp; empty without the D3D12 facade
 std::vector<Case> vulkan_cases();     // vulkan_cases.cpp; empty where there is no Vulkan device
 std::vector<Case> raster_cases();     // raster_cases.cpp; last: they change how the heap grows
 
