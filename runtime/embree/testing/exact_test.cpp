@@ -308,7 +308,8 @@ TEST(Robust, TopLevelsMixBottomLevelsThatAreExactWithOthers) {
       report_log() = {};
       h.use_standard_pipeline(any_hit_accept, report_all);
       Payload payload = h.trace(ray_along_z(scene));
-      EXPECT_TRUE(is_distance(payload.values.t_current, std::min(z, 5.0f)));
+      EXPECT_TRUE(
+          is_distance(payload.values.t_current, std::min(z, 5.0f), TraversalPrecision::kRobust));
       EXPECT_EQ(payload.values.instance_index, at(z < 5 ? seen : opaque));
       EXPECT_EQ(payload.values.hit_kind, 254u);
       EXPECT_EQ(payload.calls, 1u);
@@ -336,7 +337,7 @@ TEST(Robust, TopLevelsMixBottomLevelsThatAreExactWithOthers) {
 
       h.use_standard_pipeline(any_hit_ignore, report_all);
       payload = h.trace(ray_along_z(scene));
-      EXPECT_TRUE(is_distance(payload.values.t_current, 5));
+      EXPECT_TRUE(is_distance(payload.values.t_current, 5, TraversalPrecision::kRobust));
       EXPECT_EQ(payload.values.instance_index, at(opaque));
       ray = ray_along_z(scene);
       ray.ray_flags = 0x2;  // all triangles are seen

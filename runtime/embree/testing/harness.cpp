@@ -70,8 +70,13 @@ rtapi::TraversalPrecision precision_of_environment() {
 }  // namespace
 
 ::testing::AssertionResult is_distance(float t, float expected) {
-  const bool rounds = precision_of_environment() != rtapi::TraversalPrecision::kExact &&
-                      !__builtin_cpu_supports("avx512vl");
+  return is_distance(t, expected, precision_of_environment());
+}
+
+::testing::AssertionResult is_distance(float t, float expected,
+                                       rtapi::TraversalPrecision precision) {
+  const bool rounds =
+      precision != rtapi::TraversalPrecision::kExact && !__builtin_cpu_supports("avx512vl");
   // An ulp is between epsilon / 2 and epsilon times the number.
   const float error = rounds ? std::numeric_limits<float>::epsilon() * std::abs(expected) : 0.0f;
   if (std::abs(t - expected) <= error) return ::testing::AssertionSuccess();

@@ -124,6 +124,8 @@ inline constexpr auto kNonOpaque = rtapi::RaytracingGeometryFlags::kNone;
 // within 2 ulps where Embree multiplies by a reciprocal that has an error (robust and fast
 // precision, CPUs without AVX-512).
 ::testing::AssertionResult is_distance(float t, float expected);
+::testing::AssertionResult is_distance(float t, float expected,
+                                       rtapi::TraversalPrecision precision);
 
 // A triangle that a ray along +z hits at (0, 0, z); clockwise as seen from -z, so a front face.
 GeometryInput triangle_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);
