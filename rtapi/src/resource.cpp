@@ -261,7 +261,9 @@ uint32_t Texture::subresource_count() const {
   return impl_ ? impl_->desc.MipLevels * ArraySize(impl_->desc) : 0;
 }
 void Texture::SetName(std::string name) {
-  if (impl_) impl_->desc.Name = std::move(name);
+  if (!impl_) return;
+  if (impl_->device->checks) impl_->device->checks->textures().rename(impl_->memory.get(), name);
+  impl_->desc.Name = std::move(name);
 }
 
 Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {

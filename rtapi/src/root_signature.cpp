@@ -301,21 +301,30 @@ bool SameDefinition(const RootSignature& a, const RootSignature& b) {
                     y.StaticSamplers.end(), SameSampler);
 }
 
+namespace {
+
+// Checks a description, gives appended ranges their offsets, and lays out the arguments.
+Status Complete(RootSignatureImpl& impl) {
+  const RootSignatureDesc& desc = impl.desc;
+  if (Status s = CheckFlags(desc.Flags); !s.ok()) return s;
+  for (uint32_t i = 0; i < desc.Parameters.size(); ++i) {
+    if (Status s = CheckParameter(impl.desc.Parameters[i], i, impl.is_local()); !s.ok()) return s;
+  }
+  if (Status s = CheckStaticSamplers(desc); !s.ok()) return s;
+  if (Status s = CheckOverlaps(desc); !s.ok()) return s;
+  const uint64_t bytes = LayOut(desc, impl.offsets);
+  impl.argument_bytes = static_cast<uint32_t>(bytes);
+  return CheckSize(desc, bytes);
+}
+
+}  // namespace
+
 Result<RootSignature> MakeRootSignature(const std::shared_ptr<DeviceImpl>& device,
                                         const RootSignatureDesc& desc) {
   auto impl = std::make_shared<RootSignatureImpl>();
   impl->device = device;
   impl->desc = desc;
-  if (Status s = CheckFlags(desc.Flags); !s.ok()) return s.error();
-  for (uint32_t i = 0; i < desc.Parameters.size(); ++i) {
-    if (Status s = CheckParameter(impl->desc.Parameters[i], i, impl->is_local()); !s.ok())
-      return s.error();
-  }
-  if (Status s = CheckStaticSamplers(desc); !s.ok()) return s.error();
-  if (Status s = CheckOverlaps(impl->desc); !s.ok()) return s.error();
-  const uint64_t bytes = LayOut(desc, impl->offsets);
-  if (Status s = CheckSize(desc, bytes); !s.ok()) return s.error();
-  impl->argument_bytes = static_cast<uint32_t>(bytes);
+  if (Status s = Complete(*impl); !s.ok()) return s.error();
   for (const StaticSamplerDesc& sampler : desc.StaticSamplers) {
     auto object = device->backend->create_sampler(ToSamplerDesc(sampler));
     if (!object.ok()) return object.error();
@@ -348,6 +357,12 @@ uint32_t RootSignature::GetArgumentOffset(uint32_t i) const {
 }
 uint32_t RootSignature::GetArgumentBytes() const {
   return impl_ ? impl_->argument_bytes : 0;
+}
+
+Status CheckRootSignature(const RootSignatureDesc& desc) {
+  RootSignatureImpl impl;
+  impl.desc = desc;
+  return Complete(impl);
 }
 
 Result<RootSignature> Device::CreateRootSignature(const RootSignatureDesc& desc) const {

@@ -251,5 +251,12 @@ TEST(RootSignatureText, EveryPrefixIsAnErrorOrReadsWithoutCrash) {
   EXPECT_EQ(readable, 5);  // the empty text, and the text after each of the four clauses
 }
 
+TEST_F(RootSignatureTest, DescriptionsAreCheckedWithoutADevice) {
+  EXPECT_OK(CheckRootSignature(Local({RootParameter::Constants32(1016, 0)})));
+  EXPECT_ERROR(CheckRootSignature(Local({RootParameter::Constants32(1017, 0)})), "KA0601", "4068");
+  EXPECT_ERROR(CheckRootSignature({.Parameters = {RootParameter::Srv(0), RootParameter::Srv(0)}}),
+               "KA0604", "t0");
+}
+
 }  // namespace
 }  // namespace rtapi

@@ -35,6 +35,11 @@ void TextureStates::add(const std::shared_ptr<runtime::BackendTexture>& texture,
                               {{desc.InitialState, false, {}}}};
 }
 
+void TextureStates::rename(const runtime::BackendTexture* texture, const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  if (const auto it = textures_.find(texture); it != textures_.end()) it->second.name = name;
+}
+
 void TextureStates::add_view(uint64_t key, const std::shared_ptr<runtime::BackendTexture>& texture,
                              const Subresources& seen) {
   const std::lock_guard lock(mutex_);

@@ -34,6 +34,7 @@ class TextureStates {
 
   // MipLevels must be resolved.
   void add(const std::shared_ptr<runtime::BackendTexture>& texture, const rtapi::TextureDesc& desc);
+  void rename(const runtime::BackendTexture* texture, const std::string& name);
   // `key`: shader::view_key of what the view's descriptors contain.
   void add_view(uint64_t key, const std::shared_ptr<runtime::BackendTexture>& texture,
                 const Subresources& seen);

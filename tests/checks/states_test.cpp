@@ -258,6 +258,15 @@ TEST_P(Textures, TransitionFromAnotherState) {
                         "kUnorderedAccess since it was created. Pass the state that it is in."});
 }
 
+TEST_P(Textures, AnotherNameIsWhatMessagesUse) {
+  create(kUav);
+  texture_.SetName("floor");
+  CommandList commands = list();
+  transition(commands, ResourceStates::kCopyDest, kRead);
+  run(commands);
+  expect_one("KA0452", {"StateBefore kCopyDest is given for texture \"floor\""});
+}
+
 TEST_P(Textures, SubresourcesHaveStatesOfTheirOwn) {
   create(kUav, 2);
   CommandList commands = list();

@@ -215,6 +215,11 @@ struct RootSignatureDesc {
 /// @errors KA0608 names the column, from 1, and what was expected there.
 Result<RootSignatureDesc> ParseRootSignature(std::string_view text);
 
+/// Checks a description as Device::CreateRootSignature does, without a device.
+/// [D3D12: D3D12SerializeRootSignature]
+/// @errors KA0600 to KA0607, KA0609 and KA0610, as of Device::CreateRootSignature
+Status CheckRootSignature(const RootSignatureDesc& desc);
+
 /// What arguments there are: global ones set on a command list, local ones in shader records. A
 /// copyable handle; state objects, pipelines, command signatures and lists keep what they use
 /// alive. [D3D12: ID3D12RootSignature; DXR: Local root signatures vs global root signatures]
