@@ -55,22 +55,29 @@ ${entries} ]}]}
 ")
 endfunction()
 
-# kaamos_add_d3d12_shader(SOURCE OUTPUT_VARIABLE [PROFILE lib_6_3] [ENTRY main] [HEADER file.h]
-#   [VARIABLE g_name] [OPTIONS more options of dxc ...])
-# Compiles an HLSL file by kaamos-dxc, at build time, to NAME.cso (NAME.ENTRY.cso) beside the programs; with HEADER
-# also to an array VARIABLE in that header, below a folder that is an include folder of programs.
+# kaamos_add_d3d12_shader(SOURCE OUTPUT_VARIABLE [PROFILE lib_6_3] [ENTRY main] [OBJECT name.cso]
+#   [HEADER file.h] [VARIABLE g_name] [OPTIONS more options of dxc ...])
+# Compiles an HLSL file by kaamos-dxc, at build time, to OBJECT (NAME.cso; NAME.ENTRY.cso with ENTRY) in the programs'
+# folder; with HEADER also to an array VARIABLE in that header, below a folder that is an include folder of programs.
 # Adds the files to the list OUTPUT_VARIABLE, for SHADERS of kaamos_add_d3d12_program.
 function(kaamos_add_d3d12_shader source outputs)
-  cmake_parse_arguments(arg "" "PROFILE;ENTRY;HEADER;VARIABLE" "OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "" "PROFILE;ENTRY;OBJECT;HEADER;VARIABLE" "OPTIONS" ${ARGN})
   if(NOT arg_PROFILE)
     set(arg_PROFILE lib_6_3)
   endif()
   get_filename_component(source "${source}" ABSOLUTE)
-  get_filename_component(name "${source}" NAME_WE)
+  get_filename_component(name "${source}" NAME_WLE)
   if(arg_ENTRY)
     string(APPEND name ".${arg_ENTRY}")
   endif()
-  set(object "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.cso")
+  if(NOT arg_OBJECT)
+    set(arg_OBJECT "${name}.cso")
+  endif()
+  set(folder "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  if(NOT folder)
+    set(folder "${CMAKE_CURRENT_BINARY_DIR}")  # where CMake puts programs without being told
+  endif()
+  set(object "${folder}/${arg_OBJECT}")
   set(flags -T ${arg_PROFILE} ${arg_OPTIONS})
   if(arg_ENTRY)
     list(APPEND flags -E ${arg_ENTRY})
@@ -100,7 +107,9 @@ endfunction()
 #   [INCLUDES folder ...] [DEFINES NAME=VALUE ...] [OPTIONS more options of clang ...])
 # Makes a program of sources that are written for Windows: <windows.h>, <d3d12.h>, <d3dx12.h>,
 # <dxgi1_6.h>, <wrl/client.h>, in any letter case and with backslashes; it begins in main, wmain,
-# WinMain or wWinMain. Without clang there is no target, and a status message says so.
+# WinMain or wWinMain. INCLUDES, DEFINES and OPTIONS are for its sources, which target_compile_definitions and the like
+# do not reach: clang compiles them by commands of their own. _DEBUG is defined in Debug builds, NDEBUG in others.
+# Without clang there is no target, and a status message says so.
 function(kaamos_add_d3d12_program target)
   cmake_parse_arguments(arg "" "" "SOURCES;SHADERS;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   if(NOT arg_SOURCES)
@@ -134,12 +143,16 @@ function(kaamos_add_d3d12_program target)
   set(objects)
   foreach(source IN LISTS arg_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE)
-    get_filename_component(name "${source}" NAME)
+    file(RELATIVE_PATH name "${CMAKE_CURRENT_SOURCE_DIR}" "${source}")
+    string(REPLACE "../" "__/" name "${name}")
     get_filename_component(own "${source}" DIRECTORY)
     set(object "${folder}/${name}.o")
+    get_filename_component(object_folder "${object}" DIRECTORY)
+    file(MAKE_DIRECTORY "${object_folder}")
     add_custom_command(
       OUTPUT "${object}"
-      COMMAND "${KAAMOS_CLANG}" ${flags} -I "${own}" "$<IF:$<CONFIG:Debug>,-O0;-g,-O2>" ${arg_OPTIONS}
+      COMMAND "${KAAMOS_CLANG}" ${flags} -I "${own}" "$<IF:$<CONFIG:Debug>,-O0;-D_DEBUG,-O2;-DNDEBUG>"
+              "$<$<OR:$<CONFIG:Debug>,$<CONFIG:RelWithDebInfo>>:-g>" ${arg_OPTIONS}
               -MD -MF "${object}.d" -c "${source}" -o "${object}"
       DEPENDS "${source}" ${arg_SHADERS} ${overlays}
       DEPFILE "${object}.d"

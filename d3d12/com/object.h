@@ -59,6 +59,7 @@ class ComObject : public First, public Rest... {
 
  protected:
   virtual ~ComObject() = default;
+  ULONG references() const { return references_.load(std::memory_order_relaxed); }
   /// False hides an interface: that of the debug layer where it is off.
   virtual bool offers(REFIID) const { return true; }
 

@@ -51,4 +51,18 @@ HRESULT PrivateData::set(REFGUID guid, const IUnknown* object) {
   return S_OK;
 }
 
+std::string PrivateData::name() const {
+  std::lock_guard lock(mutex_);
+  if (const auto wide = items_.find(WKPDID_D3DDebugObjectNameW); wide != items_.end()) {
+    const std::vector<std::byte>& bytes = wide->second.bytes;
+    std::wstring text(bytes.size() / sizeof(wchar_t), L'\0');
+    std::memcpy(text.data(), bytes.data(), text.size() * sizeof(wchar_t));
+    return to_utf8(std::wstring_view(text).substr(0, text.find(L'\0')));
+  }
+  const auto narrow = items_.find(WKPDID_D3DDebugObjectName);
+  if (narrow == items_.end()) return {};
+  const std::vector<std::byte>& bytes = narrow->second.bytes;
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace kaamos::d3d12

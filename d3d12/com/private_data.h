@@ -22,6 +22,8 @@ class PrivateData {
   HRESULT get(REFGUID guid, UINT* size, void* data) const;
   HRESULT set(REFGUID guid, UINT size, const void* data);
   HRESULT set(REFGUID guid, const IUnknown* object);
+  /// What SetName, or else a debug name among the data, says; UTF-8.
+  std::string name() const;
 
  private:
   struct Less {
@@ -65,6 +67,7 @@ class NamedObject : public ComObject<First, Rest...> {
   }
 
  protected:
+  std::string name() const { return private_data_.name(); }
   /// What messages are to call the object from now on.
   virtual void rename(const std::string&) {}
 

@@ -79,6 +79,14 @@ void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
   for (auto& [id, sink] : all.sinks) sink(severity, error);
 }
 
+void print(D3D12_MESSAGE_SEVERITY severity, const std::string& text) {
+  Sinks& all = all_sinks();
+  std::lock_guard lock(all.mutex);
+  if (all.muted == 0 && printed_severity() >= 0) {
+    std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), text.c_str());
+  }
+}
+
 void mute_output(bool muted) {
   Sinks& all = all_sinks();
   std::lock_guard lock(all.mutex);

@@ -21,6 +21,9 @@ HRESULT to_hresult(rtapi::ErrorCode code);
 /// are printed: "none", "errors" (the default), or "all".
 void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error);
 
+/// Prints what a program asked for, unless nothing is printed at all.
+void print(D3D12_MESSAGE_SEVERITY severity, const std::string& text);
+
 /// While muted, nothing is printed; sinks still get every message. Counts calls.
 void mute_output(bool muted);
 

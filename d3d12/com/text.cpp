@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "d3d12/com/text.h"
 
+#include <algorithm>
+
 #include <cstdint>
 
 namespace kaamos::d3d12 {
@@ -62,6 +64,15 @@ std::wstring to_wide(std::string_view text) {
     out += static_cast<wchar_t>(whole ? code : kReplacement);
   }
   return out;
+}
+
+std::string to_path(std::string path) {
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
+std::string to_path(const wchar_t* path) {
+  return to_path(to_utf8(path));
 }
 
 }  // namespace kaamos::d3d12

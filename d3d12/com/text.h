@@ -13,4 +13,10 @@ std::string to_utf8(std::wstring_view text);
 /// The code points of UTF-8. What is no UTF-8 becomes U+FFFD.
 std::wstring to_wide(std::string_view text);
 
+/// A path of this system: programs write slashes or backslashes.
+///@{
+std::string to_path(std::string path);
+std::string to_path(const wchar_t* path);
+///@}
+
 }  // namespace kaamos::d3d12

@@ -2,6 +2,7 @@
 #include "d3d12/compiler/arguments.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <string_view>
@@ -44,6 +45,17 @@ const DxcOption* find_option(std::string_view word) {
   return best;
 }
 
+// Whether a word with a slash in front is a path and no option: "/shaders/a.hlsl", not "/Fo/out/a.cso".
+bool is_path(const std::string& word) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(word, ignored)) return true;
+  if (word.find('/', 1) == std::string::npos) return false;
+  const std::string name = "-" + word.substr(1);
+  const DxcOption* option = find_option(name);
+  const bool is_capital = std::isupper(static_cast<unsigned char>(name[1])) != 0;
+  return option == nullptr || (name != option->name && !is_capital);
+}
+
 rtapi::Error refuse(const std::string& word, const std::string& why) {
   return make_error(ErrorId::kCompiler,
                     "argument \"" + word + "\": " + why + ". -help lists the options.");
@@ -70,12 +82,10 @@ class ArgumentParser {
 std::string ArgumentParser::set_profile(const std::string& value) {
   out_.options.Target = value;
   const size_t major = value.find('_');
+  if (major == std::string::npos) return {};  // the compiler refuses it
   if (value.find("_4_") == major || value.find("_5_") == major) {
     out_.options.Target = value.substr(0, major) + "_6_0";
-    if (major != std::string::npos) {
-      out_.notes.push_back("warning: promoting older shader model profile to " +
-                           out_.options.Target);
-    }
+    out_.notes.push_back("warning: promoting older shader model profile to " + out_.options.Target);
   }
   return {};
 }
@@ -145,6 +155,8 @@ std::string ArgumentParser::apply(std::string_view name, const std::string& valu
     out_.header = value;
   } else if (name == "-Vn") {
     out_.variable = value;
+  } else if (name == "-Fd") {
+    out_.debug_file = value;
   } else if (name == "-Fe") {
     out_.errors = value;
   } else if (name == "-Fc") {
@@ -172,6 +184,7 @@ std::string ArgumentParser::apply(std::string_view name, const std::string& valu
 void ArgumentParser::finish() {
   rtapi::ShaderCompileOptions& options = out_.options;
   options.Debug = options.Debug || (debug_info_ && !optimises_);
+  out_.debug_info = debug_info_;
   out_.absolute_paths = debug_info_ || options.Debug;
   if (writes_dependencies_ && out_.dependency_file.empty() && !options.File.empty()) {
     out_.dependency_file =
@@ -185,8 +198,7 @@ rtapi::Result<DxcArguments> ArgumentParser::parse(const std::vector<std::string>
     const std::string& word = words[i];
     std::string name = word;
     const bool is_slash = word.starts_with('/');
-    std::error_code ignored;
-    if (is_slash && !std::filesystem::is_regular_file(word, ignored)) name[0] = '-';
+    if (is_slash && !is_path(word)) name[0] = '-';
     const bool is_option = name.size() > 1 && name[0] == '-';
     const DxcOption* option = is_option ? find_option(name) : nullptr;
     if (option == nullptr) {

@@ -13,6 +13,7 @@ namespace kaamos::d3d12 {
 struct DxcArguments {
   rtapi::ShaderCompileOptions options;  // File is the positional argument
   bool warnings_as_errors = false;
+  bool debug_info = false;      // -Zi
   bool absolute_paths = false;  // -Zi, -Od: for a debugger, wherever it runs
   bool help = false;
   bool version = false;
@@ -21,6 +22,7 @@ struct DxcArguments {
   std::string object;              // -Fo
   std::string header;              // -Fh
   std::string variable;            // -Vn; empty: g_ENTRY
+  std::string debug_file;          // -Fd: a name only
   std::string errors;              // -Fe
   std::string listing;             // -Fc
   std::string hash;                // -Fsh
@@ -31,7 +33,7 @@ struct DxcArguments {
 };
 
 /// Reads words as DXC does: -T lib_6_3, -Tlib_6_3, /T lib_6_3. A word that begins with / and names
-/// a file is one.
+/// a file, or has another / and cannot be an option, is a path.
 /// @errors KA4024 names the argument.
 rtapi::Result<DxcArguments> parse_dxc_arguments(const std::vector<std::string>& words);
 

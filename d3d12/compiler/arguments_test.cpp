@@ -95,6 +95,7 @@ TEST(DxcArguments, OldProfilesArePromoted) {
   EXPECT_EQ(parsed.options.Target, "cs_6_0");
   ASSERT_EQ(parsed.notes.size(), 1u);
   EXPECT_THAT(parsed.notes[0], HasSubstr("promoting"));
+  EXPECT_EQ(parse({"-T", "cs", "a.hlsl"}).options.Target, "cs");  // refused later
 }
 
 TEST(DxcArguments, ErrorsNameTheArgument) {
@@ -112,6 +113,14 @@ TEST(DxcArguments, PathsMayBeginWithASlash) {
   // -D takes any text, so that only the file system can tell.
   const std::string path = KAAMOS_SOURCE_DIR "/README.md";
   EXPECT_EQ(parse({path}).options.File, path);
+  EXPECT_EQ(parse({"/fast/a.hlsl"}).options.File, "/fast/a.hlsl");  // no -f
+  EXPECT_EQ(parse({"/Fo/out/a.cso", "a.hlsl"}).object, "/out/a.cso");
+}
+
+TEST(DxcArguments, ValuesOfIgnoredOptionsAreNoSources) {
+  EXPECT_EQ(
+      parse({"-force-rootsig-ver", "rootsig_1_1", "-encoding", "utf8", "a.hlsl"}).options.File,
+      "a.hlsl");
 }
 
 // Every row of the table does what it says: with a value where it takes one.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "d3d12/compiler/shader_source.h"
 #include "d3d12/container/checksum.h"
@@ -181,6 +182,14 @@ std::string list_reflection(const rtapi::ShaderReflection& reflection, const std
              is_unbounded ? std::string("unbounded") : std::to_string(binding.Count));
   }
   return out + ";\n";
+}
+
+std::optional<std::string> read_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
 }  // namespace kaamos::d3d12

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,5 +49,8 @@ PreprocessedSource preprocess_source(const DxcArguments& arguments);
 
 /// A listing of exports and bindings, each line a comment of `;`.
 std::string list_reflection(const rtapi::ShaderReflection& reflection, const std::string& target);
+
+/// The bytes of a file; none if there is no such file, or it is a folder.
+std::optional<std::string> read_file(const std::string& path);
 
 }  // namespace kaamos::d3d12

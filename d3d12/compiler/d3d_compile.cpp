@@ -27,6 +27,7 @@ struct FlagArgument {
 constexpr FlagArgument kFlagArguments[] = {{D3DCOMPILE_DEBUG, "-Zi"},
                                            {D3DCOMPILE_SKIP_OPTIMIZATION, "-Od"},
                                            {D3DCOMPILE_PACK_MATRIX_ROW_MAJOR, "-Zpr"},
+                                           {D3DCOMPILE_OPTIMIZATION_LEVEL3, "-O3"},
                                            {D3DCOMPILE_WARNINGS_ARE_ERRORS, "-WX"}};
 
 // Asks a handler for what was written in `#include`: the path from the source's folder, or, in a
@@ -122,12 +123,6 @@ HRESULT compile(std::string source, const char* name, const D3D_SHADER_MACRO* de
   return S_OK;
 }
 
-std::optional<std::string> read_whole_file(LPCWSTR name) {
-  std::ifstream file(to_utf8(name), std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-}
-
 std::string source_text(LPCVOID data, SIZE_T size) {
   std::string out(static_cast<const char*>(data), size);
   while (!out.empty() && out.back() == '\0') out.pop_back();
@@ -162,10 +157,11 @@ STDAPI D3DCompileFromFile(LPCWSTR pFileName, const D3D_SHADER_MACRO* pDefines,
   if (pFileName == nullptr) {
     return fail(ErrorId::kNullPointer, "D3DCompileFromFile: pFileName is null.");
   }
-  auto source = read_whole_file(pFileName);
+  const std::string path = to_path(pFileName);
+  const auto source = read_file(path);
   if (!source) return HRESULT_FROM_WIN32(ERROR_FILE_NOT_FOUND);
-  return compile(source_text(source->data(), source->size()), to_utf8(pFileName).c_str(), pDefines,
-                 pInclude, pEntrypoint, pTarget, Flags1, ppCode, ppErrorMsgs);
+  return compile(source_text(source->data(), source->size()), path.c_str(), pDefines, pInclude,
+                 pEntrypoint, pTarget, Flags1, ppCode, ppErrorMsgs);
 }
 
 STDAPI D3DPreprocess(LPCVOID pSrcData, SIZE_T SrcDataSize, LPCSTR pSourceName,
@@ -215,7 +211,7 @@ STDAPI D3DCreateBlob(SIZE_T Size, ID3DBlob** ppBlob) {
 STDAPI D3DReadFileToBlob(LPCWSTR pFileName, ID3DBlob** ppContents) {
   if (pFileName == nullptr || ppContents == nullptr) return E_POINTER;
   *ppContents = nullptr;
-  const auto text = read_whole_file(pFileName);
+  const auto text = read_file(to_path(pFileName));
   if (!text) return HRESULT_FROM_WIN32(ERROR_FILE_NOT_FOUND);
   std::vector<std::byte> bytes(text->size());
   if (!bytes.empty()) std::memcpy(bytes.data(), text->data(), bytes.size());
@@ -225,10 +221,10 @@ STDAPI D3DReadFileToBlob(LPCWSTR pFileName, ID3DBlob** ppContents) {
 
 STDAPI D3DWriteBlobToFile(ID3DBlob* pBlob, LPCWSTR pFileName, BOOL bOverwrite) {
   if (pBlob == nullptr || pFileName == nullptr) return E_POINTER;
-  const std::string path = to_utf8(pFileName);
+  const std::string path = to_path(pFileName);
   std::error_code ignored;
   if (bOverwrite == FALSE && std::filesystem::exists(path, ignored)) {
-    return HRESULT_FROM_WIN32(ERROR_ALREADY_EXISTS);
+    return HRESULT_FROM_WIN32(ERROR_FILE_EXISTS);
   }
   std::ofstream file(path, std::ios::binary);
   file.write(static_cast<const char*>(pBlob->GetBufferPointer()),

@@ -152,12 +152,17 @@ TEST(D3DCompileCall, FromFileAndFilesOfBlobs) {
   const std::wstring object = to_wide((folder / "size.cso").string());
   ASSERT_EQ(D3DWriteBlobToFile(code.Get(), object.c_str(), FALSE), S_OK);
   EXPECT_EQ(D3DWriteBlobToFile(code.Get(), object.c_str(), FALSE),
-            HRESULT_FROM_WIN32(ERROR_ALREADY_EXISTS));
+            HRESULT_FROM_WIN32(ERROR_FILE_EXISTS));
   ComPtr<ID3DBlob> read;
   ASSERT_EQ(D3DReadFileToBlob(object.c_str(), read.GetAddressOf()), S_OK);
   ASSERT_EQ(read->GetBufferSize(), code->GetBufferSize());
   EXPECT_EQ(std::memcmp(read->GetBufferPointer(), code->GetBufferPointer(), read->GetBufferSize()),
             0);
+  const std::wstring backslashes = to_wide(folder.string()) + L"\\size.cso";
+  EXPECT_EQ(D3DReadFileToBlob(backslashes.c_str(), read.ReleaseAndGetAddressOf()), S_OK);
+  const std::wstring no_file = to_wide(folder.string());
+  EXPECT_EQ(D3DReadFileToBlob(no_file.c_str(), read.ReleaseAndGetAddressOf()),
+            HRESULT_FROM_WIN32(ERROR_FILE_NOT_FOUND));
   EXPECT_EQ(D3DReadFileToBlob(L"no/such/file", read.ReleaseAndGetAddressOf()),
             HRESULT_FROM_WIN32(ERROR_FILE_NOT_FOUND));
   EXPECT_EQ(D3DCompileFromFile(L"no/such/file", nullptr, nullptr, "Main", "cs_5_0", 0, 0,

@@ -217,6 +217,25 @@ TEST(DxcApi, OutputsHaveNamesAndAHash) {
   EXPECT_EQ(outputs, result->GetNumOutputs());
 }
 
+TEST(DxcApi, DebugInformationIsAFileWithAName) {
+  const auto result = compile("[shader(\"compute\")] [numthreads(1, 1, 1)] void Main() {}",
+                              {L"-T", L"lib_6_3", L"-Zi", L"-Fd", L"main.pdb"});
+  ComPtr<IDxcBlob> pdb;
+  ComPtr<IDxcBlobWide> name;
+  ASSERT_EQ(result->GetOutput(DXC_OUT_PDB, IID_PPV_ARGS(pdb.GetAddressOf()), name.GetAddressOf()),
+            S_OK);
+  EXPECT_EQ(std::wstring(name->GetStringPointer()), L"main.pdb");
+  const auto unnamed = compile("[shader(\"compute\")] [numthreads(1, 1, 1)] void Main() {}",
+                               {L"-T", L"lib_6_3", L"-Zi"});
+  ASSERT_EQ(unnamed->GetOutput(DXC_OUT_PDB, IID_PPV_ARGS(pdb.ReleaseAndGetAddressOf()),
+                               name.ReleaseAndGetAddressOf()),
+            S_OK);
+  EXPECT_EQ(std::wstring(name->GetStringPointer()).size(), 32u + 4u);
+  const auto plain =
+      compile("[shader(\"compute\")] [numthreads(1, 1, 1)] void Main() {}", {L"-T", L"lib_6_3"});
+  EXPECT_FALSE(plain->HasOutput(DXC_OUT_PDB));
+}
+
 TEST(DxcApi, RootSignatureOfTheEntryPointIsAPart) {
   const auto result = compile("[RootSignature(\"UAV(u0)\")] [numthreads(1, 1, 1)] void Main() {}",
                               {L"-T", L"cs_6_0", L"-E", L"Main"});

@@ -60,15 +60,4 @@ class DxcWideBlob final : public ComObject<IDxcBlobWideEntries> {
 /// UTF-8 of any blob's bytes, by its encoding if it is an IDxcBlobEncoding.
 std::string text_of_blob(IDxcBlob* blob);
 
-/// Hands out a new object as an interface.
-template <class Interface>
-HRESULT hand_out_new(Interface* made, Interface** out) {
-  if (out == nullptr) {
-    made->Release();
-    return E_POINTER;
-  }
-  *out = made;
-  return S_OK;
-}
-
 }  // namespace kaamos::d3d12

@@ -26,7 +26,12 @@ std::wstring handler_path(const std::string& path) {
 }
 
 void set_includes(rtapi::ShaderCompileOptions& options, IDxcIncludeHandler* includes) {
-  if (dynamic_cast<DxcDefaultIncludeHandler*>(includes) != nullptr) return;
+  ComPtr<IUnknown> own;  // no dynamic_cast: the program may be compiled without RTTI
+  if (includes != nullptr &&
+      SUCCEEDED(includes->QueryInterface(kDefaultIncludeHandler,
+                                         reinterpret_cast<void**>(own.GetAddressOf())))) {
+    return;
+  }
   options.ReadFile = [includes](const std::string& path) -> std::optional<std::string> {
     if (includes == nullptr) return std::nullopt;
     ComPtr<IDxcBlob> source;
@@ -36,7 +41,7 @@ void set_includes(rtapi::ShaderCompileOptions& options, IDxcIncludeHandler* incl
   };
 }
 
-// The containers of failed compilations hold nothing.
+// A failed compilation has messages and no object.
 DxcResult* failed_result(const std::string& messages) {
   auto* result = new DxcResult(E_FAIL, DXC_OUT_OBJECT);
   result->add_messages(messages);
@@ -45,6 +50,16 @@ DxcResult* failed_result(const std::string& messages) {
 
 IUnknown* bytes_blob(const void* bytes, size_t size) {
   return static_cast<IDxcBlobUtf8*>(new DxcBlob(bytes, size, std::nullopt));
+}
+
+std::string hash_text(const ShaderHash& hash) {
+  std::string out;
+  for (const uint32_t word : hash.digest) {
+    char digits[9];
+    std::snprintf(digits, sizeof(digits), "%08x", word);
+    out += digits;
+  }
+  return out;
 }
 
 DxcResult* result_of(const DxcArguments& arguments, const CompiledSource& compiled) {
@@ -58,6 +73,12 @@ DxcResult* result_of(const DxcArguments& arguments, const CompiledSource& compil
               to_wide(arguments.hash));
   // IDxcUtils::CreateReflection makes it of the container.
   result->add(DXC_OUT_REFLECTION, bytes_blob(container.data(), container.size()));
+  // The container holds the sources: it is its own debug file.
+  if (arguments.debug_info) {
+    result->add(DXC_OUT_PDB, bytes_blob(container.data(), container.size()),
+                to_wide(arguments.debug_file.empty() ? hash_text(compiled.hash) + ".pdb"
+                                                     : arguments.debug_file));
+  }
   if (!compiled.root_signature.empty()) {
     result->add(DXC_OUT_ROOT_SIGNATURE,
                 bytes_blob(compiled.root_signature.data(), compiled.root_signature.size()));
@@ -76,10 +97,12 @@ DxcResult* preprocessed_result(const DxcArguments& arguments) {
 }
 
 // Compiles or, with -P, preprocesses.
-DxcResult* run(const std::vector<std::string>& words, std::string source,
+// `name`: of the source; none: it is among the words.
+DxcResult* run(const std::vector<std::string>& words, LPCWSTR name, std::string source,
                IDxcIncludeHandler* includes) {
   auto parsed = parse_dxc_arguments(words);
   if (!parsed) return failed_result(parsed.error().message + "\n");
+  if (name != nullptr && *name != L'\0') parsed->options.File = to_utf8(name);
   if (parsed->options.File.empty()) parsed->options.File = "hlsl.hlsl";
   if (parsed->options.Target.empty() && !parsed->preprocess) {
     return failed_result(
@@ -120,8 +143,7 @@ HRESULT DxcCompiler::Compile(IDxcBlob* source, LPCWSTR name, LPCWSTR entry, LPCW
   words.insert(words.end(), {"-T", to_utf8(profile)});
   if (entry != nullptr && *entry != L'\0') words.insert(words.end(), {"-E", to_utf8(entry)});
   add_defines(words, defines, define_count);
-  if (name != nullptr && *name != L'\0') words.push_back(to_utf8(name));
-  *result = run(words, text_of_blob(source), includes);
+  *result = run(words, name, text_of_blob(source), includes);
   return S_OK;
 }
 
@@ -147,8 +169,7 @@ HRESULT DxcCompiler::Preprocess(IDxcBlob* source, LPCWSTR name, LPCWSTR* argumen
   std::vector<std::string> words = words_of(arguments, argument_count);
   words.emplace_back("-P");
   add_defines(words, defines, define_count);
-  if (name != nullptr && *name != L'\0') words.push_back(to_utf8(name));
-  *result = run(words, text_of_blob(source), includes);
+  *result = run(words, name, text_of_blob(source), includes);
   return S_OK;
 }
 
@@ -157,7 +178,7 @@ HRESULT DxcCompiler::Compile(const DxcBuffer* source, LPCWSTR* arguments, UINT32
   if (source == nullptr || source->Ptr == nullptr || result == nullptr) {
     return fail(ErrorId::kNullPointer, "IDxcCompiler3::Compile: pSource or ppResult is null.");
   }
-  return hand_out(run(words_of(arguments, argument_count),
+  return hand_out(run(words_of(arguments, argument_count), nullptr,
                       decode_text(source->Ptr, source->Size, source->Encoding), includes),
                   riid, result);
 }
@@ -225,16 +246,9 @@ HRESULT DxcDefaultIncludeHandler::LoadSource(LPCWSTR name, IDxcBlob** source) {
 HRESULT load_file(LPCWSTR name, const UINT32* code_page, IDxcBlobEncoding** blob) {
   if (name == nullptr || blob == nullptr) return E_POINTER;
   *blob = nullptr;
-  std::string path = to_utf8(name);
-  for (char& c : path) {
-    if (c == '\\') c = '/';
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return HRESULT_FROM_WIN32(ERROR_FILE_NOT_FOUND);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file),
-                                std::istreambuf_iterator<char>()};
-  if (file.bad()) return HRESULT_FROM_WIN32(ERROR_ACCESS_DENIED);
-  *blob = new DxcBlob(bytes.data(), bytes.size(),
+  const auto bytes = read_file(to_path(name));
+  if (!bytes) return HRESULT_FROM_WIN32(ERROR_FILE_NOT_FOUND);
+  *blob = new DxcBlob(bytes->data(), bytes->size(),
                       code_page != nullptr ? *code_page : UINT32{DXC_CP_ACP});
   return S_OK;
 }

@@ -38,9 +38,16 @@ class DxcCompiler final
   HRESULT STDMETHODCALLTYPE GetFlags(UINT32* flags) override;
 };
 
+/// What only that one answers.
+inline constexpr GUID kDefaultIncludeHandler = {
+    0x6B61616D, 0x6F73, 0x4469, {0x88, 0x1A, 0x01, 0x7C, 0x5E, 0x30, 0x92, 0xD4}};
+
 /// Reads files. DxcCompiler recognises it and reads the disk itself, without regard to case.
 class DxcDefaultIncludeHandler final : public ComObject<IDxcIncludeHandlerEntries> {
  public:
+  HRESULT STDMETHODCALLTYPE QueryInterface(REFIID riid, void** object) override {
+    return ComObject::QueryInterface(riid == kDefaultIncludeHandler ? kIUnknown : riid, object);
+  }
   HRESULT STDMETHODCALLTYPE LoadSource(LPCWSTR name, IDxcBlob** source) override;
 };
 

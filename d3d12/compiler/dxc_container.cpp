@@ -50,8 +50,7 @@ HRESULT DxcContainerReflection::FindFirstPartKind(UINT32 kind, UINT32* index) {
   if (index == nullptr) return E_POINTER;
   *index = 0;
   for (size_t i = 0; i < parts_.size(); ++i) {
-    const bool stands_for = kind == DXC_PART_DXIL && parts_[i].fourcc == kSourcePart;
-    if (parts_[i].fourcc != kind && !stands_for) continue;
+    if (!is_part(parts_[i], kind)) continue;
     *index = static_cast<UINT32>(i);
     return S_OK;
   }

@@ -43,7 +43,7 @@ class DxcContainerBuilder final : public ComObject<IDxcContainerBuilderEntries> 
   std::vector<OwnedPart> parts_;
 };
 
-/// A container is valid if it is whole and holds a source that compiles here.
+/// A container is valid if it is whole and holds a source that can be read.
 class DxcValidator final : public ComObject<IDxcValidatorEntries, IDxcVersionInfoEntries> {
  public:
   HRESULT STDMETHODCALLTYPE Validate(IDxcBlob* shader, UINT32 flags,

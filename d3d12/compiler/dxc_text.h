@@ -8,8 +8,8 @@
 
 namespace kaamos::d3d12 {
 
-/// UTF-8 of a text in a code page (DXC_CP). A byte order mark, which only counts for DXC_CP_ACP,
-/// and zeros at the end are left out.
+/// UTF-8 of a text in a code page (DXC_CP). A byte order mark, which decides the encoding for
+/// DXC_CP_ACP, and zeros at the end are left out.
 std::string decode_text(const void* bytes, size_t size, uint32_t code_page);
 
 }  // namespace kaamos::d3d12

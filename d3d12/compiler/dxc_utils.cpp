@@ -77,7 +77,7 @@ HRESULT DxcUtils::GetDxilContainerPart(const DxcBuffer* shader, UINT32 kind, voi
   const auto parts = read_container(shader->Ptr, shader->Size);
   if (!parts) return fail(parts.error());
   for (const Part& part : *parts) {
-    if (part.fourcc != kind) continue;
+    if (!is_part(part, kind)) continue;
     *data = const_cast<std::byte*>(part.bytes.data());  // NOLINT: the interface has no const
     *size = static_cast<UINT32>(part.bytes.size());
     return S_OK;

@@ -27,6 +27,7 @@ int write_file(const std::string& path, std::string_view bytes) {
   if (path.empty()) return 0;
   errno = 0;
   std::ofstream file(path, std::ios::binary);
+  if (!file.is_open()) return fail("cannot write " + path + ": " + std::strerror(errno));
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (file) return 0;
@@ -55,17 +56,21 @@ std::string header_text(const DxcArguments& arguments, const CompiledSource& com
   return out + "\n};\n";
 }
 
-// "output: source header ..." with spaces escaped the way make and ninja expect.
-std::string make_rule(const std::string& output, const std::vector<std::string>& inputs) {
-  std::string rule = output + ":";
-  for (const std::string& input : inputs) {
-    rule += " \\\n  ";
-    for (const char c : input) {
-      if (c == ' ' || c == '#') rule += '\\';
-      if (c == '$') rule += '$';
-      rule += c;
-    }
+// A file's name as make and ninja expect it in a rule.
+std::string escape(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    if (c == ' ' || c == '#') out += '\\';
+    if (c == '$') out += '$';
+    out += c;
   }
+  return out;
+}
+
+// "output: source header ..."
+std::string make_rule(const std::string& output, const std::vector<std::string>& inputs) {
+  std::string rule = escape(output) + ":";
+  for (const std::string& input : inputs) rule += " \\\n  " + escape(input);
   return rule + "\n";
 }
 

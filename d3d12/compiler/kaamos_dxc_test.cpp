@@ -117,6 +117,19 @@ TEST_F(KaamosDxc, DependenciesAreAMakeRule) {
   EXPECT_EQ(read("library.d"), "library.cso: \\\n  library.hlsl \\\n  include/colour.hlsli\n");
 }
 
+TEST_F(KaamosDxc, BlanksInPathsAreEscapedInTheRule) {
+  fs::create_directories(folder_ / "a b");
+  ASSERT_EQ(run("-T lib_6_3 -I include -D RED=1 -Fo 'a b/library.cso' -M library.hlsl"), 0);
+  EXPECT_THAT(read("out.txt"), testing::StartsWith("a\\ b/library.cso: \\\n  library.hlsl"));
+}
+
+TEST_F(KaamosDxc, WhatCannotBeWrittenStays) {
+  fs::create_directories(folder_ / "out");  // an empty folder, which remove() would take
+  EXPECT_EQ(run("-T lib_6_3 -I include -D RED=1 -Fo out library.hlsl"), 1);
+  EXPECT_THAT(read("err.txt"), HasSubstr("cannot write out: Is a directory"));
+  EXPECT_TRUE(fs::is_directory(folder_ / "out"));
+}
+
 TEST_F(KaamosDxc, PreprocessedSourceCompiles) {
   ASSERT_EQ(run("-P -I include -D RED=7 -Fi flat.hlsl library.hlsl"), 0) << read("err.txt");
   EXPECT_THAT(read("flat.hlsl"), HasSubstr("float3 ( 7 , 0 , 0 )"));

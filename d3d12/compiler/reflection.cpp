@@ -81,7 +81,7 @@ HRESULT describe(const std::vector<rtapi::ShaderSignatureElement>& elements, UIN
   return S_OK;
 }
 
-// All bindings of the shaders of a library, or of one shader.
+// All bindings of one shader.
 class ReflectedShader final : public ComObject<ShaderReflectionBase> {
  public:
   ReflectedShader(rtapi::ShaderReflection reflection, const std::string& target)

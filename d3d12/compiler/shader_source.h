@@ -16,6 +16,11 @@ namespace kaamos::d3d12 {
 
 inline constexpr uint32_t kSourcePart = fourcc("KAAM");
 
+/// Whether a part is what a program asks for. The source stands for DXIL.
+inline bool is_part(const Part& part, uint32_t kind) {
+  return part.fourcc == kind || (kind == fourcc("DXIL") && part.fourcc == kSourcePart);
+}
+
 struct ShaderSource {
   rtapi::ShaderCompileOptions options;  // Source holds the main file; ReadFile is empty
   std::vector<rtapi::ShaderSourceFile> files;

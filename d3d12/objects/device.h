@@ -7,6 +7,7 @@
 #include "d3d12/com/private_data.h"
 #include "d3d12/com/report.h"
 #include "d3d12/objects/info_queue.h"
+#include "d3d12/objects/live_objects.h"
 
 namespace kaamos::d3d12 {
 
@@ -18,6 +19,7 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   Device(rtapi::Device device, bool debug, LUID luid);
 
   const rtapi::Device& rtapi_device() const { return device_; }
+  LiveObjects& live_objects() { return live_objects_; }
 
   // Queues, lists, fences
   HRESULT STDMETHODCALLTYPE CreateCommandQueue(const D3D12_COMMAND_QUEUE_DESC* desc, REFIID riid,
@@ -65,6 +67,9 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   HRESULT STDMETHODCALLTYPE SetBackgroundProcessingMode(D3D12_BACKGROUND_PROCESSING_MODE mode,
                                                         D3D12_MEASUREMENTS_ACTION action,
                                                         HANDLE event, BOOL* more) override;
+
+  // The debug layer. Of objects the same is stored and printed.
+  HRESULT STDMETHODCALLTYPE ReportLiveDeviceObjects(D3D12_RLDO_FLAGS flags) override;
 
   // Resources
   HRESULT STDMETHODCALLTYPE CreateCommittedResource(const D3D12_HEAP_PROPERTIES* heap,
@@ -186,6 +191,7 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   bool debug_;
   LUID luid_;
   std::atomic<bool> removed_{false};
+  LiveObjects live_objects_;
 };
 
 /// The device behind an interface that this library handed out.

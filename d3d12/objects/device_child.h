@@ -5,6 +5,7 @@
 #include <wrl/client.h>
 
 #include "d3d12/com/private_data.h"
+#include "d3d12/objects/live_objects.h"
 
 namespace kaamos::d3d12 {
 
@@ -15,13 +16,19 @@ template <class First, class... Rest>
 class DeviceChild : public NamedObject<First, Rest...> {
  public:
   /// `device`: the device as ID3D12Device, which stays alive as long as the object.
-  explicit DeviceChild(ID3D12Device* device) : device_(device) {}
+  explicit DeviceChild(ID3D12Device* device) : device_(device) {
+    live_objects(device).add(this, [](const void* object) {
+      const auto* child = static_cast<const DeviceChild*>(object);
+      return LiveObject{First::kInterfaces[0].name, child, child->name(), child->references()};
+    });
+  }
 
   HRESULT STDMETHODCALLTYPE GetDevice(REFIID riid, void** device) override {
     return device_->QueryInterface(riid, device);
   }
 
  protected:
+  ~DeviceChild() override { live_objects(device_.Get()).remove(this); }
   ID3D12Device* device() const { return device_.Get(); }
 
  private:

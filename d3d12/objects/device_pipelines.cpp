@@ -2,9 +2,13 @@
 // Root signatures, compute and graphics pipelines, command signatures.
 #include <windows.h>
 
+#include <algorithm>
+
 #include <directx/d3dx12.h>
 
 #include "d3d12/compiler/shader_bytecode.h"
+#include "d3d12/compiler/shader_source.h"
+#include "d3d12/container/container.h"
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/pipeline_objects.h"
 #include "d3d12/objects/root_signature_blob.h"
@@ -13,15 +17,41 @@ namespace kaamos::d3d12 {
 
 namespace {
 
+// Whether a blob is a library that can only have a root signature as a subobject, which is no part
+// of the container.
+bool declares_root_signature(const void* blob, size_t size) {
+  if (blob == nullptr) return false;
+  const auto parts = read_container(blob, size);
+  if (!parts) return false;
+  const auto has = [&](uint32_t kind) {
+    return std::any_of(parts->begin(), parts->end(),
+                       [&](const Part& part) { return part.fourcc == kind; });
+  };
+  return has(kSourcePart) && !has(fourcc("RTS0"));
+}
+
+// A library's only global one. [D3D12: CreateRootSignature]
+rtapi::Result<rtapi::RootSignature> declared_root_signature(const rtapi::Device& device,
+                                                            const void* blob, size_t size) {
+  const auto library = load_shader(blob, size);
+  if (!library) return library.error();
+  return device.CreateRootSignature(*library);
+}
+
+rtapi::Result<rtapi::RootSignature> serialized_root_signature(const rtapi::Device& device,
+                                                              const void* blob, size_t size) {
+  const auto desc = root_signature_of_blob(blob, size);
+  if (!desc) return desc.error();
+  return device.CreateRootSignature(*desc);
+}
+
 // The root signature that a pipeline names, or else that of one of its shaders.
 // [D3D12: pRootSignature]
 rtapi::Result<rtapi::RootSignature> root_signature_for(const rtapi::Device& device,
                                                        ID3D12RootSignature* named,
                                                        const D3D12_SHADER_BYTECODE& shader) {
   if (named != nullptr) return rtapi_root_signature(named);
-  const auto desc = root_signature_of_blob(shader.pShaderBytecode, shader.BytecodeLength);
-  if (!desc) return desc.error();
-  return device.CreateRootSignature(*desc);
+  return serialized_root_signature(device, shader.pShaderBytecode, shader.BytecodeLength);
 }
 
 rtapi::BlendDesc blend_desc(const D3D12_BLEND_DESC& desc) {
@@ -98,9 +128,8 @@ rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
 HRESULT Device::CreateRootSignature(UINT, const void* blob, SIZE_T size, REFIID riid,
                                     void** root_signature) {
   if (root_signature != nullptr) *root_signature = nullptr;
-  const auto desc = root_signature_of_blob(blob, size);
-  if (!desc) return fail(desc.error());
-  auto made = device_.CreateRootSignature(*desc);
+  auto made = declares_root_signature(blob, size) ? declared_root_signature(device_, blob, size)
+                                                  : serialized_root_signature(device_, blob, size);
   if (!made) return fail(made.error());
   return hand_out(new RootSignature(this, *made), riid, root_signature);
 }

@@ -119,5 +119,41 @@ TEST_F(InfoQueueCalls, ACallbackGetsEveryMessageUntilItIsTakenBack) {
   EXPECT_EQ(info_->UnregisterMessageCallback(cookie), E_INVALIDARG);
 }
 
+TEST_F(InfoQueueCalls, LiveObjectsAreListedByInterfaceNameAndReferences) {
+  ComPtr<ID3D12DebugDevice> debug_device;
+  ASSERT_EQ(checked_.As(&debug_device), S_OK);
+  ComPtr<ID3D12Fence> named, other, freed;
+  for (ID3D12Fence** fence : {named.GetAddressOf(), freed.GetAddressOf(), other.GetAddressOf()}) {
+    ASSERT_EQ(checked_->CreateFence(0, D3D12_FENCE_FLAG_NONE, IID_PPV_ARGS(fence)), S_OK);
+  }
+  ASSERT_EQ(named->SetName(L"frame \u00e4"), S_OK);
+  const std::string narrow = "other";
+  ASSERT_EQ(other->SetPrivateData(WKPDID_D3DDebugObjectName, 5, narrow.data()), S_OK);
+  const ComPtr<ID3D12Fence> twice = other;
+  freed.Reset();
+  ASSERT_EQ(debug_device->ReportLiveDeviceObjects(D3D12_RLDO_SUMMARY | D3D12_RLDO_DETAIL), S_OK);
+  std::vector<std::string> texts;
+  std::vector<D3D12_MESSAGE_ID> ids;
+  for (UINT64 i = 0; i < info_->GetNumStoredMessages(); ++i) {
+    SIZE_T size = 0;
+    ASSERT_EQ(info_->GetMessage(i, nullptr, &size), S_FALSE);
+    std::vector<char> bytes(size);
+    auto* message = reinterpret_cast<D3D12_MESSAGE*>(bytes.data());
+    ASSERT_EQ(info_->GetMessage(i, message, &size), S_OK);
+    texts.emplace_back(message->pDescription);
+    ids.push_back(message->ID);
+    EXPECT_EQ(message->Severity, D3D12_MESSAGE_SEVERITY_WARNING);
+  }
+  ASSERT_EQ(texts.size(), 4u);
+  EXPECT_EQ(ids, (std::vector<D3D12_MESSAGE_ID>{
+                     D3D12_MESSAGE_ID_LIVE_DEVICE, D3D12_MESSAGE_ID_LIVE_OBJECT_SUMMARY,
+                     D3D12_MESSAGE_ID_LIVE_MONITOREDFENCE, D3D12_MESSAGE_ID_LIVE_MONITOREDFENCE}));
+  EXPECT_EQ(texts[0].find("Live ID3D12Device at 0x"), 0u) << texts[0];
+  EXPECT_EQ(texts[1], "Live ID3D12Fence: 2");
+  EXPECT_EQ(texts[2].find("Live ID3D12Fence at 0x"), 0u) << texts[2];
+  EXPECT_NE(texts[2].find(", Name: frame \u00e4, Refcount: 1"), std::string::npos) << texts[2];
+  EXPECT_NE(texts[3].find(", Name: other, Refcount: 2"), std::string::npos) << texts[3];
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include <d3dcompiler.h>
+
 #include "d3d12/container/container.h"
 #include "d3d12/objects/d3d12_fixture.h"
 
@@ -138,6 +140,46 @@ TEST_F(RootSignatureCalls, AnUnknownVersionFillsTheErrorBlob) {
   ASSERT_NE(errors.Get(), nullptr);
   EXPECT_NE(std::string(static_cast<const char*>(errors->GetBufferPointer())).find("Version is 9"),
             std::string::npos);
+}
+
+TEST_F(RootSignatureCalls, SerializingChecksTheRulesOfRootSignatures) {
+  D3D12_ROOT_PARAMETER parameters[2] = {};
+  for (D3D12_ROOT_PARAMETER& parameter : parameters) {
+    parameter.ParameterType = D3D12_ROOT_PARAMETER_TYPE_UAV;
+    parameter.Descriptor.ShaderRegister = 3;
+  }
+  const D3D12_ROOT_SIGNATURE_DESC desc = {2, parameters, 0, nullptr,
+                                          D3D12_ROOT_SIGNATURE_FLAG_NONE};
+  ComPtr<ID3DBlob> blob, errors;
+  EXPECT_EQ(D3D12SerializeRootSignature(&desc, D3D_ROOT_SIGNATURE_VERSION_1, blob.GetAddressOf(),
+                                        errors.GetAddressOf()),
+            E_INVALIDARG);
+  EXPECT_EQ(blob.Get(), nullptr);
+  ASSERT_NE(errors.Get(), nullptr);
+  const std::string text = static_cast<const char*>(errors->GetBufferPointer());
+  EXPECT_EQ(text.substr(0, 6), "KA0604");
+  EXPECT_NE(text.find("u3"), std::string::npos) << text;
+}
+
+TEST_F(RootSignatureCalls, ALibrarysOnlyGlobalOneIsTaken) {
+  const auto compile = [](const std::string& text) {
+    ComPtr<ID3DBlob> code;
+    EXPECT_EQ(D3DCompile(text.data(), text.size(), "library.hlsl", nullptr, nullptr, nullptr,
+                         "lib_6_3", 0, 0, code.GetAddressOf(), nullptr),
+              S_OK);
+    return code;
+  };
+  const auto create = [&](ID3DBlob* code) {
+    ComPtr<ID3D12RootSignature> made;
+    return device_->CreateRootSignature(0, code->GetBufferPointer(), code->GetBufferSize(),
+                                        IID_PPV_ARGS(made.GetAddressOf()));
+  };
+  const std::string shader = "struct P { float v; }; [shader(\"miss\")] void Miss(inout P p) {}";
+  EXPECT_EQ(create(compile("GlobalRootSignature g = {\"SRV(t0)\"};" + shader).Get()), S_OK);
+  EXPECT_EQ(messages_.size(), 0u);
+  EXPECT_EQ(create(compile(shader).Get()), E_INVALIDARG);
+  ASSERT_EQ(messages_.size(), 1u);
+  EXPECT_EQ(messages_[0].substr(0, 6), "KA0633");
 }
 
 }  // namespace

@@ -19,9 +19,13 @@ HRESULT serialize(const D3D12_VERSIONED_ROOT_SIGNATURE_DESC* desc, ID3DBlob** bl
   }
   *blob = nullptr;
   const auto converted = root_signature_desc(*desc);
-  if (!converted) {
-    if (error_blob != nullptr) *error_blob = new Blob(converted.error().message);
-    return fail(converted.error());
+  const auto refuse = [&](const rtapi::Error& error) {
+    if (error_blob != nullptr) *error_blob = new Blob(error.message);
+    return fail(error);
+  };
+  if (!converted) return refuse(converted.error());
+  if (const auto status = rtapi::CheckRootSignature(*converted); !status.ok()) {
+    return refuse(status.error());
   }
   const std::vector<std::byte> part = write_root_signature(*converted, desc->Version);
   const Part parts[] = {{kRootSignaturePart, part}};

@@ -2,8 +2,14 @@
 // MSVC's C library, where it differs.
 #include <kaamos_crt.h>
 
+#include <locale.h>
 #include <cerrno>
+#include <clocale>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "d3d12/com/text.h"
 
 namespace {
 
@@ -64,18 +70,168 @@ std::basic_string<C> translate_format(const C* format) {
   return out;
 }
 
+// Conversions between narrow and wide text are UTF-8's, whatever the program's locale.
+class Utf8 {
+ public:
+  Utf8() : previous_(uselocale(locale())) {}
+  ~Utf8() { uselocale(previous_); }
+  Utf8(const Utf8&) = delete;
+  Utf8& operator=(const Utf8&) = delete;
+
+ private:
+  static locale_t locale() {
+    static const locale_t utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    return utf8;
+  }
+  locale_t previous_;
+};
+
+// A call of scanf without sizes: the format as the C library here reads it, and the pointers.
+template <class C>
+struct Scan {
+  std::basic_string<C> format;
+  std::vector<void*> out;
+};
+
+constexpr size_t kMostConversions = 24;
+
+// None if there are too many conversions. MSVC's size of a text becomes the conversion's width, if
+// that is smaller.
+template <class C>
+std::optional<Scan<C>> read_scan(const C* format, va_list arguments) {
+  Scan<C> scan;
+  const auto is = [](C c, char what) { return c == static_cast<C>(what); };
+  const auto put = [&](const char* text) {
+    for (; *text != 0; ++text) scan.format += static_cast<C>(*text);
+  };
+  while (*format != C()) {
+    const C c = *format++;
+    scan.format += c;
+    if (!is(c, '%')) continue;
+    if (is(*format, '%')) {
+      scan.format += *format++;
+      continue;
+    }
+    const bool kept = !is(*format, '*');
+    if (!kept) scan.format += *format++;
+    size_t width = 0;
+    while (*format >= static_cast<C>('0') && *format <= static_cast<C>('9')) {
+      width = 10 * width + static_cast<size_t>(*format++ - static_cast<C>('0'));
+    }
+    std::string size;
+    if (is(format[0], 'I')) {
+      const bool is_32 = is(format[1], '3') && is(format[2], '2');
+      const bool is_64 = is(format[1], '6') && is(format[2], '4');
+      format += is_32 || is_64 ? 3 : 1;
+      size = is_32 ? "" : "ll";
+    }
+    for (; is(*format, 'h') || is(*format, 'l') || is(*format, 'L') || is(*format, 'j') ||
+           is(*format, 'z') || is(*format, 't') || is(*format, 'w');
+         ++format) {
+      size += static_cast<char>(*format);
+    }
+    if (*format == C()) break;
+    const C kind = *format++;
+    const bool character = is(kind, 'c') || is(kind, 'C');
+    const bool text = character || is(kind, 's') || is(kind, 'S') || is(kind, '[');
+    if (kept) {
+      if (scan.out.size() == kMostConversions) return std::nullopt;
+      scan.out.push_back(va_arg(arguments, void*));
+    }
+    if (text && kept) {
+      // One character less, for the terminating zero.
+      const size_t room = va_arg(arguments, unsigned) - (character ? 0 : 1);
+      const size_t wanted = width == 0 && character ? 1 : width;
+      width = wanted == 0 || wanted > room ? room : wanted;
+      if (width == 0) return std::nullopt;
+    }
+    if (width != 0) put(std::to_string(width).c_str());
+    if (text) {
+      const bool capital = is(kind, 'S') || is(kind, 'C');
+      const bool wide = size == "l" || size == "w" || (size != "h" && capital != (sizeof(C) > 1));
+      if (wide) put("l");
+      put(is(kind, '[') ? "[" : character ? "c" : "s");
+      if (is(kind, '[')) {
+        if (is(*format, '^')) scan.format += *format++;
+        if (is(*format, ']')) scan.format += *format++;
+        while (*format != C() && !is(*format, ']')) scan.format += *format++;
+        if (*format != C()) scan.format += *format++;
+      }
+    } else {
+      const bool real = is(kind, 'f') || is(kind, 'e') || is(kind, 'g') || is(kind, 'E') ||
+                        is(kind, 'G') || is(kind, 'a');
+      put(size == "l" && !real ? "" : size.c_str());  // long has 32 bits on Windows
+      scan.format += kind;
+    }
+  }
+  scan.out.resize(kMostConversions);
+  return scan;
+}
+
+// What `scan` makes of a format and kMostConversions pointers.
+template <class C, class Call>
+int run_scan(const C* format, va_list arguments, const Call& call) {
+  const auto scan = format != nullptr ? read_scan(format, arguments) : std::nullopt;
+  if (!scan) return EOF;
+  const Utf8 utf8;
+  const auto& p = scan->out;
+  return call(scan->format.c_str(), p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9],
+              p[10], p[11], p[12], p[13], p[14], p[15], p[16], p[17], p[18], p[19], p[20], p[21],
+              p[22], p[23]);
+}
+
 }  // namespace
 
 extern "C" {
 
+int kaamos_vscan(const char* text, const char* format, va_list arguments) {
+  if (text == nullptr) return EOF;
+  return run_scan(format, arguments,
+                  [&](auto... out) { return std::sscanf(text, out...); });  // NOLINT
+}
+
+int kaamos_vscan_wide(const wchar_t* text, const wchar_t* format, va_list arguments) {
+  if (text == nullptr) return EOF;
+  return run_scan(format, arguments, [&](auto... out) { return std::swscanf(text, out...); });
+}
+
+int kaamos_vscan_file(FILE* file, const char* format, va_list arguments) {
+  if (file == nullptr) return EOF;
+  return run_scan(format, arguments,
+                  [&](auto... out) { return std::fscanf(file, out...); });  // NOLINT
+}
+
+int kaamos_vfprint(FILE* file, const char* format, va_list arguments) {
+  if (file == nullptr || format == nullptr) return -1;
+  const Utf8 utf8;
+  return std::vfprintf(file, translate_format(format).c_str(), arguments);
+}
+
+// A stream has one width: this is narrow, so that it mixes with printf.
+int kaamos_vfprint_wide(FILE* file, const wchar_t* format, va_list arguments) {
+  if (file == nullptr || format == nullptr) return -1;
+  std::vector<wchar_t> text(256);
+  for (;;) {
+    va_list again;
+    va_copy(again, arguments);
+    const int length = kaamos_vprint_wide(text.data(), text.size(), format, again);
+    va_end(again);
+    if (length >= 0) return std::fputs(kaamos::d3d12::to_utf8(text.data()).c_str(), file);
+    if (text.size() > (1u << 20)) return -1;
+    text.resize(4 * text.size());
+  }
+}
+
 int kaamos_vprint(char* out, size_t count, const char* format, va_list arguments) {
   if (out == nullptr || count == 0 || format == nullptr) return -1;
+  const Utf8 utf8;
   const int length = std::vsnprintf(out, count, translate_format(format).c_str(), arguments);
   return length >= 0 && static_cast<size_t>(length) < count ? length : -1;
 }
 
 int kaamos_vprint_wide(wchar_t* out, size_t count, const wchar_t* format, va_list arguments) {
   if (out == nullptr || count == 0 || format == nullptr) return -1;
+  const Utf8 utf8;
   const int length = std::vswprintf(out, count, translate_format(format).c_str(), arguments);
   if (length < 0) out[count - 1] = 0;
   return length;

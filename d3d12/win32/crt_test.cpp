@@ -79,5 +79,52 @@ TEST(CrtText, AnErrorCodeHasAName) {
   LocalFree(made);
 }
 
+TEST(CrtText, ScanCallsTakeTheSizesOfTexts) {
+  char word[8] = {}, letter = 0;
+  float x = 0, y = 0;
+  int64_t large = 0;
+  EXPECT_EQ(sscanf_s("v 1.5 -2 q 5000000000 x", "%s %f %f %c %I64d", word, 8u, &x, &y, &letter, 1u,
+                     &large),
+            5);
+  EXPECT_STREQ(word, "v");
+  EXPECT_EQ(x, 1.5f);
+  EXPECT_EQ(y, -2.0f);
+  EXPECT_EQ(letter, 'q');
+  EXPECT_EQ(large, INT64_C(5000000000));
+  EXPECT_EQ(sscanf_s("skipped abc]d", "%*s %[a-c]]%c", word, 8u, &letter, 1u), 2);
+  EXPECT_STREQ(word, "abc");
+  EXPECT_EQ(letter, 'd');
+  EXPECT_EQ(sscanf_s("abcdefghij", "%s", word, 8u), 1);
+  EXPECT_STREQ(word, "abcdefg");  // never more than fits
+  wchar_t wide[8] = {};
+  int number = 0;
+  EXPECT_EQ(swscanf_s(L"name=7", L"%[^=]=%d", wide, 8u, &number), 2);
+  EXPECT_STREQ(wide, L"name");
+  EXPECT_EQ(number, 7);
+}
+
+TEST(CrtText, NarrowAndWideTextConvertWithoutALocale) {
+  char text[32];
+  EXPECT_EQ(sprintf_s(text, "%S", L"Gr\u00f6\u00dfe"), 7);
+  EXPECT_STREQ(text,
+               "Gr\xc3\xb6\xc3\x9f"
+               "e");
+}
+
+TEST(CrtText, CountsOfSnprintfCut) {
+  char text[16];
+  EXPECT_EQ(_snprintf_s(text, 16, 5, "%s", "abcdefgh"), -1);
+  EXPECT_STREQ(text, "abcde");
+  EXPECT_EQ(_snprintf_s(text, _TRUNCATE, "%s", "abcdefgh"), 8);
+}
+
+TEST(CrtText, TheLastBackslashMayBeASlash) {
+  const wchar_t path[] = L"/a/b.exe";
+  EXPECT_STREQ(wcsrchr(path, L'\\'), L"/b.exe");
+  EXPECT_STREQ(std::wcsrchr(path, L'.'), L".exe");
+  EXPECT_STREQ(strrchr("a\\b/c", '/'), "/c");
+  EXPECT_EQ(strrchr("abc", '\\'), nullptr);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

@@ -4,7 +4,10 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <list>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -12,42 +15,57 @@ namespace kaamos::d3d12 {
 
 namespace {
 
-// One lock and condition serve for all events: programs wait once a frame.
+// A thread that waits. Whoever sets an event lets waits go, as Windows does: a wait that was let go
+// stays so, whatever happens to the event before its thread runs.
+struct Waiter {
+  std::span<const std::shared_ptr<Event>> events;
+  bool all;
+  std::optional<DWORD> found;  // the index of the first that is set, or 0 once all are
+  std::condition_variable changed;
+};
+
+// One lock serves for all events: programs wait once a frame.
 struct Waits {
   std::mutex mutex;
-  std::condition_variable changed;
+  std::list<Waiter*> waiters;  // the longest wait first
 };
 Waits& waits() {
   static Waits* all = new Waits;  // lives on: threads may wait when the program ends
   return *all;
 }
 
-// The index of the first that is set, or 0 once all are; none when the time is up. Events that
-// reset themselves do so in the thread that they let go.
-std::optional<DWORD> wait(const std::vector<std::shared_ptr<Event>>& events, bool all,
+// Lets a wait go if its events are set, and resets those that reset themselves.
+void try_let_go(Waiter& waiter) {
+  size_t count = 0;
+  for (DWORD i = 0; i < waiter.events.size(); ++i) {
+    if (!waiter.events[i]->set) continue;
+    ++count;
+    if (!waiter.all && !waiter.found) waiter.found = i;
+  }
+  if (waiter.all && count == waiter.events.size()) waiter.found = 0;
+  if (!waiter.found) return;
+  for (DWORD i = 0; i < waiter.events.size(); ++i) {
+    Event& event = *waiter.events[i];
+    if ((waiter.all || i == *waiter.found) && !event.manual_reset) event.set = false;
+  }
+}
+
+// None when the time is up.
+std::optional<DWORD> wait(std::span<const std::shared_ptr<Event>> events, bool all,
                           DWORD milliseconds) {
   std::unique_lock lock(waits().mutex);
-  std::optional<DWORD> found;
-  const auto ready = [&] {
-    size_t count = 0;
-    for (DWORD i = 0; i < events.size(); ++i) {
-      if (!events[i]->set) continue;
-      ++count;
-      if (!all && !found) found = i;
-    }
-    if (all && count == events.size()) found = 0;
-    return found.has_value();
-  };
+  Waiter waiter{events, all, {}, {}};
+  try_let_go(waiter);
+  if (waiter.found || milliseconds == 0) return waiter.found;
+  const auto place = waits().waiters.insert(waits().waiters.end(), &waiter);
+  const auto let_go = [&] { return waiter.found.has_value(); };
   if (milliseconds == INFINITE) {
-    waits().changed.wait(lock, ready);
+    waiter.changed.wait(lock, let_go);
   } else {
-    waits().changed.wait_for(lock, std::chrono::milliseconds(milliseconds), ready);
+    waiter.changed.wait_for(lock, std::chrono::milliseconds(milliseconds), let_go);
   }
-  if (!found) return std::nullopt;
-  for (DWORD i = 0; i < events.size(); ++i) {
-    if ((all || i == *found) && !events[i]->manual_reset) events[i]->set = false;
-  }
-  return found;
+  waits().waiters.erase(place);
+  return waiter.found;
 }
 
 BOOL change(HANDLE handle, bool value, const char* call) {
@@ -66,7 +84,12 @@ HANDLE make_event(bool manual_reset, bool set) {
 void set_event(Event& event, bool value) {
   std::lock_guard lock(waits().mutex);
   event.set = value;
-  if (value) waits().changed.notify_all();
+  if (!value) return;
+  for (Waiter* waiter : waits().waiters) {
+    if (waiter->found) continue;
+    try_let_go(*waiter);
+    if (waiter->found) waiter->changed.notify_one();
+  }
 }
 
 }  // namespace kaamos::d3d12

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "d3d12/com/report.h"
@@ -71,6 +72,43 @@ TEST(Clock, ItDoesNotGoBack) {
   QueryPerformanceCounter(&after);
   QueryPerformanceFrequency(&frequency);
   EXPECT_GE((after.QuadPart - before.QuadPart) * 1000, frequency.QuadPart);
+}
+
+// Windows lets waits go when the event is set, not when their threads run.
+TEST(Event, EachSetOfAnAutoResetEventLetsOneOfTwoWaitsGo) {
+  int both = 0;
+  for (int round = 0; round < 50; ++round) {
+    const HANDLE event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+    std::atomic<int> gone{0};
+    const auto wait = [&] {
+      if (WaitForSingleObject(event, 2000) == WAIT_OBJECT_0) ++gone;
+    };
+    std::thread first(wait), second(wait);
+    Sleep(2);  // by then both wait, most of the time
+    SetEvent(event);
+    SetEvent(event);
+    first.join();
+    second.join();
+    both += gone == 2 ? 1 : 0;
+    CloseHandle(event);
+  }
+  EXPECT_GE(both, 45);
+}
+
+TEST(Event, SettingAndResettingAManualResetEventLetsWaitsGo) {
+  const HANDLE event = CreateEvent(nullptr, TRUE, FALSE, nullptr);
+  int let_go = 0;
+  for (int round = 0; round < 50; ++round) {
+    std::thread waiter([&] {
+      if (WaitForSingleObject(event, 2000) == WAIT_OBJECT_0) ++let_go;
+    });
+    Sleep(5);  // by then it waits
+    SetEvent(event);
+    ResetEvent(event);
+    waiter.join();
+  }
+  EXPECT_GE(let_go, 45);  // a thread may need longer than that to begin its wait
+  CloseHandle(event);
 }
 
 }  // namespace

@@ -29,14 +29,20 @@ class File final : public HandleObject {
   int descriptor_;
 };
 
-DWORD error_of(int code) {
+DWORD error_of(int code, const std::string& path) {
+  std::error_code ignored;
   switch (code) {
-    case ENOENT:
-      return ERROR_FILE_NOT_FOUND;
+    case ENOENT: {
+      // Programs make the folders above and try again.
+      const auto folder = std::filesystem::path(path).parent_path();
+      return folder.empty() || std::filesystem::is_directory(folder, ignored)
+                 ? ERROR_FILE_NOT_FOUND
+                 : ERROR_PATH_NOT_FOUND;
+    }
     case ENOTDIR:
       return ERROR_PATH_NOT_FOUND;
     case EEXIST:
-      return ERROR_ALREADY_EXISTS;
+      return ERROR_FILE_EXISTS;
     case ENAMETOOLONG:
       return ERROR_FILENAME_EXCED_RANGE;
     case EINVAL:
@@ -47,8 +53,8 @@ DWORD error_of(int code) {
 }
 
 // Programs ask for files that need not be there, so that a missing one is no message.
-BOOL succeed_or_errno(bool done) {
-  if (!done) SetLastError(error_of(errno));
+BOOL succeed_or_errno(bool done, const std::string& path = {}) {
+  if (!done) SetLastError(error_of(errno, path));
   return done ? TRUE : FALSE;
 }
 
@@ -77,8 +83,17 @@ HANDLE open_file(const std::string& path, DWORD access, DWORD disposition) {
               "dwCreationDisposition is " + std::to_string(disposition) + "; allowed are 1 to 5.");
       return INVALID_HANDLE_VALUE;
   }
+  std::error_code ignored;
+  const bool existed = std::filesystem::exists(path, ignored);
+  if (std::filesystem::is_directory(path, ignored)) {
+    SetLastError(ERROR_ACCESS_DENIED);
+    return INVALID_HANDLE_VALUE;
+  }
   const int descriptor = ::open(path.c_str(), flags, 0666);
-  if (!succeed_or_errno(descriptor >= 0)) return INVALID_HANDLE_VALUE;
+  if (!succeed_or_errno(descriptor >= 0, path)) return INVALID_HANDLE_VALUE;
+  if (disposition == CREATE_ALWAYS || disposition == OPEN_ALWAYS) {
+    SetLastError(existed ? ERROR_ALREADY_EXISTS : ERROR_SUCCESS);
+  }
   return Handles::instance().add(std::make_shared<File>(descriptor));
 }
 
@@ -91,17 +106,9 @@ std::shared_ptr<File> find_file(HANDLE handle, const char* call) {
 
 DWORD attributes_of(const std::string& path) {
   struct stat info = {};
-  if (!succeed_or_errno(::stat(path.c_str(), &info) == 0)) return INVALID_FILE_ATTRIBUTES;
+  if (!succeed_or_errno(::stat(path.c_str(), &info) == 0, path)) return INVALID_FILE_ATTRIBUTES;
   if (S_ISDIR(info.st_mode)) return FILE_ATTRIBUTE_DIRECTORY;
   return (info.st_mode & S_IWUSR) == 0 ? FILE_ATTRIBUTE_READONLY : FILE_ATTRIBUTE_NORMAL;
-}
-
-// Programs write paths with slashes or backslashes.
-std::string to_path(std::string path) {
-  for (char& c : path) {
-    if (c == '\\') c = '/';
-  }
-  return path;
 }
 
 std::string current_directory() {
@@ -124,12 +131,12 @@ HANDLE WINAPI CreateFileA(LPCSTR path, DWORD access, DWORD, LPSECURITY_ATTRIBUTE
 
 HANDLE WINAPI CreateFileW(LPCWSTR path, DWORD access, DWORD, LPSECURITY_ATTRIBUTES,
                           DWORD disposition, DWORD, HANDLE) {
-  return open_file(to_path(to_utf8(path)), access, disposition);
+  return open_file(to_path(path), access, disposition);
 }
 
 HANDLE WINAPI CreateFile2(LPCWSTR path, DWORD access, DWORD, DWORD disposition,
                           LPCREATEFILE2_EXTENDED_PARAMETERS) {
-  return open_file(to_path(to_utf8(path)), access, disposition);
+  return open_file(to_path(path), access, disposition);
 }
 
 BOOL WINAPI ReadFile(HANDLE handle, LPVOID buffer, DWORD size, LPDWORD read, LPOVERLAPPED) {
@@ -224,25 +231,31 @@ DWORD WINAPI GetFileAttributesA(LPCSTR path) {
   return attributes_of(to_path(path));
 }
 DWORD WINAPI GetFileAttributesW(LPCWSTR path) {
-  return attributes_of(to_path(to_utf8(path)));
+  return attributes_of(to_path(path));
 }
 
 BOOL WINAPI CreateDirectoryA(LPCSTR path, LPSECURITY_ATTRIBUTES) {
-  return succeed_or_errno(::mkdir(to_path(path).c_str(), 0777) == 0);
+  const std::string folder = to_path(path);
+  const bool made = ::mkdir(folder.c_str(), 0777) == 0;
+  if (!made && errno == EEXIST) {
+    SetLastError(ERROR_ALREADY_EXISTS);
+    return FALSE;
+  }
+  return succeed_or_errno(made, folder);
 }
 BOOL WINAPI CreateDirectoryW(LPCWSTR path, LPSECURITY_ATTRIBUTES attributes) {
   return CreateDirectoryA(to_utf8(path).c_str(), attributes);
 }
 
 BOOL WINAPI DeleteFileA(LPCSTR path) {
-  return succeed_or_errno(::unlink(to_path(path).c_str()) == 0);
+  return succeed_or_errno(::unlink(to_path(path).c_str()) == 0, to_path(path));
 }
 BOOL WINAPI DeleteFileW(LPCWSTR path) {
   return DeleteFileA(to_utf8(path).c_str());
 }
 
 BOOL WINAPI SetCurrentDirectoryA(LPCSTR path) {
-  return succeed_or_errno(::chdir(to_path(path).c_str()) == 0);
+  return succeed_or_errno(::chdir(to_path(path).c_str()) == 0, to_path(path));
 }
 BOOL WINAPI SetCurrentDirectoryW(LPCWSTR path) {
   return SetCurrentDirectoryA(to_utf8(path).c_str());
@@ -260,7 +273,20 @@ FILE* _wfopen(const wchar_t* path, const wchar_t* mode) {
   std::string how = to_utf8(mode);
   how = how.substr(0, how.find(','));
   std::erase(how, 't');
-  return std::fopen(to_path(to_utf8(path)).c_str(), how.c_str());
+  return std::fopen(to_path(path).c_str(), how.c_str());
+}
+
+FILE* kaamos_fopen(const char* path, const char* mode) {
+  return path != nullptr && mode != nullptr ? _wfopen(to_wide(path).c_str(), to_wide(mode).c_str())
+                                            : nullptr;
+}
+
+int _mkdir(const char* path) {
+  return ::mkdir(to_path(path).c_str(), 0777);
+}
+
+int _chdir(const char* path) {
+  return ::chdir(to_path(path).c_str());
 }
 
 }  // extern "C"

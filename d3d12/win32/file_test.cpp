@@ -64,5 +64,35 @@ TEST_F(FileTest, WhatIsNotThereIsAnErrorCode) {
   EXPECT_EQ(opened, nullptr);
 }
 
+TEST_F(FileTest, CodesSayWhatProgramsBranchOn) {
+  const auto create = [&](const char* name, DWORD disposition) {
+    const HANDLE file =
+        CreateFileA(path(name).c_str(), GENERIC_WRITE, 0, nullptr, disposition, 0, nullptr);
+    const DWORD code = GetLastError();
+    if (file != INVALID_HANDLE_VALUE) CloseHandle(file);
+    return std::pair(file != INVALID_HANDLE_VALUE, code);
+  };
+  EXPECT_EQ(create("new", CREATE_NEW).first, true);
+  EXPECT_EQ(create("new", CREATE_NEW), std::pair(false, DWORD{ERROR_FILE_EXISTS}));
+  EXPECT_EQ(create("new", CREATE_ALWAYS), std::pair(true, DWORD{ERROR_ALREADY_EXISTS}));
+  EXPECT_EQ(create("other", OPEN_ALWAYS), std::pair(true, DWORD{ERROR_SUCCESS}));
+  EXPECT_EQ(create("none\\new", CREATE_NEW), std::pair(false, DWORD{ERROR_PATH_NOT_FOUND}));
+  EXPECT_EQ(create("", OPEN_EXISTING), std::pair(false, DWORD{ERROR_ACCESS_DENIED}));
+  EXPECT_FALSE(CreateDirectoryA(path("x\\y").c_str(), nullptr));
+  EXPECT_EQ(GetLastError(), ERROR_PATH_NOT_FOUND);
+  EXPECT_TRUE(CreateDirectoryA(path("x").c_str(), nullptr));
+  EXPECT_FALSE(CreateDirectoryA(path("x").c_str(), nullptr));
+  EXPECT_EQ(GetLastError(), ERROR_ALREADY_EXISTS);
+}
+
+TEST_F(FileTest, FopenTakesBackslashes) {
+  FILE* file = nullptr;
+  ASSERT_EQ(fopen_s(&file, path("b.txt").c_str(), "wt"), 0);
+  fclose(file);
+  EXPECT_TRUE(fs::exists(folder_ / "b.txt"));
+  EXPECT_EQ(fopen_s(&file, path("none").c_str(), "r"), ENOENT);
+  EXPECT_EQ(file, nullptr);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

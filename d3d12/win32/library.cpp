@@ -59,6 +59,7 @@ const Export kExports[] = {
     KAAMOS_EXPORT(D3DCompile2),
     KAAMOS_EXPORT(D3DCompileFromFile),
     KAAMOS_EXPORT(D3DReflect),
+    KAAMOS_EXPORT(D3DReflectLibrary),
     KAAMOS_EXPORT(D3DCreateBlob),
     KAAMOS_EXPORT(D3DReadFileToBlob),
     KAAMOS_EXPORT(D3DWriteBlobToFile),
@@ -165,8 +166,10 @@ BOOL WINAPI FreeLibrary(HMODULE module) {
 }
 
 FARPROC WINAPI GetProcAddress(HMODULE, LPCSTR name) {
+  // Numbers stand for names where the address is below 64 KiB.
+  const bool is_name = reinterpret_cast<uintptr_t>(name) > 0xFFFF;  // NOLINT
   for (const Export& e : kExports) {
-    if (e.name == name) return e.function;
+    if (is_name && e.name == name) return e.function;
   }
   SetLastError(ERROR_PROC_NOT_FOUND);
   return nullptr;

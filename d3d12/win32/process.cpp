@@ -22,12 +22,13 @@ namespace {
 
 // Starts a thread; the handle is that of an event that its end sets.
 HANDLE start_thread(std::function<void()> body, DWORD flags, const char* call) {
-  if (flags != 0) {
+  if ((flags & ~STACK_SIZE_PARAM_IS_A_RESERVATION) != 0) {
     succeed(false, ERROR_INVALID_PARAMETER, call,
             "flags are " + std::to_string(flags) + "; allowed is 0: threads start at once.");
     return nullptr;
   }
   const HANDLE handle = make_event(true, false);
+  // The library's threads have stacks of their own size.
   std::thread([body = std::move(body), ended = Handles::instance().find<Event>(handle)] {
     body();
     set_event(*ended, true);
@@ -147,10 +148,12 @@ LPWSTR* WINAPI CommandLineToArgvW(LPCWSTR command_line, int* count) {
 
 DWORD WINAPI GetEnvironmentVariableA(LPCSTR name, LPSTR value, DWORD size) {
   const char* found = std::getenv(name);
+  if (found == nullptr) SetLastError(ERROR_ENVVAR_NOT_FOUND);
   return found != nullptr ? hand_out_text(std::string(found), value, size) : 0;
 }
 DWORD WINAPI GetEnvironmentVariableW(LPCWSTR name, LPWSTR value, DWORD size) {
   const char* found = std::getenv(to_utf8(name).c_str());
+  if (found == nullptr) SetLastError(ERROR_ENVVAR_NOT_FOUND);
   return found != nullptr ? hand_out_text(to_wide(found), value, size) : 0;
 }
 

@@ -21,6 +21,22 @@ constexpr int kScreenHeight = 1080;
 constexpr SIZE kDefaultSize = {1280, 720};
 constexpr int kDefaultFrames = 3;
 
+// False past the screen's only mode.
+template <class Mode>
+BOOL give_mode(DWORD number, Mode* mode) {
+  if (mode == nullptr) return FALSE;
+  if (number != 0 && number != ENUM_CURRENT_SETTINGS && number != ENUM_REGISTRY_SETTINGS) {
+    return FALSE;
+  }
+  *mode = {};
+  mode->dmSize = sizeof(Mode);
+  mode->dmBitsPerPel = 32;
+  mode->dmPelsWidth = kScreenWidth;
+  mode->dmPelsHeight = kScreenHeight;
+  mode->dmDisplayFrequency = 60;
+  return TRUE;
+}
+
 bool succeed_window(bool found, const char* call) {
   return succeed(found, ERROR_INVALID_WINDOW_HANDLE, call, "hWnd names no window that lives.") != 0;
 }
@@ -347,6 +363,19 @@ LONG_PTR WINAPI GetWindowLongPtrW(HWND handle, int index) {
   return exchange_value(handle, index, nullptr, "GetWindowLongPtr");
 }
 
+LONG WINAPI SetWindowLongA(HWND handle, int index, LONG value) {
+  return static_cast<LONG>(SetWindowLongPtrA(handle, index, value));
+}
+LONG WINAPI SetWindowLongW(HWND handle, int index, LONG value) {
+  return static_cast<LONG>(SetWindowLongPtrW(handle, index, value));
+}
+LONG WINAPI GetWindowLongA(HWND handle, int index) {
+  return static_cast<LONG>(GetWindowLongPtrA(handle, index));
+}
+LONG WINAPI GetWindowLongW(HWND handle, int index) {
+  return static_cast<LONG>(GetWindowLongPtrW(handle, index));
+}
+
 BOOL WINAPI SetWindowTextA(HWND handle, LPCSTR text) {
   return set_title(handle, to_wide(text != nullptr ? text : ""), "SetWindowText");
 }
@@ -374,6 +403,13 @@ BOOL WINAPI GetMonitorInfoA(HMONITOR, LPMONITORINFO info) {
   info->rcMonitor = info->rcWork = {0, 0, kScreenWidth, kScreenHeight};
   info->dwFlags = 1;  // MONITORINFOF_PRIMARY
   return TRUE;
+}
+// The screen has one mode.
+BOOL WINAPI EnumDisplaySettingsA(LPCSTR, DWORD number, DEVMODEA* mode) {
+  return give_mode(number, mode);
+}
+BOOL WINAPI EnumDisplaySettingsW(LPCWSTR, DWORD number, DEVMODEW* mode) {
+  return give_mode(number, mode);
 }
 BOOL WINAPI GetMonitorInfoW(HMONITOR monitor, LPMONITORINFO info) {
   return GetMonitorInfoA(monitor, info);

@@ -15,7 +15,7 @@ std::optional<SIZE> window_size(HWND window);
 /// window gets WM_CLOSE, as if its user had closed it. A handle that names no window is ignored.
 void count_frame(HWND window);
 
-/// KAAMOS_FRAMES, a whole number ≥ 1; 3 where it is not set, or with KA4042 not such a number.
+/// KAAMOS_FRAMES, a whole number ≥ 1; 3 if it is not set. Anything else is KA4042 and counts as 3.
 int frame_limit();
 
 }  // namespace kaamos::d3d12

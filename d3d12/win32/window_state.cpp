@@ -45,7 +45,10 @@ HWND Windows::add(std::shared_ptr<Window> window) {
 
 void Windows::remove(HWND handle) {
   std::lock_guard lock(mutex);
-  windows_.erase(handle);
+  const auto found = windows_.find(handle);
+  if (found == windows_.end()) return;
+  std::erase_if(found->second->thread->posted, [&](const MSG& m) { return m.hwnd == handle; });
+  windows_.erase(found);
 }
 
 std::shared_ptr<Window> Windows::find(HWND handle) {

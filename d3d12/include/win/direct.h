@@ -8,9 +8,5 @@
 inline char* _getcwd(char* path, int size) {
   return getcwd(path, (size_t)size);
 }
-inline int _mkdir(const char* path) {
-  return mkdir(path, 0777);
-}
-inline int _chdir(const char* path) {
-  return chdir(path);
-}
+extern "C" int _mkdir(const char* path);
+extern "C" int _chdir(const char* path);

@@ -3,9 +3,10 @@
 // into every source, as MSVC has these names in <stdio.h>, <string.h> and so on.
 //
 // Formats of the functions here are MSVC's: in wide ones %s is a wide string, l makes an integer
-// 32 bits wide, and I64 makes it 64.
+// 32 bits wide, and I64 makes it 64. The standard's own (swprintf, wprintf) keep this system's.
 #pragma once
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +40,19 @@ extern "C" {
 int kaamos_vprint(char* out, size_t count, const char* format, va_list arguments);
 int kaamos_vprint_wide(wchar_t* out, size_t count, const wchar_t* format, va_list arguments);
 ///@}
+/// To a stream: the length, or -1.
+int kaamos_vfprint(FILE* file, const char* format, va_list arguments);
+int kaamos_vfprint_wide(FILE* file, const wchar_t* format, va_list arguments);
+/// As vsscanf and so on, with MSVC's formats, and a size behind each pointer to text: what does not
+/// fit ends the call, and what it had found so far counts.
+///@{
+int kaamos_vscan(const char* text, const char* format, va_list arguments);
+int kaamos_vscan_wide(const wchar_t* text, const wchar_t* format, va_list arguments);
+int kaamos_vscan_file(FILE* file, const char* format, va_list arguments);
+///@}
+/// With slashes or backslashes in the path.
 FILE* _wfopen(const wchar_t* path, const wchar_t* mode);
+FILE* kaamos_fopen(const char* path, const char* mode);
 int _wtoi(const wchar_t* text);
 double _wtof(const wchar_t* text);
 void* _aligned_malloc(size_t size, size_t alignment);
@@ -111,53 +124,109 @@ KAAMOS_COPY_CALLS(char, strcpy_s, strncpy_s, strcat_s, strncat_s)
 KAAMOS_COPY_CALLS(wchar_t, wcscpy_s, wcsncpy_s, wcscat_s, wcsncat_s)
 #undef KAAMOS_COPY_CALLS
 
-#define KAAMOS_PRINT_CALLS(C, vprint, vname, name, vname_n, name_n)                      \
-  inline int vname(C* out, size_t count, const C* format, va_list arguments) {           \
-    const int length = vprint(out, count, format, arguments);                            \
-    if (length < 0 && out != nullptr && count != 0) out[0] = C();                        \
-    return length;                                                                       \
-  }                                                                                      \
-  inline int vname_n(C* out, size_t count, size_t, const C* format, va_list arguments) { \
-    return vprint(out, count, format, arguments);                                        \
-  }                                                                                      \
-  inline int name(C* out, size_t count, const C* format, ...) {                          \
-    va_list arguments;                                                                   \
-    va_start(arguments, format);                                                         \
-    const int length = vname(out, count, format, arguments);                             \
-    va_end(arguments);                                                                   \
-    return length;                                                                       \
-  }                                                                                      \
-  inline int name_n(C* out, size_t count, size_t, const C* format, ...) {                \
-    va_list arguments;                                                                   \
-    va_start(arguments, format);                                                         \
-    const int length = vprint(out, count, format, arguments);                            \
-    va_end(arguments);                                                                   \
-    return length;                                                                       \
-  }                                                                                      \
-  template <size_t N>                                                                    \
-  int vname(C(&out)[N], const C* format, va_list arguments) {                            \
-    return vname(out, N, format, arguments);                                             \
-  }                                                                                      \
-  template <size_t N, class... Arguments>                                                \
-  int name(C(&out)[N], const C* format, Arguments... arguments) {                        \
-    return name(out, N, format, arguments...);                                           \
-  }                                                                                      \
-  template <size_t N, class... Arguments>                                                \
-  int name_n(C(&out)[N], size_t n, const C* format, Arguments... arguments) {            \
-    return name_n(out, N, n, format, arguments...);                                      \
+#define KAAMOS_PRINT_CALLS(C, vprint, vname, name, vname_n, name_n)                        \
+  inline int vname(C* out, size_t count, const C* format, va_list arguments) {             \
+    const int length = vprint(out, count, format, arguments);                              \
+    if (length < 0 && out != nullptr && count != 0) out[0] = C();                          \
+    return length;                                                                         \
+  }                                                                                        \
+  inline int vname_n(C* out, size_t count, size_t n, const C* format, va_list arguments) { \
+    return vprint(out, n < count ? n + 1 : count, format, arguments);                      \
+  }                                                                                        \
+  inline int name(C* out, size_t count, const C* format, ...) {                            \
+    va_list arguments;                                                                     \
+    va_start(arguments, format);                                                           \
+    const int length = vname(out, count, format, arguments);                               \
+    va_end(arguments);                                                                     \
+    return length;                                                                         \
+  }                                                                                        \
+  inline int name_n(C* out, size_t count, size_t n, const C* format, ...) {                \
+    va_list arguments;                                                                     \
+    va_start(arguments, format);                                                           \
+    const int length = vname_n(out, count, n, format, arguments);                          \
+    va_end(arguments);                                                                     \
+    return length;                                                                         \
+  }                                                                                        \
+  template <size_t N>                                                                      \
+  int vname(C(&out)[N], const C* format, va_list arguments) {                              \
+    return vname(out, N, format, arguments);                                               \
+  }                                                                                        \
+  template <size_t N, class... Arguments>                                                  \
+  int name(C(&out)[N], const C* format, Arguments... arguments) {                          \
+    return name(out, N, format, arguments...);                                             \
+  }                                                                                        \
+  template <size_t N, class... Arguments>                                                  \
+  int name_n(C(&out)[N], size_t n, const C* format, Arguments... arguments) {              \
+    return name_n(out, N, n, format, arguments...);                                        \
   }
 KAAMOS_PRINT_CALLS(char, kaamos_vprint, vsprintf_s, sprintf_s, _vsnprintf_s, _snprintf_s)
 KAAMOS_PRINT_CALLS(wchar_t, kaamos_vprint_wide, vswprintf_s, swprintf_s, _vsnwprintf_s,
                    _snwprintf_s)
 #undef KAAMOS_PRINT_CALLS
 
+template <size_t N>
+int _vsnprintf_s(char (&out)[N], size_t n, const char* format, va_list arguments) {
+  return _vsnprintf_s(out, N, n, format, arguments);
+}
+template <size_t N>
+int _vsnwprintf_s(wchar_t (&out)[N], size_t n, const wchar_t* format, va_list arguments) {
+  return _vsnwprintf_s(out, N, n, format, arguments);
+}
+
 inline int printf_s(const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  const int length = vprintf(format, arguments);
+  const int length = kaamos_vfprint(stdout, format, arguments);
   va_end(arguments);
   return length;
 }
+inline int fprintf_s(FILE* file, const char* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = kaamos_vfprint(file, format, arguments);
+  va_end(arguments);
+  return length;
+}
+inline int wprintf_s(const wchar_t* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = kaamos_vfprint_wide(stdout, format, arguments);
+  va_end(arguments);
+  return length;
+}
+inline int sscanf_s(const char* text, const char* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int count = kaamos_vscan(text, format, arguments);
+  va_end(arguments);
+  return count;
+}
+inline int swscanf_s(const wchar_t* text, const wchar_t* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int count = kaamos_vscan_wide(text, format, arguments);
+  va_end(arguments);
+  return count;
+}
+inline int fscanf_s(FILE* file, const char* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int count = kaamos_vscan_file(file, format, arguments);
+  va_end(arguments);
+  return count;
+}
+// Paths have slashes here. Programs that look for their last backslash find the last of both.
+inline char* kaamos_strrchr(const char* text, int c) {
+  char* slash = (char*)strrchr(text, c);
+  char* other = c == '\\' ? (char*)strrchr(text, '/') : nullptr;
+  return other > slash ? other : slash;
+}
+inline wchar_t* kaamos_wcsrchr(const wchar_t* text, wchar_t c) {
+  wchar_t* slash = (wchar_t*)wcsrchr(text, c);
+  wchar_t* other = c == L'\\' ? (wchar_t*)wcsrchr(text, L'/') : nullptr;
+  return other > slash ? other : slash;
+}
+
 inline errno_t memcpy_s(void* out, size_t count, const void* bytes, size_t size) {
   if (size > count) return 34;
   memcpy(out, bytes, size);
@@ -169,18 +238,19 @@ inline errno_t memmove_s(void* out, size_t count, const void* bytes, size_t size
   return 0;
 }
 inline errno_t fopen_s(FILE** file, const char* path, const char* mode) {
-  *file = fopen(path, mode);
-  return *file != nullptr ? 0 : 2;
+  *file = kaamos_fopen(path, mode);
+  return *file != nullptr ? 0 : errno;
 }
 inline errno_t _wfopen_s(FILE** file, const wchar_t* path, const wchar_t* mode) {
   *file = _wfopen(path, mode);
-  return *file != nullptr ? 0 : 2;
+  return *file != nullptr ? 0 : errno;
 }
 inline errno_t freopen_s(FILE** file, const char* path, const char* mode, FILE* old) {
   // A console's names stand for the terminal, which the streams are already.
-  const bool console = strcmp(path, "CONOUT$") == 0 || strcmp(path, "CONIN$") == 0;
+  const bool console =
+      path != nullptr && (strcmp(path, "CONOUT$") == 0 || strcmp(path, "CONIN$") == 0);
   *file = console ? old : freopen(path, mode, old);
-  return *file != nullptr ? 0 : 2;
+  return *file != nullptr ? 0 : errno;
 }
 inline errno_t localtime_s(tm* out, const time_t* time) {
   return localtime_r(time, out) ? 0 : 22;
@@ -231,6 +301,11 @@ inline long long _ftelli64(FILE* file) {
   return ftello(file);
 }
 }
-#define sscanf_s sscanf
-#define swscanf_s swscanf
-#define fscanf_s fscanf
+#include <cstring>
+#include <cwchar>
+namespace std {
+using ::kaamos_strrchr;
+using ::kaamos_wcsrchr;
+}  // namespace std
+#define strrchr kaamos_strrchr
+#define wcsrchr kaamos_wcsrchr

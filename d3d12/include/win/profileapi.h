@@ -4,7 +4,7 @@
 
 #include <minwindef.h>
 
-/// Ticks of a clock that never goes back, a thousand million a second.
+/// Ticks of a clock that never goes back, one billion per second.
 ///@{
 EXTERN_C BOOL WINAPI QueryPerformanceCounter(LARGE_INTEGER* count);
 EXTERN_C BOOL WINAPI QueryPerformanceFrequency(LARGE_INTEGER* frequency);

@@ -7,6 +7,7 @@
 
 #define __RPCNDR_H_VERSION__ 500
 
+typedef unsigned char byte;
 #define interface struct
 #ifdef CONST_VTABLE
 #define CONST_VTBL const

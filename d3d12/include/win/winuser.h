@@ -157,6 +157,10 @@ EXTERN_C LONG_PTR WINAPI SetWindowLongPtrA(HWND window, int index, LONG_PTR valu
 EXTERN_C LONG_PTR WINAPI SetWindowLongPtrW(HWND window, int index, LONG_PTR value);
 EXTERN_C LONG_PTR WINAPI GetWindowLongPtrA(HWND window, int index);
 EXTERN_C LONG_PTR WINAPI GetWindowLongPtrW(HWND window, int index);
+EXTERN_C LONG WINAPI SetWindowLongA(HWND window, int index, LONG value);
+EXTERN_C LONG WINAPI SetWindowLongW(HWND window, int index, LONG value);
+EXTERN_C LONG WINAPI GetWindowLongA(HWND window, int index);
+EXTERN_C LONG WINAPI GetWindowLongW(HWND window, int index);
 EXTERN_C BOOL WINAPI SetWindowTextA(HWND window, LPCSTR text);
 EXTERN_C BOOL WINAPI SetWindowTextW(HWND window, LPCWSTR text);
 EXTERN_C int WINAPI GetWindowTextA(HWND window, LPSTR text, int count);
@@ -189,9 +193,43 @@ inline BOOL TranslateMessage(const MSG*) {
 EXTERN_C int WINAPI MessageBoxA(HWND window, LPCSTR text, LPCSTR caption, UINT type);
 EXTERN_C int WINAPI MessageBoxW(HWND window, LPCWSTR text, LPCWSTR caption, UINT type);
 ///@}
-/// The one monitor has 1920 by 1080 pixels.
+#define ENUM_CURRENT_SETTINGS ((DWORD)-1)
+#define ENUM_REGISTRY_SETTINGS ((DWORD)-2)
+#define KAAMOS_DEVMODE(name, C)  \
+  typedef struct _##name {       \
+    C dmDeviceName[32];          \
+    WORD dmSpecVersion;          \
+    WORD dmDriverVersion;        \
+    WORD dmSize;                 \
+    WORD dmDriverExtra;          \
+    DWORD dmFields;              \
+    POINT dmPosition;            \
+    DWORD dmDisplayOrientation;  \
+    DWORD dmDisplayFixedOutput;  \
+    short dmColor;               \
+    short dmDuplex;              \
+    short dmYResolution;         \
+    short dmTTOption;            \
+    short dmCollate;             \
+    C dmFormName[32];            \
+    WORD dmLogPixels;            \
+    DWORD dmBitsPerPel;          \
+    DWORD dmPelsWidth;           \
+    DWORD dmPelsHeight;          \
+    DWORD dmDisplayFlags;        \
+    DWORD dmDisplayFrequency;    \
+    DWORD kaamos_of_printers[8]; \
+  } name, *P##name, *LP##name
+KAAMOS_DEVMODE(DEVMODEA, CHAR);
+KAAMOS_DEVMODE(DEVMODEW, WCHAR);
+#undef KAAMOS_DEVMODE
+KAAMOS_TEXT_TYPE(DEVMODE);
+
+/// The one monitor has 1920 by 1080 pixels, 32 bits each, 60 times a second.
 ///@{
 EXTERN_C int WINAPI GetSystemMetrics(int index);
+EXTERN_C BOOL WINAPI EnumDisplaySettingsA(LPCSTR device, DWORD mode, DEVMODEA* settings);
+EXTERN_C BOOL WINAPI EnumDisplaySettingsW(LPCWSTR device, DWORD mode, DEVMODEW* settings);
 EXTERN_C BOOL WINAPI GetMonitorInfoA(HMONITOR monitor, LPMONITORINFO info);
 EXTERN_C BOOL WINAPI GetMonitorInfoW(HMONITOR monitor, LPMONITORINFO info);
 ///@}
@@ -287,6 +325,9 @@ KAAMOS_TEXT_CALL(UnregisterClass);
 KAAMOS_TEXT_CALL(CreateWindowEx);
 KAAMOS_TEXT_CALL(SetWindowLongPtr);
 KAAMOS_TEXT_CALL(GetWindowLongPtr);
+KAAMOS_TEXT_CALL(SetWindowLong);
+KAAMOS_TEXT_CALL(GetWindowLong);
+KAAMOS_TEXT_CALL(EnumDisplaySettings);
 KAAMOS_TEXT_CALL(SetWindowText);
 KAAMOS_TEXT_CALL(GetWindowText);
 KAAMOS_TEXT_CALL(PeekMessage);
@@ -299,7 +340,15 @@ KAAMOS_TEXT_CALL(MessageBox);
 KAAMOS_TEXT_CALL(GetMonitorInfo);
 KAAMOS_TEXT_CALL(LoadCursor);
 KAAMOS_TEXT_CALL(LoadIcon);
-template <class... Arguments>
-HWND CreateWindow(Arguments... arguments) {
-  return CreateWindowEx(0, arguments...);
+inline HWND CreateWindow(LPCSTR class_name, LPCSTR title, DWORD style, int x, int y, int width,
+                         int height, HWND parent, HMENU menu, HINSTANCE instance,
+                         LPVOID parameter) {
+  return CreateWindowExA(0, class_name, title, style, x, y, width, height, parent, menu, instance,
+                         parameter);
+}
+inline HWND CreateWindow(LPCWSTR class_name, LPCWSTR title, DWORD style, int x, int y, int width,
+                         int height, HWND parent, HMENU menu, HINSTANCE instance,
+                         LPVOID parameter) {
+  return CreateWindowExW(0, class_name, title, style, x, y, width, height, parent, menu, instance,
+                         parameter);
 }

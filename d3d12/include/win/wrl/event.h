@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Microsoft::WRL::Wrappers::Event: a handle that closes itself.
+// Microsoft::WRL::Wrappers::Event and FileHandle: handles that close themselves.
 #pragma once
 
+#include <handleapi.h>
 #include <synchapi.h>
 
 namespace Microsoft::WRL::Wrappers {
 
-class Event {
+/// `Traits::invalid()`: what a handle without an object is.
+template <class Traits>
+class HandleT {
  public:
-  Event() = default;
-  explicit Event(HANDLE handle) : handle_(handle) {}
-  Event(Event&& other) noexcept : handle_(other.Detach()) {}
-  Event& operator=(Event&& other) noexcept {
+  HandleT() = default;
+  explicit HandleT(HANDLE handle) : handle_(handle) {}
+  HandleT(HandleT&& other) noexcept : handle_(other.Detach()) {}
+  HandleT& operator=(HandleT&& other) noexcept {
     if (this != &other) Attach(other.Detach());
     return *this;
   }
-  ~Event() { Close(); }
+  ~HandleT() { Close(); }
 
-  bool IsValid() const { return handle_ != nullptr; }
+  bool IsValid() const { return handle_ != Traits::invalid(); }
   HANDLE Get() const { return handle_; }
   HANDLE* GetAddressOf() { return &handle_; }
   HANDLE* ReleaseAndGetAddressOf() {
@@ -30,16 +33,28 @@ class Event {
   }
   HANDLE Detach() {
     const HANDLE out = handle_;
-    handle_ = nullptr;
+    handle_ = Traits::invalid();
     return out;
   }
   void Close() {
-    if (handle_ != nullptr) CloseHandle(handle_);
-    handle_ = nullptr;
+    if (IsValid()) CloseHandle(handle_);
+    handle_ = Traits::invalid();
   }
 
  private:
-  HANDLE handle_ = nullptr;
+  HANDLE handle_ = Traits::invalid();
 };
+
+namespace HandleTraits {
+struct EventTraits {
+  static HANDLE invalid() { return nullptr; }
+};
+struct FileHandleTraits {
+  static HANDLE invalid() { return INVALID_HANDLE_VALUE; }
+};
+}  // namespace HandleTraits
+
+using Event = HandleT<HandleTraits::EventTraits>;
+using FileHandle = HandleT<HandleTraits::FileHandleTraits>;
 
 }  // namespace Microsoft::WRL::Wrappers

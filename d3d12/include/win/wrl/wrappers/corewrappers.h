@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Event, and RoInitializeWrapper, which has nothing to do here.
+// Event, FileHandle, and RoInitializeWrapper, which has nothing to do here.
 #pragma once
 
 #include <combaseapi.h>
