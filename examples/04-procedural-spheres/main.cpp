@@ -45,15 +45,20 @@ static Texture Render(const example::Setup& setup) {
                         .Type = HitGroupType::kProceduralPrimitive,
                         .ClosestHitShaderImport = "SphereClosestHit",
                         .IntersectionShaderImport = "SphereIntersection"});
+  desc.Add(HitGroupDesc{.HitGroupExport = "SphereShadowGroup",
+                        .Type = HitGroupType::kProceduralPrimitive,
+                        .IntersectionShaderImport = "SphereIntersection"});
   desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 12, .MaxAttributeSizeInBytes = 12});
-  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 1});
+  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 2});
   desc.Add(GlobalRootSignature{root_signature});
   const StateObject pipeline = device.CreateStateObject(desc).value();
 
   ShaderTable raygen_table(pipeline), miss_table(pipeline), hit_table(pipeline);
   raygen_table.AddRecord("RayGen").value();
   miss_table.AddRecord("Miss").value();
+  miss_table.AddRecord("ShadowMiss").value();
   hit_table.AddRecord("SphereGroup").value();
+  hit_table.AddRecord("SphereShadowGroup").value();
   for (ShaderTable* table : {&raygen_table, &miss_table, &hit_table}) {
     table->Build(device).value();
   }

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Spheres without triangles: the application provides boxes, and an intersection shader says where
-// in a box a ray hits.
+// in a box a ray hits. Rays to the light are a second type, with records of their own.
 
 RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<float4> spheres : register(t1);  // centre, radius
 RWTexture2D<float4> image : register(u0);
 
+static const uint kCameraRay = 0;
+static const uint kShadowRay = 1;
+static const uint kRayTypes = 2;
+
 struct Payload {
   float3 color;
+};
+struct ShadowPayload {
+  float visibility;
 };
 
 // What an intersection shader passes to the hit shaders: at most 32 bytes.
@@ -29,7 +36,7 @@ void RayGen() {
   ray.TMin = 0.0;
   ray.TMax = 1000.0;
   Payload payload = { float3(0, 0, 0) };
-  TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 1, 0, ray, payload);
+  TraceRay(scene, RAY_FLAG_NONE, 0xFF, kCameraRay, kRayTypes, kCameraRay, ray, payload);
   image[pixel] = float4(payload.color, 1.0);
 }
 
@@ -57,10 +64,28 @@ void SphereIntersection() {
   }
 }
 
+// The intersection shader is all that a hit group of shadow rays needs: any hit ends the search.
+float visibility_towards(float3 position, float3 direction) {
+  RayDesc ray;
+  ray.Origin = position;
+  ray.Direction = direction;
+  ray.TMin = 0.0;
+  ray.TMax = 1000.0;
+  ShadowPayload payload = { 0.0 };
+  TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER, 0xFF,
+           kShadowRay, kRayTypes, kShadowRay, ray, payload);
+  return payload.visibility;
+}
+
 [shader("closesthit")]
 void SphereClosestHit(inout Payload payload, in SphereAttributes attributes) {
   const float3 normal = normalize(mul((float3x3)ObjectToWorld3x4(), attributes.normal));
-  const float light = 0.2 + 0.8 * saturate(dot(normal, normalize(float3(-0.5, 0.8, -0.6))));
+  const float3 to_light = normalize(float3(-0.5, 0.8, -0.6));
+  const float3 position = WorldRayOrigin() + RayTCurrent() * WorldRayDirection();
+  float light = 0.2;
+  if (dot(normal, to_light) > 0.0) {
+    light += 0.8 * dot(normal, to_light) * visibility_towards(position + normal * 1e-3, to_light);
+  }
   const float3 tint = 0.5 + 0.5 * cos(float(PrimitiveIndex()) * 1.7 + float3(0.0, 2.1, 4.2));
   payload.color = HitKind() == kLeaving ? float3(0, 0, 0) : tint * light;
 }
@@ -68,4 +93,9 @@ void SphereClosestHit(inout Payload payload, in SphereAttributes attributes) {
 [shader("miss")]
 void Miss(inout Payload payload) {
   payload.color = lerp(float3(0.95, 0.95, 0.93), float3(0.6, 0.72, 0.88), saturate(WorldRayDirection().y * 2.0));
+}
+
+[shader("miss")]
+void ShadowMiss(inout ShadowPayload payload) {
+  payload.visibility = 1.0;
 }

@@ -117,7 +117,10 @@ TEST(D3d12Window, PresentsOnVulkanWhatTheProgramWithoutAWindowRenders) {
   expect_window_shows_triangle("vulkan");
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, D3d12Example, testing::Values("01-triangle", "13-hybrid"),
+INSTANTIATE_TEST_SUITE_P(Programs, D3d12Example,
+                         testing::Values("01-triangle", "04-procedural-spheres",
+                                         "05-callable-and-recursion", "06-local-root-signature",
+                                         "07-update-and-compaction", "13-hybrid"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            for (char& c : name) {

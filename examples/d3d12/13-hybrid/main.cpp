@@ -2,9 +2,9 @@
 // The frame of ../../13-hybrid as a D3D12 program: a rasterized G-buffer, traced shadows, and a
 // pixel shader with a RayQuery; timestamps tell how long each pass takes.
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "..\common\pass_times.h"
 #include "..\common\program.h"
 #include "CompiledShaders\hybrid.Compose.h"
 #include "CompiledShaders\hybrid.SeenFromEye.h"
@@ -57,31 +57,23 @@ class Hybrid : public Program {
     CreateScene();
     CreateTextures();
     CreatePipelines();
-    D3D12_QUERY_HEAP_DESC queries = {};
-    queries.Type = D3D12_QUERY_HEAP_TYPE_TIMESTAMP;
-    queries.Count = kTimes;
-    CHECK(device_->CreateQueryHeap(&queries, IID_PPV_ARGS(&queries_)));
-    times_ = CreateBuffer(kTimes * sizeof(UINT64), D3D12_HEAP_TYPE_READBACK,
-                          D3D12_RESOURCE_STATE_COPY_DEST);
   }
 
   void Render() {
     SetState();
-    list_->EndQuery(queries_.Get(), D3D12_QUERY_TYPE_TIMESTAMP, 0);
+    times_.Start(list_.Get());
     DrawSurfaces();
-    list_->EndQuery(queries_.Get(), D3D12_QUERY_TYPE_TIMESTAMP, 1);
+    times_.End(list_.Get(), "G-buffer");
     TraceSun();
-    list_->EndQuery(queries_.Get(), D3D12_QUERY_TYPE_TIMESTAMP, 2);
+    times_.End(list_.Get(), "sun");
     Compose();
-    list_->EndQuery(queries_.Get(), D3D12_QUERY_TYPE_TIMESTAMP, 3);
-    list_->ResolveQueryData(queries_.Get(), D3D12_QUERY_TYPE_TIMESTAMP, 0, kTimes, times_.Get(), 0);
+    times_.End(list_.Get(), "compose");
+    times_.Resolve(list_.Get());
     WritePicture(image_.Get(), D3D12_RESOURCE_STATE_COPY_SOURCE);
-    PrintTimes();
+    times_.Print();
   }
 
  private:
-  static constexpr UINT kTimes = 4;
-
   void CreateScene() {
     vertices_ = Upload(kCube, sizeof(kCube));
     indices_ = Upload(kSides, sizeof(kSides));
@@ -317,20 +309,6 @@ class Hybrid : public Program {
     list_->ResourceBarrier(1, &to_copy);
   }
 
-  void PrintTimes() {
-    UINT64 frequency = 0;
-    CHECK(queue_->GetTimestampFrequency(&frequency));
-    UINT64* ticks = nullptr;
-    CHECK(times_->Map(0, nullptr, reinterpret_cast<void**>(&ticks)));
-    const char* const passes[] = {"G-buffer", "sun", "compose"};
-    for (UINT i = 0; i + 1 < kTimes; ++i) {
-      printf(
-          "%-8s %8.2f ms\n", passes[i],
-          1000.0 * static_cast<double>(ticks[i + 1] - ticks[i]) / static_cast<double>(frequency));
-    }
-    times_->Unmap(0, nullptr);
-  }
-
   ComPtr<ID3D12Resource> vertices_, indices_, transforms_, colors_, bottom_level_, top_level_;
   ComPtr<ID3D12Resource> albedo_, normals_, depth_, sunlight_, image_;
   ComPtr<ID3D12DescriptorHeap> targets_, depths_, views_;
@@ -338,8 +316,7 @@ class Hybrid : public Program {
   ComPtr<ID3D12PipelineState> surface_pipeline_, compose_pipeline_;
   ComPtr<ID3D12StateObject> sun_pipeline_;
   ComPtr<ID3D12Resource> raygen_table_, miss_table_, hit_table_;
-  ComPtr<ID3D12QueryHeap> queries_;
-  ComPtr<ID3D12Resource> times_;
+  PassTimes times_{device_.Get(), queue_.Get()};
 };
 
 }  // namespace

@@ -111,23 +111,31 @@ ComPtr<ID3D12RootSignature> Program::CreateRootSignature(
 
 ComPtr<ID3D12Resource> Program::CreateShaderTable(ID3D12StateObject* pipeline,
                                                   const wchar_t* name) {
-  ComPtr<ID3D12StateObjectProperties> properties;
-  CHECK(pipeline->QueryInterface(IID_PPV_ARGS(&properties)));
-  const void* identifier = properties->GetShaderIdentifier(name);
-  if (identifier == nullptr) throw std::runtime_error("the pipeline lacks an export of a table");
-  static_assert(D3D12_SHADER_IDENTIFIER_SIZE_IN_BYTES == 32,
-                "one record fills a table's alignment");
-  return Upload(identifier, D3D12_SHADER_IDENTIFIER_SIZE_IN_BYTES);
+  ShaderTable table(pipeline);
+  table.AddRecord(name);
+  return Upload(table);
+}
+
+Program::Image Program::CreateImage() {
+  Image image;
+  image.texture =
+      CreateTexture(DXGI_FORMAT_R8G8B8A8_UNORM, D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS,
+                    D3D12_RESOURCE_STATE_UNORDERED_ACCESS, L"image");
+  image.heap = CreateDescriptorHeap(D3D12_DESCRIPTOR_HEAP_TYPE_CBV_SRV_UAV, 1);
+  D3D12_UNORDERED_ACCESS_VIEW_DESC view = {};
+  view.ViewDimension = D3D12_UAV_DIMENSION_TEXTURE2D;
+  device_->CreateUnorderedAccessView(image.texture.Get(), nullptr, &view,
+                                     Slot(image.heap.Get(), 0));
+  return image;
 }
 
 ComPtr<ID3D12Resource> Program::BuildAccelerationStructure(
     const D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_INPUTS& inputs) {
   D3D12_RAYTRACING_ACCELERATION_STRUCTURE_PREBUILD_INFO info = {};
   device_->GetRaytracingAccelerationStructurePrebuildInfo(&inputs, &info);
-  ComPtr<ID3D12Resource>& scratch = scratch_[scratch_count_++ % 2];
-  scratch = CreateBuffer(info.ScratchDataSizeInBytes, D3D12_HEAP_TYPE_DEFAULT,
-                         D3D12_RESOURCE_STATE_UNORDERED_ACCESS,
-                         D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS);
+  in_flight_.push_back(CreateBuffer(info.ScratchDataSizeInBytes, D3D12_HEAP_TYPE_DEFAULT,
+                                    D3D12_RESOURCE_STATE_UNORDERED_ACCESS,
+                                    D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS));
   ComPtr<ID3D12Resource> result =
       CreateBuffer(info.ResultDataMaxSizeInBytes, D3D12_HEAP_TYPE_DEFAULT,
                    D3D12_RESOURCE_STATE_RAYTRACING_ACCELERATION_STRUCTURE,
@@ -135,11 +143,32 @@ ComPtr<ID3D12Resource> Program::BuildAccelerationStructure(
   D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_DESC desc = {};
   desc.Inputs = inputs;
   desc.DestAccelerationStructureData = result->GetGPUVirtualAddress();
-  desc.ScratchAccelerationStructureData = scratch->GetGPUVirtualAddress();
+  desc.ScratchAccelerationStructureData = in_flight_.back()->GetGPUVirtualAddress();
   list_->BuildRaytracingAccelerationStructure(&desc, 0, nullptr);
   const auto built = CD3DX12_RESOURCE_BARRIER::UAV(result.Get());
   list_->ResourceBarrier(1, &built);
   return result;
+}
+
+ComPtr<ID3D12Resource> Program::BuildBottomLevel(
+    const std::vector<D3D12_RAYTRACING_GEOMETRY_DESC>& geometries) {
+  D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_INPUTS inputs = {};
+  inputs.Type = D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL;
+  inputs.Flags = D3D12_RAYTRACING_ACCELERATION_STRUCTURE_BUILD_FLAG_PREFER_FAST_TRACE;
+  inputs.NumDescs = static_cast<UINT>(geometries.size());
+  inputs.pGeometryDescs = geometries.data();
+  return BuildAccelerationStructure(inputs);
+}
+
+ComPtr<ID3D12Resource> Program::BuildTopLevel(
+    const std::vector<D3D12_RAYTRACING_INSTANCE_DESC>& instances) {
+  in_flight_.push_back(Upload(instances.data(), instances.size() * sizeof(instances[0])));
+  D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_INPUTS inputs = {};
+  inputs.Type = D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL;
+  inputs.Flags = D3D12_RAYTRACING_ACCELERATION_STRUCTURE_BUILD_FLAG_PREFER_FAST_TRACE;
+  inputs.NumDescs = static_cast<UINT>(instances.size());
+  inputs.InstanceDescs = in_flight_.back()->GetGPUVirtualAddress();
+  return BuildAccelerationStructure(inputs);
 }
 
 void Program::Execute() {
@@ -150,6 +179,7 @@ void Program::Execute() {
   CHECK(fence_->SetEventOnCompletion(fence_value_, event_));
   WaitForSingleObject(event_, INFINITE);
   CHECK(device_->GetDeviceRemovedReason());
+  in_flight_.clear();
   CHECK(allocator_->Reset());
   CHECK(list_->Reset(allocator_.Get(), nullptr));
 }
@@ -182,6 +212,18 @@ void Program::WritePicture(ID3D12Resource* texture, D3D12_RESOURCE_STATES state)
   }
   readback->Unmap(0, nullptr);
   if (fclose(file) != 0) throw std::runtime_error("cannot write " + options_.file);
+}
+
+D3D12_RAYTRACING_INSTANCE_DESC InstanceAt(ID3D12Resource* bottom_level, float x, float y, float z) {
+  D3D12_RAYTRACING_INSTANCE_DESC instance = {};
+  const float position[3] = {x, y, z};
+  for (int row = 0; row < 3; ++row) {
+    instance.Transform[row][row] = 1;
+    instance.Transform[row][3] = position[row];
+  }
+  instance.InstanceMask = 0xFF;
+  instance.AccelerationStructure = bottom_level->GetGPUVirtualAddress();
+  return instance;
 }
 
 int RunProgram(int argc, char** argv, void (*render)(const Options&)) {

@@ -8,6 +8,9 @@
 #include <wrl/client.h>
 
 #include <string>
+#include <vector>
+
+#include "shader_table.h"
 
 using Microsoft::WRL::ComPtr;
 
@@ -45,10 +48,23 @@ class Program {
   ComPtr<ID3D12RootSignature> CreateRootSignature(const D3D12_VERSIONED_ROOT_SIGNATURE_DESC& desc);
   // A table of one record: the identifier of an export.
   ComPtr<ID3D12Resource> CreateShaderTable(ID3D12StateObject* pipeline, const wchar_t* name);
+  ComPtr<ID3D12Resource> Upload(const ShaderTable& table) {
+    return Upload(table.Records().data(), table.Records().size());
+  }
+  // A texture that shaders write as u0 of a table, in state UNORDERED_ACCESS.
+  struct Image {
+    ComPtr<ID3D12Resource> texture;
+    ComPtr<ID3D12DescriptorHeap> heap;
+  };
+  Image CreateImage();
 
-  // Records a build and its barrier. The scratch memory lives as long as the program.
+  // Records a build and its barrier.
   ComPtr<ID3D12Resource> BuildAccelerationStructure(
       const D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_INPUTS& inputs);
+  ComPtr<ID3D12Resource> BuildBottomLevel(
+      const std::vector<D3D12_RAYTRACING_GEOMETRY_DESC>& geometries);
+  ComPtr<ID3D12Resource> BuildTopLevel(
+      const std::vector<D3D12_RAYTRACING_INSTANCE_DESC>& instances);
 
   // Runs what is recorded, waits for it, and opens the list again.
   void Execute();
@@ -63,9 +79,11 @@ class Program {
   ComPtr<ID3D12Fence> fence_;
   UINT64 fence_value_ = 0;
   HANDLE event_ = nullptr;
-  ComPtr<ID3D12Resource> scratch_[2];
-  UINT scratch_count_ = 0;
+  std::vector<ComPtr<ID3D12Resource>> in_flight_;  // what recorded builds need until Execute
 };
+
+// An instance of a bottom level at a position, which any ray sees.
+D3D12_RAYTRACING_INSTANCE_DESC InstanceAt(ID3D12Resource* bottom_level, float x, float y, float z);
 
 // Runs `render(options)` and prints what it throws; the exit code.
 int RunProgram(int argc, char** argv, void (*render)(const Options&));
