@@ -37,7 +37,12 @@ expect() {
 }
 while IFS= read -r line; do expect "message of the broken record" "$line"; done \
   < <(awk '/^```text/ { inside = 1; next } /^```/ { inside = 0 } inside' "$page")
-[[ -s my-program/triangle.ppm ]] || expect picture triangle.ppm
+pictures=(triangle.ppm)
+[[ ${KAAMOS_REQUIRE_VULKAN:-} == 1 ]] && pictures+=(vulkan.ppm)
+for picture in "${pictures[@]}"; do
+  [[ -s my-program/$picture ]] || { echo "the program wrote no $picture"; exit 1; }
+done
+[[ -s my-program/build/triangle.cso ]] || { echo "no shader object beside the program"; exit 1; }
 if command -v gdb > /dev/null; then
   expect "stop in the shader" "triangle.hlsl:39"
   expect "value of the barycentrics" "\$1 = {e = {0."

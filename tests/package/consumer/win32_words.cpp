@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Win32 as sample programs write it: files through handles that close themselves, the program's own
+// folder, windows, the screen's mode, and MSVC's C library. All names are in their UNICODE form.
+#include <Windows.h>
+#include <wrl.h>
+#include <wrl\wrappers\corewrappers.h>
+
+#include <cassert>
+#include <cstdio>
+#include <cwchar>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Microsoft::WRL::Wrappers::Event;
+using Microsoft::WRL::Wrappers::FileHandle;
+
+std::wstring ProgramFolder() {
+  WCHAR path[512];
+  const DWORD size = GetModuleFileName(nullptr, path, _countof(path));
+  if (size == 0 || size == _countof(path)) return {};
+  if (WCHAR* last = wcsrchr(path, L'\\')) last[1] = L'\0';
+  return path;
+}
+
+bool ReadWhole(const std::wstring& name, std::vector<byte>& bytes) {
+  CREATEFILE2_EXTENDED_PARAMETERS parameters = {};
+  parameters.dwSize = sizeof(parameters);
+  parameters.dwFileAttributes = FILE_ATTRIBUTE_NORMAL;
+  parameters.dwFileFlags = FILE_FLAG_SEQUENTIAL_SCAN;
+  parameters.dwSecurityQosFlags = SECURITY_ANONYMOUS;
+  FileHandle file(
+      CreateFile2(name.c_str(), GENERIC_READ, FILE_SHARE_READ, OPEN_EXISTING, &parameters));
+  if (file.Get() == INVALID_HANDLE_VALUE) return false;
+  FILE_STANDARD_INFO info = {};
+  if (!GetFileInformationByHandleEx(file.Get(), FileStandardInfo, &info, sizeof(info)))
+    return false;
+  if (info.EndOfFile.HighPart != 0) return false;
+  bytes.resize(info.EndOfFile.LowPart);
+  DWORD read = 0;
+  return ReadFile(file.Get(), bytes.data(), info.EndOfFile.LowPart, &read, nullptr) &&
+         read == bytes.size();
+}
+
+LRESULT CALLBACK Procedure(HWND window, UINT message, WPARAM wide, LPARAM lparam) {
+  return DefWindowProc(window, message, wide, lparam);
+}
+
+bool ShowWindows() {
+  WNDCLASS kind = {};
+  kind.lpfnWndProc = Procedure;
+  kind.lpszClassName = L"Words";
+  if (RegisterClass(&kind) == 0) return false;
+  const HWND window = CreateWindow(L"Words", L"Words", WS_OVERLAPPEDWINDOW, CW_USEDEFAULT, 0, 320,
+                                   200, NULL, NULL, GetModuleHandle(NULL), NULL);
+  if (window == NULL) return false;
+  SetWindowLong(window, GWL_STYLE, GetWindowLong(window, GWL_STYLE) & ~WS_CAPTION);
+  DEVMODE mode = {};
+  mode.dmSize = sizeof(mode);
+  if (!EnumDisplaySettings(nullptr, ENUM_CURRENT_SETTINGS, &mode)) return false;
+  SetWindowPos(window, HWND_TOPMOST, mode.dmPosition.x, mode.dmPosition.y,
+               static_cast<int>(mode.dmPelsWidth), static_cast<int>(mode.dmPelsHeight),
+               SWP_FRAMECHANGED | SWP_NOACTIVATE);
+  return DestroyWindow(window) != FALSE;
+}
+
+}  // namespace
+
+int wmain(int argc, wchar_t** argv) {
+#ifdef _DEBUG
+  printf_s("a Debug build\n");
+#endif
+  assert(argc == 1);
+  const std::wstring folder = ProgramFolder();
+  if (folder.empty() || std::wstring(argv[0]).find(L"win32_words") == std::wstring::npos) return 1;
+  std::vector<byte> bytes;
+  if (!ReadWhole(folder + L"CMakeCache.txt", bytes) || bytes.empty()) return 2;
+  if (!ShowWindows()) return 3;
+  Event event(CreateEventEx(nullptr, nullptr, 0, EVENT_MODIFY_STATE | SYNCHRONIZE));
+  if (!event.IsValid() || WaitForSingleObject(event.Get(), 0) != WAIT_TIMEOUT) return 4;
+  float x = 0, y = 0;
+  char word[16];
+  if (sscanf_s("vertex 1.5 2", "%15s %f %f", word, static_cast<unsigned>(sizeof(word)), &x, &y) !=
+      3) {
+    return 5;
+  }
+  printf_s("Win32: %ls read, %S %I64u\n", L"CMakeCache.txt", L"bytes", static_cast<UINT64>(1));
+  return y == 2.0f ? 0 : 6;
+}
