@@ -10,7 +10,9 @@ mark_as_advanced(KAAMOS_CLANG)
 # Windows' compiler extensions, without the macro that says it is Microsoft's compiler.
 set(KAAMOS_D3D12_COMPILE_OPTIONS
   -fms-extensions -fms-compatibility -fms-compatibility-version=19.30 -U_MSC_VER
-  -Wno-unknown-pragmas -Wno-microsoft -Wno-nonportable-include-path)
+  -Wno-unknown-pragmas -Wno-microsoft -Wno-nonportable-include-path
+  # `&CD3DX12_RESOURCE_BARRIER::Transition(...)`: the temporary lives until the call returns.
+  -Wno-address-of-temporary)
 
 # Writes a header with the macros that clang defines for Linux and leaves out in MS mode, without
 # which the system's headers do not compile.
@@ -31,15 +33,35 @@ function(kaamos_write_gnu_predefines file)
   file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT "${text}")
 endfunction()
 
+# Copies the C++ library's own header of std::exception to `folder`/bits/exception.h, with MSVC's constructor that takes
+# a text. What that text says is printed, since the class has no room for it.
+function(kaamos_write_exception_header folder)
+  execute_process(COMMAND "${KAAMOS_CLANG}" -x c++ -std=gnu++17 -M -include exception /dev/null
+    OUTPUT_VARIABLE files COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "[^ \n]*/bits/exception\\.h" header "${files}")
+  if(NOT header)
+    return()  # not GNU's library: programs that use the constructor do not compile
+  endif()
+  file(READ "${header}" text)
+  string(REPLACE "exception() _GLIBCXX_NOTHROW { }"
+    "exception() _GLIBCXX_NOTHROW { }\n    explicit exception(const char* text) { kaamos_print_exception(text); }" text "${text}")
+  string(REPLACE "extern \"C++\" {" "extern \"C++\" {\nvoid kaamos_print_exception(const char* text);" text "${text}")
+  file(CONFIGURE OUTPUT "${folder}/bits/exception.h" @ONLY CONTENT "${text}")
+endfunction()
+
 # Writes a file for clang's -ivfsoverlay that shows the headers of a list of folders, and below, in one
 # folder `root` whose names match in any case. The first folder wins. Where `root` is such a folder
-# itself, its own headers get the match.
+# itself, its own headers get the match; those that come later do when CMake runs again. Build folders have none.
 function(kaamos_write_header_overlay file root)
   set(entries "")
   set(seen)
   foreach(folder IN LISTS ARGN)
-    file(GLOB_RECURSE headers RELATIVE "${folder}" CONFIGURE_DEPENDS "${folder}/*.h" "${folder}/*.hpp" "${folder}/*.inl")
+    file(GLOB_RECURSE headers RELATIVE "${folder}" "${folder}/*.h" "${folder}/*.hpp" "${folder}/*.inl")
     foreach(header IN LISTS headers)
+      string(FIND "${folder}/${header}" "${CMAKE_BINARY_DIR}/" in_build)
+      if(in_build EQUAL 0)
+        continue()
+      endif()
       string(TOLOWER "${header}" key)
       if(key IN_LIST seen)
         continue()
@@ -131,8 +153,10 @@ function(kaamos_add_d3d12_program target)
     list(APPEND includes -I "${own}")
   endforeach()
   kaamos_write_gnu_predefines("${folder}/gnu_predefines.h")
+  kaamos_write_exception_header("${folder}/library")
   set(flags ${KAAMOS_D3D12_COMPILE_OPTIONS} -std=gnu++17 -fPIC -include "${folder}/gnu_predefines.h"
     -I "${CMAKE_CURRENT_BINARY_DIR}/d3d12_shaders" ${includes} -isystem "${folder}/headers"
+    -isystem "${folder}/library"
     -include kaamos_crt.h)
   foreach(overlay IN LISTS overlays)
     list(APPEND flags -ivfsoverlay "${overlay}")
@@ -140,6 +164,7 @@ function(kaamos_add_d3d12_program target)
   foreach(define IN LISTS arg_DEFINES)
     list(APPEND flags "-D${define}")
   endforeach()
+  # -Og and not -O0: code for Windows refers to static constants of classes that are defined nowhere.
   set(objects)
   foreach(source IN LISTS arg_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE)
@@ -151,7 +176,7 @@ function(kaamos_add_d3d12_program target)
     file(MAKE_DIRECTORY "${object_folder}")
     add_custom_command(
       OUTPUT "${object}"
-      COMMAND "${KAAMOS_CLANG}" ${flags} -I "${own}" "$<IF:$<CONFIG:Debug>,-O0;-D_DEBUG,-O2;-DNDEBUG>"
+      COMMAND "${KAAMOS_CLANG}" ${flags} -I "${own}" "$<IF:$<CONFIG:Debug>,-Og;-D_DEBUG,-O2;-DNDEBUG>"
               "$<$<OR:$<CONFIG:Debug>,$<CONFIG:RelWithDebInfo>>:-g>" ${arg_OPTIONS}
               -MD -MF "${object}.d" -c "${source}" -o "${object}"
       DEPENDS "${source}" ${arg_SHADERS} ${overlays}

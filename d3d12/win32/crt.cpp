@@ -182,6 +182,12 @@ int run_scan(const C* format, va_list arguments, const Call& call) {
 
 }  // namespace
 
+// For the constructor of std::exception that kaamos_add_d3d12_program adds.
+void kaamos_print_exception(const char* text);
+void kaamos_print_exception(const char* text) {
+  std::fprintf(stderr, "std::exception: %s\n", text != nullptr ? text : "");
+}
+
 extern "C" {
 
 int kaamos_vscan(const char* text, const char* format, va_list arguments) {

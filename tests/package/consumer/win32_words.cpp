@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstdio>
 #include <cwchar>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,15 @@ LRESULT CALLBACK Procedure(HWND window, UINT message, WPARAM wide, LPARAM lparam
   return DefWindowProc(window, message, wide, lparam);
 }
 
+// MSVC's constructor of std::exception takes a text.
+bool ThrowsText() {
+  try {
+    throw std::exception("a text that is printed");
+  } catch (const std::exception&) {
+    return true;
+  }
+}
+
 bool ShowWindows() {
   WNDCLASS kind = {};
   kind.lpfnWndProc = Procedure;
@@ -76,7 +86,7 @@ int wmain(int argc, wchar_t** argv) {
   if (folder.empty() || std::wstring(argv[0]).find(L"win32_words") == std::wstring::npos) return 1;
   std::vector<byte> bytes;
   if (!ReadWhole(folder + L"CMakeCache.txt", bytes) || bytes.empty()) return 2;
-  if (!ShowWindows()) return 3;
+  if (!ShowWindows() || !ThrowsText()) return 3;
   Event event(CreateEventEx(nullptr, nullptr, 0, EVENT_MODIFY_STATE | SYNCHRONIZE));
   if (!event.IsValid() || WaitForSingleObject(event.Get(), 0) != WAIT_TIMEOUT) return 4;
   float x = 0, y = 0;
