@@ -10,11 +10,12 @@
 namespace kaamos::d3d12 {
 
 void missing(const char* method) {
-  static std::mutex mutex;
-  static std::set<std::string_view> told;  // generated literals: they live as long as the program
+  // Both live on: programs release global devices after main. The names are generated literals.
+  static auto* mutex = new std::mutex;
+  static auto* told = new std::set<std::string_view>;
   {
-    std::lock_guard lock(mutex);
-    if (!told.insert(method).second) return;
+    std::lock_guard lock(*mutex);
+    if (!told->insert(method).second) return;
   }
   report(D3D12_MESSAGE_SEVERITY_ERROR,
          make_error(ErrorId::kMissing,

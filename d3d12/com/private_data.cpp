@@ -33,9 +33,11 @@ HRESULT PrivateData::set(REFGUID guid, UINT size, const void* data) {
     const auto* bytes = static_cast<const std::byte*>(data);
     item.bytes.assign(bytes, bytes + size);
   }
+  decltype(items_)::node_type dropped;  // released without the lock: it may ask its owner
   std::lock_guard lock(mutex_);
   if (data == nullptr) {
-    return items_.erase(guid) != 0 ? S_OK : S_FALSE;
+    dropped = items_.extract(guid);
+    return !dropped.empty() ? S_OK : S_FALSE;
   }
   std::swap(items_[guid], item);
   return S_OK;
@@ -62,7 +64,8 @@ std::string PrivateData::name() const {
   const auto narrow = items_.find(WKPDID_D3DDebugObjectName);
   if (narrow == items_.end()) return {};
   const std::vector<std::byte>& bytes = narrow->second.bytes;
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.substr(0, text.find('\0'));  // programs count the zero, or not
 }
 
 }  // namespace kaamos::d3d12

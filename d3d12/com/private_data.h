@@ -49,10 +49,9 @@ class NamedObject : public ComObject<First, Rest...> {
     return private_data_.get(guid, size, data);
   }
   HRESULT STDMETHODCALLTYPE SetPrivateData(REFGUID guid, UINT size, const void* data) override {
-    if (guid == WKPDID_D3DDebugObjectName && data != nullptr) {
-      rename(std::string(static_cast<const char*>(data), size));
-    }
-    return private_data_.set(guid, size, data);
+    const HRESULT result = private_data_.set(guid, size, data);
+    if (guid == WKPDID_D3DDebugObjectName || guid == WKPDID_D3DDebugObjectNameW) rename(name());
+    return result;
   }
   HRESULT STDMETHODCALLTYPE SetPrivateDataInterface(REFGUID guid, const IUnknown* data) override {
     return private_data_.set(guid, data);

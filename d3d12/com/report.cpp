@@ -4,26 +4,36 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string_view>
+#include <vector>
 
 namespace kaamos::d3d12 {
 
 namespace {
 
+// Removing waits until the sink's call on another thread is over; a sink may remove itself.
+struct Sink {
+  explicit Sink(MessageSink called) : call(std::move(called)) {}
+  std::recursive_mutex mutex;
+  bool removed = false;
+  const MessageSink call;
+};
+
 struct Sinks {
-  std::recursive_mutex mutex;  // a callback of a queue may meet another error
-  std::map<uint64_t, MessageSink> sinks;
+  std::mutex mutex;
+  std::map<uint64_t, std::shared_ptr<Sink>> sinks;
   uint64_t next = 1;
   int muted = 0;
 };
 
 Sinks& all_sinks() {
-  static Sinks sinks;
-  return sinks;
+  static Sinks* sinks = new Sinks;  // lives on: programs release global devices after main
+  return *sinks;
 }
 
-// Which messages are printed: those at least this grave. Severities count downwards.
+// Which messages are printed: those at least this severe. Severities count downwards.
 int printed_severity() {
   const char* setting = std::getenv("KAAMOS_D3D12_MESSAGES");
   const std::string_view text = setting != nullptr ? setting : "errors";
@@ -71,12 +81,20 @@ HRESULT to_hresult(rtapi::ErrorCode code) {
 
 void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
   Sinks& all = all_sinks();
-  // One message at a time, so that lines of several threads do not mix.
-  std::lock_guard lock(all.mutex);
-  if (all.muted == 0 && severity <= printed_severity()) {
-    std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), error.message.c_str());
+  std::vector<std::shared_ptr<Sink>> sinks;
+  {
+    // One message at a time, so that lines of several threads do not mix.
+    std::lock_guard lock(all.mutex);
+    if (all.muted == 0 && severity <= printed_severity()) {
+      std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), error.message.c_str());
+    }
+    for (auto& [id, sink] : all.sinks) sinks.push_back(sink);
   }
-  for (auto& [id, sink] : all.sinks) sink(severity, error);
+  // Without the lock: a callback may meet another error, or release its device.
+  for (const auto& sink : sinks) {
+    std::lock_guard lock(sink->mutex);
+    if (!sink->removed) sink->call(severity, error);
+  }
 }
 
 void print(D3D12_MESSAGE_SEVERITY severity, const std::string& text) {
@@ -109,14 +127,22 @@ HRESULT check(const rtapi::Status& status) {
 uint64_t add_sink(MessageSink sink) {
   Sinks& all = all_sinks();
   std::lock_guard lock(all.mutex);
-  all.sinks.emplace(all.next, std::move(sink));
+  all.sinks.emplace(all.next, std::make_shared<Sink>(std::move(sink)));
   return all.next++;
 }
 
 void remove_sink(uint64_t id) {
-  Sinks& all = all_sinks();
-  std::lock_guard lock(all.mutex);
-  all.sinks.erase(id);
+  std::shared_ptr<Sink> sink;
+  {
+    Sinks& all = all_sinks();
+    std::lock_guard lock(all.mutex);
+    const auto found = all.sinks.find(id);
+    if (found == all.sinks.end()) return;
+    sink = found->second;
+    all.sinks.erase(found);
+  }
+  std::lock_guard lock(sink->mutex);
+  sink->removed = true;
 }
 
 }  // namespace kaamos::d3d12

@@ -45,7 +45,8 @@ const DxcOption* find_option(std::string_view word) {
   return best;
 }
 
-// Whether a word with a slash in front is a path and no option: "/shaders/a.hlsl", not "/Fo/out/a.cso".
+// Whether a word with a slash in front is a path and no option: "/shaders/a.hlsl", not
+// "/Fo/out/a.cso".
 bool is_path(const std::string& word) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(word, ignored)) return true;

@@ -6,6 +6,7 @@
 #include "d3d12/compiler/dxc_blob.h"
 #include "d3d12/compiler/dxc_compiler.h"
 #include "d3d12/compiler/reflection.h"
+#include "d3d12/compiler/shader_source.h"
 #include "d3d12/container/container.h"
 
 namespace kaamos::d3d12 {

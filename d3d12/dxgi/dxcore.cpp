@@ -16,6 +16,11 @@ namespace kaamos::d3d12 {
 
 namespace {
 
+bool is_supported_attribute(const GUID& attribute) {
+  return attribute == DXCORE_ADAPTER_ATTRIBUTE_D3D12_GRAPHICS ||
+         attribute == DXCORE_ADAPTER_ATTRIBUTE_D3D12_CORE_COMPUTE;
+}
+
 class CoreAdapter final : public ComObject<IDXCoreAdapterEntries, IKaamosAdapterEntries> {
  public:
   CoreAdapter(IUnknown* factory, AdapterInfo info) : factory_(factory), info_(std::move(info)) {}
@@ -24,8 +29,7 @@ class CoreAdapter final : public ComObject<IDXCoreAdapterEntries, IKaamosAdapter
 
   bool STDMETHODCALLTYPE IsValid() override { return true; }
   bool STDMETHODCALLTYPE IsAttributeSupported(REFGUID attribute) override {
-    return attribute == DXCORE_ADAPTER_ATTRIBUTE_D3D12_GRAPHICS ||
-           attribute == DXCORE_ADAPTER_ATTRIBUTE_D3D12_CORE_COMPUTE;
+    return is_supported_attribute(attribute);
   }
   bool STDMETHODCALLTYPE IsPropertySupported(DXCoreAdapterProperty property) override {
     return !value_of(property).empty();
@@ -129,10 +133,7 @@ class CoreFactory final : public ComObject<IDXCoreAdapterFactoryEntries> {
     *list = nullptr;
     if (count == 0 || attributes == nullptr) return E_INVALIDARG;
     std::vector<AdapterInfo> all = list_adapters();
-    if (std::find(attributes, attributes + count, DXCORE_ADAPTER_ATTRIBUTE_D3D11_GRAPHICS) !=
-        attributes + count) {
-      all.clear();
-    }
+    if (!std::all_of(attributes, attributes + count, is_supported_attribute)) all.clear();
     return hand_out(new CoreAdapterList(this, std::move(all)), riid, list);
   }
   HRESULT STDMETHODCALLTYPE GetAdapterByLuid(const LUID& luid, REFIID riid,

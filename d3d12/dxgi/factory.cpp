@@ -83,7 +83,9 @@ HRESULT Factory::GetWindowAssociation(HWND* window) {
 HRESULT Factory::CreateSwapChain(IUnknown* queue, DXGI_SWAP_CHAIN_DESC* desc,
                                  IDXGISwapChain** chain) {
   if (chain != nullptr) *chain = nullptr;
-  if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateSwapChain: pDesc.");
+  if (desc == nullptr || desc->OutputWindow == nullptr) {
+    return fail(ErrorId::kNullPointer, "CreateSwapChain: pDesc or its OutputWindow.");
+  }
   DXGI_SWAP_CHAIN_DESC1 newer = {};
   newer.Width = desc->BufferDesc.Width;
   newer.Height = desc->BufferDesc.Height;

@@ -23,17 +23,24 @@ constexpr UINT kLastingFlags =
     DXGI_SWAP_CHAIN_FLAG_ALLOW_TEARING | DXGI_SWAP_CHAIN_FLAG_FRAME_LATENCY_WAITABLE_OBJECT;
 
 // Windows with a swap chain of the flip model, of which each can have one.
-std::mutex windows_mutex;
-std::set<HWND> windows;
+struct ClaimedWindows {
+  std::mutex mutex;
+  std::set<HWND> windows;
+};
+ClaimedWindows& claimed() {
+  static auto* all =
+      new ClaimedWindows;  // lives on: programs release global swap chains after main
+  return *all;
+}
 
 bool claim_window(HWND window) {
-  std::scoped_lock lock(windows_mutex);
-  return window == nullptr || windows.insert(window).second;
+  std::scoped_lock lock(claimed().mutex);
+  return window == nullptr || claimed().windows.insert(window).second;
 }
 
 void free_window(HWND window) {
-  std::scoped_lock lock(windows_mutex);
-  windows.erase(window);
+  std::scoped_lock lock(claimed().mutex);
+  claimed().windows.erase(window);
 }
 
 // Bad values of a call's arguments are DXGI_ERROR_INVALID_CALL, whichever they are.
@@ -92,35 +99,37 @@ SwapChain::~SwapChain() {
   free_window(window_);
 }
 
-HRESULT SwapChain::make_buffers() {
-  if (desc_.Width == 0 || desc_.Height == 0) {
-    return refuse("a swap chain of " + std::to_string(desc_.Width) + " x " +
-                  std::to_string(desc_.Height) +
+HRESULT SwapChain::make_buffers(const DXGI_SWAP_CHAIN_DESC1& desc) {
+  if (desc.Width == 0 || desc.Height == 0) {
+    return refuse("a swap chain of " + std::to_string(desc.Width) + " x " +
+                  std::to_string(desc.Height) +
                   " pixels; 0 stands for the window's size, and there is no window.");
   }
   D3D12_HEAP_PROPERTIES heap = {};
   heap.Type = D3D12_HEAP_TYPE_DEFAULT;
   D3D12_RESOURCE_DESC texture = {};
   texture.Dimension = D3D12_RESOURCE_DIMENSION_TEXTURE2D;
-  texture.Width = desc_.Width;
-  texture.Height = desc_.Height;
+  texture.Width = desc.Width;
+  texture.Height = desc.Height;
   texture.DepthOrArraySize = texture.MipLevels = 1;
-  texture.Format = desc_.Format;
+  texture.Format = desc.Format;
   texture.SampleDesc.Count = 1;
   texture.Flags = D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET;
-  if ((desc_.BufferUsage & DXGI_USAGE_UNORDERED_ACCESS) != 0) {
+  if ((desc.BufferUsage & DXGI_USAGE_UNORDERED_ACCESS) != 0) {
     texture.Flags |= D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS;
   }
-  buffers_.clear();
-  for (UINT i = 0; i < desc_.BufferCount; ++i) {
+  std::vector<ComPtr<ID3D12Resource>> made;
+  for (UINT i = 0; i < desc.BufferCount; ++i) {
     ComPtr<ID3D12Resource> buffer;
     const HRESULT result = device_->CreateCommittedResource(
         &heap, D3D12_HEAP_FLAG_NONE, &texture, D3D12_RESOURCE_STATE_PRESENT, nullptr,
         IID_ID3D12Resource, reinterpret_cast<void**>(buffer.GetAddressOf()));
     if (FAILED(result)) return result;
     buffer->SetName((L"back buffer " + std::to_wstring(i)).c_str());
-    buffers_.push_back(buffer);
+    made.push_back(buffer);
   }
+  buffers_ = std::move(made);
+  desc_ = desc;
   current_ = 0;
   return S_OK;
 }
@@ -242,8 +251,7 @@ HRESULT SwapChain::ResizeBuffers(UINT count, UINT width, UINT height, DXGI_FORMA
     return refuse("ResizeBuffers: " + fault);
   }
   deliver_finished();
-  desc_ = changed;
-  return make_buffers();
+  return make_buffers(changed);
 }
 
 HRESULT SwapChain::ResizeBuffers1(UINT count, UINT width, UINT height, DXGI_FORMAT format,
@@ -284,7 +292,7 @@ HRESULT create_swap_chain(IUnknown* factory, IUnknown* queue, const DXGI_SWAP_CH
     return refuse("CreateSwapChain: " + fault);
   }
   if (window != nullptr && !window_size(window)) {
-    return refuse("CreateSwapChain: the window handle names no window that lives.");
+    return refuse("CreateSwapChain: OutputWindow is not a valid window.");
   }
   if (!claim_window(window)) {
     fail(ErrorId::kSwapChain,
@@ -294,7 +302,7 @@ HRESULT create_swap_chain(IUnknown* factory, IUnknown* queue, const DXGI_SWAP_CH
   DXGI_SWAP_CHAIN_DESC1 sized = desc;
   fill_size(sized, window);
   auto* made = new SwapChain(factory, direct.Get(), sized, window);
-  if (const HRESULT result = made->make_buffers(); FAILED(result)) {
+  if (const HRESULT result = made->make_buffers(sized); FAILED(result)) {
     made->Release();
     return result;
   }

@@ -24,9 +24,10 @@ class SwapChain final : public DxgiObject<IDXGISwapChainEntries> {
             HWND window);
   ~SwapChain() override;
 
-  /// Makes the back buffers.
+  /// Makes the back buffers that `desc` describes, which is the swap chain's from then on. After an
+  /// error everything is as it was.
   /// @errors KA4040 and those of CreateCommittedResource.
-  HRESULT make_buffers();
+  HRESULT make_buffers(const DXGI_SWAP_CHAIN_DESC1& desc);
 
   HRESULT STDMETHODCALLTYPE Present(UINT sync_interval, UINT flags) override;
   HRESULT STDMETHODCALLTYPE Present1(UINT sync_interval, UINT flags,
@@ -99,7 +100,8 @@ class SwapChain final : public DxgiObject<IDXGISwapChainEntries> {
 };
 
 /// Checks a description by the rules of the flip model and makes the swap chain.
-/// @errors KA4001 null; KA4040 a member, a queue that is none, a window that has one already.
+/// @errors KA4001 null; KA4040 a member, an object that is not a queue, a window that has one
+/// already.
 HRESULT create_swap_chain(IUnknown* factory, IUnknown* queue, const DXGI_SWAP_CHAIN_DESC1& desc,
                           HWND window, REFIID riid, void** chain);
 

@@ -58,8 +58,15 @@ HRESULT SwapChain::GetFullscreenState(BOOL* fullscreen, IDXGIOutput** target) {
 
 HRESULT SwapChain::GetContainingOutput(IDXGIOutput** output) {
   if (output == nullptr || window_ == nullptr) return DXGI_ERROR_INVALID_CALL;
-  *output = new Output(parent());
-  return S_OK;
+  *output = nullptr;
+  Microsoft::WRL::ComPtr<IDXGIFactory4> factory;
+  HRESULT result =
+      GetParent(__uuidof(IDXGIFactory4), reinterpret_cast<void**>(factory.GetAddressOf()));
+  if (FAILED(result)) return result;
+  Microsoft::WRL::ComPtr<IDXGIAdapter> adapter;
+  result = factory->EnumAdapterByLuid(device_->GetAdapterLuid(), __uuidof(IDXGIAdapter),
+                                      reinterpret_cast<void**>(adapter.GetAddressOf()));
+  return FAILED(result) ? result : adapter->EnumOutputs(0, output);
 }
 
 HRESULT SwapChain::GetRestrictToOutput(IDXGIOutput** output) {

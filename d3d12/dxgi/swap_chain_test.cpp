@@ -312,5 +312,18 @@ TEST_F(SwapChainTest, AFolderThatCannotBeMadeIsToldOnce) {
   EXPECT_NE(messages_[0].find("/proc/kaamos/"), std::string::npos);
 }
 
+TEST_F(SwapChainTest, StaysAsItWasWhenAResizeFails) {
+  ASSERT_EQ(create(good_desc()), S_OK);
+  DXGI_SWAP_CHAIN_DESC before = {};
+  ASSERT_EQ(chain_->GetDesc(&before), S_OK);
+  EXPECT_LT(chain_->ResizeBuffers(0, 20000, 100, DXGI_FORMAT_UNKNOWN, 0), 0);
+  EXPECT_FALSE(messages_.empty());
+  DXGI_SWAP_CHAIN_DESC desc = {};
+  ASSERT_EQ(chain_->GetDesc(&desc), S_OK);
+  EXPECT_EQ(desc.BufferDesc.Width, before.BufferDesc.Width);
+  EXPECT_EQ(chain_->Present(0, 0), S_OK);
+  EXPECT_EQ(chain_->Present(0, 0), S_OK);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

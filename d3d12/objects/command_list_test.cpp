@@ -141,5 +141,36 @@ TEST_F(CommandListCalls, WhatIsMissingSaysSo) {
   EXPECT_NE(messages_[0].find("ID3D12GraphicsCommandList::SOSetTargets"), std::string::npos);
 }
 
+TEST_F(CommandListCalls, ABarrierBetweenEqualStatesDoesNothing) {
+  const auto target = buffer(16, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_COPY_DEST);
+  D3D12_RESOURCE_BARRIER barrier = {};
+  barrier.Transition = {target.Get(), D3D12_RESOURCE_BARRIER_ALL_SUBRESOURCES,
+                        D3D12_RESOURCE_STATE_COPY_DEST, D3D12_RESOURCE_STATE_COPY_DEST};
+  list_->ResourceBarrier(1, &barrier);
+  EXPECT_EQ(list_->Close(), S_OK);
+  EXPECT_TRUE(messages_.empty());
+}
+
+TEST_F(CommandListCalls, EventsNeedNotBalance) {
+  list_->EndEvent();
+  const char name[] = "pass";
+  list_->BeginEvent(1, name, sizeof(name));
+  list_->BeginEvent(0, L"inner", sizeof(L"inner"));
+  list_->EndEvent();
+  run();
+  EXPECT_TRUE(messages_.empty());
+}
+
+TEST_F(CommandListCalls, CloseTellsWhatTheFacadeRefused) {
+  list_->DispatchRays(nullptr);
+  list_->ResourceBarrier(1, nullptr);
+  list_->SetDescriptorHeaps(1, nullptr);
+  EXPECT_EQ(messages_.size(), 3u);
+  EXPECT_EQ(list_->Close(), E_INVALIDARG);
+  ASSERT_EQ(allocator_->Reset(), S_OK);
+  ASSERT_EQ(list_->Reset(allocator_.Get(), nullptr), S_OK);
+  EXPECT_EQ(list_->Close(), S_OK);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

@@ -11,11 +11,20 @@
 namespace kaamos::d3d12 {
 
 void CommandQueue::ExecuteCommandLists(UINT count, ID3D12CommandList* const* lists) {
+  if (count != 0 && lists == nullptr) {
+    fail(ErrorId::kNullPointer, "ExecuteCommandLists: ppCommandLists.");
+    return;
+  }
   std::vector<rtapi::CommandList> submitted;
   for (UINT i = 0; i < count; ++i) {
     if (lists[i] == nullptr) {
       fail(ErrorId::kNullPointer,
            "ExecuteCommandLists: ppCommandLists[" + std::to_string(i) + "].");
+      return;
+    }
+    if (lists[i]->GetType() == D3D12_COMMAND_LIST_TYPE_BUNDLE) {
+      fail(ErrorId::kCommandList, "ExecuteCommandLists: ppCommandLists[" + std::to_string(i) +
+                                      "] is a bundle. Execute it on a list, by ExecuteBundle.");
       return;
     }
     submitted.push_back(static_cast<GraphicsCommandList*>(lists[i])->rtapi_list());
@@ -41,7 +50,8 @@ HRESULT CommandQueue::GetTimestampFrequency(UINT64* frequency) {
   return S_OK;
 }
 
-// The GPU's clock is read as programs read it: by a timestamp of a list that does nothing else.
+// The GPU's clock is read as programs read it: by a timestamp of a list that does nothing else, on
+// a queue of its own, as this one may wait for what the program does later.
 HRESULT CommandQueue::GetClockCalibration(UINT64* gpu, UINT64* cpu) {
   if (gpu == nullptr || cpu == nullptr) return E_INVALIDARG;
   const rtapi::Device& device = rtapi_device(this->device());
@@ -54,7 +64,9 @@ HRESULT CommandQueue::GetClockCalibration(UINT64* gpu, UINT64* cpu) {
   if (!list) return fail(list.error());
   list->EndQuery(*heap, rtapi::QueryType::kTimestamp, 0);
   list->ResolveQueryData(*heap, rtapi::QueryType::kTimestamp, 0, 1, *buffer, 0);
-  if (const auto status = queue_.ExecuteAndWait(*list); !status) return fail(status.error());
+  auto own = device.CreateCommandQueue();
+  if (!own) return fail(own.error());
+  if (const auto status = own->ExecuteAndWait(*list); !status) return fail(status.error());
   LARGE_INTEGER now;
   QueryPerformanceCounter(&now);
   *gpu = buffer->data<uint64_t>()[0];

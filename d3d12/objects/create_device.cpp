@@ -46,9 +46,11 @@ D3D12_MESSAGE_SEVERITY severity_of(rtapi::MessageSeverity severity) {
 HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, void** device) {
   if (device != nullptr) *device = nullptr;
   if (level > D3D_FEATURE_LEVEL_12_1) {
-    return fail(ErrorId::kAdapter, "D3D12CreateDevice: MinimumFeatureLevel is " +
-                                       std::to_string(level) +
-                                       "; the highest is 49408 (D3D_FEATURE_LEVEL_12_1).");
+    char text[16];
+    std::snprintf(text, sizeof(text), "0x%X", static_cast<unsigned>(level));
+    return fail(ErrorId::kFeatureLevel, std::string("D3D12CreateDevice: MinimumFeatureLevel is ") +
+                                            text +
+                                            "; the highest is 0xC100 (D3D_FEATURE_LEVEL_12_1).");
   }
   rtapi::DeviceDesc desc;
   std::string backend = backend_of(adapter);
@@ -88,6 +90,9 @@ HRESULT WINAPI D3D12GetDebugInterface(REFIID riid, void** debug) {
 
 // Experimental shader models are those that are not signed, which every shader is here.
 HRESULT WINAPI D3D12EnableExperimentalFeatures(UINT count, const IID* ids, void*, UINT*) {
+  if (count != 0 && ids == nullptr) {
+    return fail(ErrorId::kNullPointer, "D3D12EnableExperimentalFeatures: pIIDs.");
+  }
   for (UINT i = 0; i < count; ++i) {
     if (ids[i] != D3D12ExperimentalShaderModels) {
       return fail(ErrorId::kAdapter, "D3D12EnableExperimentalFeatures: pIIDs[" + std::to_string(i) +

@@ -10,9 +10,14 @@ HRESULT Device::GetDeviceRemovedReason() {
   if (removed_) return DXGI_ERROR_DEVICE_REMOVED;
   const rtapi::Status status = device_.GetDeviceRemovedReason();
   if (status.ok()) return S_OK;
-  // An endless loop or too deep a recursion is what D3D12 calls a hung device.
-  return status.error().code == rtapi::ErrorCode::kOutOfMemory ? E_OUTOFMEMORY
-                                                               : DXGI_ERROR_DEVICE_HUNG;
+  switch (status.error().id.number) {
+    case 990:  // memory ran out
+      return E_OUTOFMEMORY;
+    case 955:  // the Vulkan device was lost
+      return DXGI_ERROR_DEVICE_REMOVED;
+    default:  // an endless loop or too deep a recursion is what D3D12 calls a hung device
+      return DXGI_ERROR_DEVICE_HUNG;
+  }
 }
 
 // Objects go on working; the reason is what programs look at.

@@ -62,13 +62,13 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_ARCHITECTURE:
       return answer<D3D12_FEATURE_DATA_ARCHITECTURE>(data, size, [](auto& out) {
         if (out.NodeIndex != 0) return E_INVALIDARG;
-        out = {0, FALSE, TRUE, TRUE};
+        out = {0, FALSE, FALSE, FALSE};  // custom heaps do not do all that UMA promises
         return S_OK;
       });
     case D3D12_FEATURE_ARCHITECTURE1:
       return answer<D3D12_FEATURE_DATA_ARCHITECTURE1>(data, size, [](auto& out) {
         if (out.NodeIndex != 0) return E_INVALIDARG;
-        out = {0, FALSE, TRUE, TRUE, FALSE};
+        out = {0, FALSE, FALSE, FALSE, FALSE};
         return S_OK;
       });
     case D3D12_FEATURE_FEATURE_LEVELS:

@@ -101,7 +101,7 @@ rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
     return rtapi::Status(make_error(ErrorId::kPipeline, detail));
   };
   if (desc.HS.BytecodeLength != 0 || desc.DS.BytecodeLength != 0 || desc.GS.BytecodeLength != 0) {
-    return refuse("HS, DS and GS: there are no hull, domain and geometry shaders here.");
+    return refuse("HS, DS and GS: hull, domain and geometry shaders are not supported.");
   }
   if (desc.StreamOutput.NumEntries != 0 || desc.StreamOutput.NumStrides != 0) {
     return refuse("StreamOutput: there is no stream output here.");

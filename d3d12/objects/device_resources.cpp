@@ -85,7 +85,12 @@ rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
   out->InitialState = static_cast<rtapi::ResourceStates>(state);
   if (clear != nullptr) {
     out->OptimizedClearValue.Format = static_cast<rtapi::Format>(clear->Format);
-    std::copy_n(clear->Color, 4, out->OptimizedClearValue.Color);
+    if (rtapi::IsDepthFormat(out->OptimizedClearValue.Format)) {
+      out->OptimizedClearValue.Depth = clear->DepthStencil.Depth;
+      out->OptimizedClearValue.Stencil = clear->DepthStencil.Stencil;
+    } else {
+      std::copy_n(clear->Color, 4, out->OptimizedClearValue.Color);
+    }
   }
   auto texture = device.CreateTexture(*out);
   if (!texture) return texture.error();
@@ -247,7 +252,9 @@ D3D12_HEAP_PROPERTIES Device::GetCustomHeapProperties(UINT, D3D12_HEAP_TYPE type
       type == D3D12_HEAP_TYPE_UPLOAD     ? D3D12_CPU_PAGE_PROPERTY_WRITE_COMBINE
       : type == D3D12_HEAP_TYPE_READBACK ? D3D12_CPU_PAGE_PROPERTY_WRITE_BACK
                                          : D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE;
-  return {D3D12_HEAP_TYPE_CUSTOM, page, D3D12_MEMORY_POOL_L0, 1, 1};
+  const D3D12_MEMORY_POOL pool =
+      type == D3D12_HEAP_TYPE_DEFAULT ? D3D12_MEMORY_POOL_L1 : D3D12_MEMORY_POOL_L0;
+  return {D3D12_HEAP_TYPE_CUSTOM, page, pool, 1, 1};
 }
 
 void Device::GetCopyableFootprints1(const D3D12_RESOURCE_DESC1* desc, UINT first, UINT count,

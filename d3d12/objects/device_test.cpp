@@ -17,7 +17,7 @@ TEST_F(DeviceCalls, ANullPointerOnlyAsksWhetherADeviceCouldBeMade) {
             S_FALSE);
   ID3D12Device* device = nullptr;
   EXPECT_EQ(D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_2, IID_PPV_ARGS(&device)),
-            DXGI_ERROR_NOT_FOUND);
+            DXGI_ERROR_UNSUPPORTED);
   EXPECT_EQ(device, nullptr);
 }
 
@@ -262,6 +262,65 @@ TEST_F(DeviceCalls, ARemovedDeviceSaysSo) {
   EXPECT_EQ(device_->GetDeviceRemovedReason(), S_OK);
   device_->RemoveDevice();
   EXPECT_EQ(device_->GetDeviceRemovedReason(), DXGI_ERROR_DEVICE_REMOVED);
+}
+
+TEST_F(DeviceCalls, TheClearValueOfADepthTextureIsItsDepth) {
+  ComPtr<ID3D12Debug4> debug;
+  ASSERT_EQ(D3D12GetDebugInterface(IID_PPV_ARGS(debug.GetAddressOf())), S_OK);
+  debug->EnableDebugLayer();
+  ComPtr<ID3D12Device> checked;
+  ASSERT_EQ(
+      D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(checked.GetAddressOf())),
+      S_OK);
+  debug->DisableDebugLayer();
+  D3D12_HEAP_PROPERTIES heap = {};
+  heap.Type = D3D12_HEAP_TYPE_DEFAULT;
+  D3D12_RESOURCE_DESC desc = {};
+  desc.Dimension = D3D12_RESOURCE_DIMENSION_TEXTURE2D;
+  desc.Width = desc.Height = 8;
+  desc.DepthOrArraySize = desc.MipLevels = 1;
+  desc.Format = DXGI_FORMAT_D32_FLOAT;
+  desc.SampleDesc.Count = 1;
+  desc.Flags = D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL;
+  D3D12_CLEAR_VALUE clear = {};
+  clear.Format = DXGI_FORMAT_D32_FLOAT;
+  clear.DepthStencil.Depth = 1;
+  ComPtr<ID3D12Resource> depth;
+  ASSERT_EQ(checked->CreateCommittedResource(&heap, D3D12_HEAP_FLAG_NONE, &desc,
+                                             D3D12_RESOURCE_STATE_DEPTH_WRITE, &clear,
+                                             IID_PPV_ARGS(depth.GetAddressOf())),
+            S_OK);
+  D3D12_DESCRIPTOR_HEAP_DESC views = {D3D12_DESCRIPTOR_HEAP_TYPE_DSV, 1,
+                                      D3D12_DESCRIPTOR_HEAP_FLAG_NONE, 0};
+  ComPtr<ID3D12DescriptorHeap> view;
+  ASSERT_EQ(checked->CreateDescriptorHeap(&views, IID_PPV_ARGS(view.GetAddressOf())), S_OK);
+  checked->CreateDepthStencilView(depth.Get(), nullptr, view->GetCPUDescriptorHandleForHeapStart());
+  D3D12_COMMAND_QUEUE_DESC queue_desc = {};
+  ComPtr<ID3D12CommandQueue> queue;
+  ASSERT_EQ(checked->CreateCommandQueue(&queue_desc, IID_PPV_ARGS(queue.GetAddressOf())), S_OK);
+  ComPtr<ID3D12CommandAllocator> allocator;
+  ASSERT_EQ(checked->CreateCommandAllocator(D3D12_COMMAND_LIST_TYPE_DIRECT,
+                                            IID_PPV_ARGS(allocator.GetAddressOf())),
+            S_OK);
+  ComPtr<ID3D12GraphicsCommandList> list;
+  ASSERT_EQ(checked->CreateCommandList(0, D3D12_COMMAND_LIST_TYPE_DIRECT, allocator.Get(), nullptr,
+                                       IID_PPV_ARGS(list.GetAddressOf())),
+            S_OK);
+  list->ClearDepthStencilView(view->GetCPUDescriptorHandleForHeapStart(), D3D12_CLEAR_FLAG_DEPTH, 1,
+                              0, 0, nullptr);
+  ASSERT_EQ(list->Close(), S_OK);
+  ComPtr<ID3D12InfoQueue> info;
+  ASSERT_EQ(checked.As(&info), S_OK);
+  ID3D12CommandList* lists[] = {list.Get()};
+  queue->ExecuteCommandLists(1, lists);
+  UINT64 gpu = 0, cpu = 0;
+  EXPECT_EQ(queue->GetClockCalibration(&gpu, &cpu), S_OK);
+  ComPtr<ID3D12Fence> fence;
+  ASSERT_EQ(checked->CreateFence(0, D3D12_FENCE_FLAG_NONE, IID_PPV_ARGS(fence.GetAddressOf())),
+            S_OK);
+  ASSERT_EQ(queue->Signal(fence.Get(), 1), S_OK);
+  ASSERT_EQ(fence->SetEventOnCompletion(1, nullptr), S_OK);
+  EXPECT_EQ(info->GetNumStoredMessages(), 0u);  // no KA0477
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "d3d12/objects/graphics_command_list.h"
 
 #include "d3d12/com/text.h"
+#include "d3d12/objects/bundle.h"
 #include "d3d12/objects/descriptor_heap.h"
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/pipeline_objects.h"
@@ -26,6 +27,11 @@ void GraphicsCommandList::drop_allocator() {
   allocator_.Reset();
 }
 
+void GraphicsCommandList::refuse(ErrorId id, const std::string& detail) {
+  const HRESULT result = fail(id, detail);
+  if (SUCCEEDED(refused_)) refused_ = result;
+}
+
 // D3D12 returns one code for all that went wrong while the list recorded; the messages tell the
 // rest.
 HRESULT GraphicsCommandList::Close() {
@@ -33,10 +39,12 @@ HRESULT GraphicsCommandList::Close() {
   if (!list_.is_open()) {
     return fail(ErrorId::kCommandList, "ID3D12GraphicsCommandList::Close: the list is closed.");
   }
+  for (; open_events_ != 0; --open_events_) list_.EndEvent();
   const std::vector<rtapi::Error> errors = list_.GetErrors();
   const rtapi::Status status = list_.Close();
   for (const rtapi::Error& error : errors) report(D3D12_MESSAGE_SEVERITY_ERROR, error);
-  if (status.ok()) return S_OK;
+  const HRESULT refused = std::exchange(refused_, S_OK);
+  if (status.ok()) return refused;
   return errors.empty() ? fail(status.error()) : to_hresult(status.error().code);
 }
 
@@ -65,6 +73,7 @@ HRESULT GraphicsCommandList::Reset(ID3D12CommandAllocator* allocator,
     drop_allocator();
     return fail(status.error());
   }
+  refused_ = S_OK;
   if (initial_state != nullptr) SetPipelineState(initial_state);
   return S_OK;
 }
@@ -87,15 +96,19 @@ HRESULT Device::CreateCommandList(UINT, D3D12_COMMAND_LIST_TYPE type,
     return fail(ErrorId::kNullPointer, "CreateCommandList: pCommandAllocator.");
   }
   auto* taken = static_cast<CommandAllocator*>(allocator);
-  if (type == D3D12_COMMAND_LIST_TYPE_BUNDLE || type > D3D12_COMMAND_LIST_TYPE_COPY ||
-      taken->type() != type) {
+  if (type > D3D12_COMMAND_LIST_TYPE_COPY || taken->type() != type) {
     return fail(ErrorId::kCommandList,
                 "CreateCommandList: type " + std::to_string(type) + " with an allocator of type " +
                     std::to_string(taken->type()) +
-                    "; both are the same, DIRECT (0), COMPUTE (2) or COPY (3).");
+                    "; both are the same, DIRECT (0), BUNDLE (1), COMPUTE (2) or COPY (3).");
   }
   if (!taken->begin()) {
     return fail(ErrorId::kCommandList, "CreateCommandList: another list of the allocator records.");
+  }
+  if (type == D3D12_COMMAND_LIST_TYPE_BUNDLE) {
+    auto* bundle = new Bundle(this, taken);
+    if (initial_state != nullptr) bundle->SetPipelineState(initial_state);
+    return hand_out(bundle, riid, list);
   }
   auto made = device_.CreateCommandList();
   if (!made) {
@@ -110,9 +123,13 @@ HRESULT Device::CreateCommandList(UINT, D3D12_COMMAND_LIST_TYPE type,
 HRESULT Device::CreateCommandList1(UINT, D3D12_COMMAND_LIST_TYPE type, D3D12_COMMAND_LIST_FLAGS,
                                    REFIID riid, void** list) {
   if (list != nullptr) *list = nullptr;
-  if (type == D3D12_COMMAND_LIST_TYPE_BUNDLE || type > D3D12_COMMAND_LIST_TYPE_COPY) {
-    return fail(ErrorId::kCommandList, "CreateCommandList1: type " + std::to_string(type) +
-                                           "; it is DIRECT (0), COMPUTE (2) or COPY (3).");
+  if (type > D3D12_COMMAND_LIST_TYPE_COPY) {
+    return fail(ErrorId::kCommandList,
+                "CreateCommandList1: type " + std::to_string(type) +
+                    "; it is DIRECT (0), BUNDLE (1), COMPUTE (2) or COPY (3).");
+  }
+  if (type == D3D12_COMMAND_LIST_TYPE_BUNDLE) {
+    return hand_out(new Bundle(this, nullptr), riid, list);
   }
   auto made = device_.CreateCommandList();
   if (!made) return fail(made.error());
@@ -134,6 +151,10 @@ void GraphicsCommandList::SetPipelineState1(ID3D12StateObject* state_object) {
 }
 
 void GraphicsCommandList::SetDescriptorHeaps(UINT count, ID3D12DescriptorHeap* const* heaps) {
+  if (count != 0 && heaps == nullptr) {
+    refuse(ErrorId::kNullPointer, "SetDescriptorHeaps: ppDescriptorHeaps.");
+    return;
+  }
   std::vector<rtapi::DescriptorHeap> set;
   for (UINT i = 0; i < count; ++i) {
     set.push_back(heaps[i] != nullptr ? static_cast<DescriptorHeap*>(heaps[i])->rtapi_heap()
@@ -143,6 +164,10 @@ void GraphicsCommandList::SetDescriptorHeaps(UINT count, ID3D12DescriptorHeap* c
 }
 
 void GraphicsCommandList::ResourceBarrier(UINT count, const D3D12_RESOURCE_BARRIER* barriers) {
+  if (count != 0 && barriers == nullptr) {
+    refuse(ErrorId::kNullPointer, "ResourceBarrier: pBarriers.");
+    return;
+  }
   std::vector<rtapi::ResourceBarrier> recorded;
   for (UINT i = 0; i < count; ++i) {
     const D3D12_RESOURCE_BARRIER& barrier = barriers[i];
@@ -150,6 +175,15 @@ void GraphicsCommandList::ResourceBarrier(UINT count, const D3D12_RESOURCE_BARRI
     if ((barrier.Flags & D3D12_RESOURCE_BARRIER_FLAG_BEGIN_ONLY) != 0) continue;
     switch (barrier.Type) {
       case D3D12_RESOURCE_BARRIER_TYPE_TRANSITION:
+        // D3D12's debug layer warns, and the barrier does nothing.
+        if (barrier.Transition.StateBefore == barrier.Transition.StateAfter) {
+          report(D3D12_MESSAGE_SEVERITY_WARNING,
+                 make_error(ErrorId::kBarrier, "pBarriers[" + std::to_string(i) +
+                                                   "]: StateBefore and StateAfter are both " +
+                                                   std::to_string(barrier.Transition.StateAfter) +
+                                                   "; leave it out."));
+          break;
+        }
         recorded.push_back(rtapi::ResourceBarrier::Transition(
             rtapi_resource(barrier.Transition.pResource),
             static_cast<rtapi::ResourceStates>(barrier.Transition.StateBefore),
@@ -162,8 +196,8 @@ void GraphicsCommandList::ResourceBarrier(UINT count, const D3D12_RESOURCE_BARRI
       case D3D12_RESOURCE_BARRIER_TYPE_ALIASING:
         break;  // placed resources share no memory (heap.h)
       default:
-        fail(ErrorId::kBarrier, "pBarriers[" + std::to_string(i) + "].Type is " +
-                                    std::to_string(barrier.Type) + "; it is 0, 1 or 2.");
+        refuse(ErrorId::kBarrier, "pBarriers[" + std::to_string(i) + "].Type is " +
+                                      std::to_string(barrier.Type) + "; it is 0, 1 or 2.");
     }
   }
   list_.ResourceBarrier(std::span<const rtapi::ResourceBarrier>(recorded));
@@ -239,6 +273,19 @@ void GraphicsCommandList::ExecuteIndirect(ID3D12CommandSignature* signature, UIN
                         arguments_offset, rtapi_buffer(count), count_offset);
 }
 
+void GraphicsCommandList::ExecuteBundle(ID3D12GraphicsCommandList* bundle) {
+  if (bundle == nullptr || bundle->GetType() != D3D12_COMMAND_LIST_TYPE_BUNDLE) {
+    refuse(ErrorId::kCommandList, "ExecuteBundle: pCommandList is no bundle.");
+    return;
+  }
+  const auto* calls = static_cast<const Bundle*>(bundle);
+  if (calls->is_open()) {
+    refuse(ErrorId::kCommandList, "ExecuteBundle: the bundle is open. Close it first.");
+    return;
+  }
+  calls->execute(this);
+}
+
 // What PIX's headers pass: 0 a wide string, 1 a narrow one; others encode it in a way of their own.
 // [pix.h: PIXBeginEvent]
 void GraphicsCommandList::BeginEvent(UINT metadata, const void* data, UINT size) {
@@ -250,9 +297,13 @@ void GraphicsCommandList::BeginEvent(UINT metadata, const void* data, UINT size)
     name = std::string(static_cast<const char*>(data), size).c_str();
   }
   list_.BeginEvent(std::move(name));
+  ++open_events_;
 }
 
+// D3D12 takes unbalanced events; rtapi does not.
 void GraphicsCommandList::EndEvent() {
+  if (open_events_ == 0) return;
+  --open_events_;
   list_.EndEvent();
 }
 

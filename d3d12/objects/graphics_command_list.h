@@ -9,9 +9,9 @@
 
 namespace kaamos::d3d12 {
 
-/// A list of any type but bundles. Its methods are in graphics_command_list.cpp (life, state, root
-/// arguments, dispatches), list_copies.cpp, list_draws.cpp and list_raytracing.cpp. Errors are
-/// rtapi's: a call that breaks a rule records nothing, and Close reports all of them.
+/// A list of any type but bundles (bundle.h). Its methods are in graphics_command_list.cpp (life,
+/// state, root arguments, dispatches), list_copies.cpp, list_draws.cpp and list_raytracing.cpp.
+/// Errors are rtapi's: a call that breaks a rule records nothing, and Close reports all of them.
 class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEntries> {
  public:
   /// `list` is open; with an allocator it stays so.
@@ -67,6 +67,8 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
   void STDMETHODCALLTYPE ExecuteIndirect(ID3D12CommandSignature* signature, UINT max_count,
                                          ID3D12Resource* arguments, UINT64 arguments_offset,
                                          ID3D12Resource* count, UINT64 count_offset) override;
+
+  void STDMETHODCALLTYPE ExecuteBundle(ID3D12GraphicsCommandList* bundle) override;
 
   // Acceleration structures
   void STDMETHODCALLTYPE BuildRaytracingAccelerationStructure(
@@ -144,9 +146,13 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
 
  private:
   void drop_allocator();
+  // Reports what cannot be recorded; Close returns the first such code.
+  void refuse(ErrorId id, const std::string& detail);
 
   rtapi::CommandList list_;
   D3D12_COMMAND_LIST_TYPE type_;
+  UINT open_events_ = 0;
+  HRESULT refused_ = S_OK;
   Microsoft::WRL::ComPtr<CommandAllocator> allocator_;  // while the list records
 };
 

@@ -79,35 +79,43 @@ InfoQueue::InfoQueue() {
 
 InfoQueue::~InfoQueue() {
   remove_sink(sink_);
+  SetMuteDebugOutput(FALSE);
 }
 
 void InfoQueue::store(StoredMessage message) {
-  std::lock_guard lock(mutex_);
-  const bool passes = storage_.lets_through(message);
-  for (auto& [cookie, callback] : callbacks_) {
-    if (passes || callback.ignores_filters) {
-      callback.function(message.category, message.severity, message.id, message.text.c_str(),
-                        callback.context);
+  const StoredMessage told = message;
+  std::vector<Callback> callbacks;
+  bool breaks = false;
+  {
+    std::lock_guard lock(mutex_);
+    const bool passes = storage_.lets_through(message);
+    for (const auto& [cookie, callback] : callbacks_) {
+      if (passes || callback.ignores_filters) callbacks.push_back(callback);
     }
+    breaks =
+        passes && (break_categories_.contains(message.category) ||
+                   break_severities_.contains(message.severity) || break_ids_.contains(message.id));
+    keep(std::move(message), passes);
   }
-  if (!passes) {
-    ++denied_;
-    return;
-  }
-  ++allowed_;
-  const bool breaks = break_categories_.contains(message.category) ||
-                      break_severities_.contains(message.severity) ||
-                      break_ids_.contains(message.id);
-  if (limit_ != 0) {  // 2^64 - 1: no limit
-    while (messages_.size() >= limit_) {
-      messages_.pop_front();
-      ++discarded_;
-    }
-    messages_.push_back(std::move(message));
-  } else {
-    ++discarded_;
+  // Without the lock: a callback may unregister itself, or meet another error.
+  for (const Callback& callback : callbacks) {
+    callback.function(told.category, told.severity, told.id, told.text.c_str(), callback.context);
   }
   if (breaks) std::raise(SIGTRAP);
+}
+
+void InfoQueue::keep(StoredMessage message, bool passes) {
+  ++(passes ? allowed_ : denied_);
+  if (!passes) return;
+  if (limit_ == 0) {  // 2^64 - 1: no limit
+    ++discarded_;
+    return;
+  }
+  while (messages_.size() >= limit_) {
+    messages_.pop_front();
+    ++discarded_;
+  }
+  messages_.push_back(std::move(message));
 }
 
 HRESULT InfoQueue::SetMessageCountLimit(UINT64 limit) {
@@ -317,9 +325,12 @@ BOOL InfoQueue::GetBreakOnID(D3D12_MESSAGE_ID id) {
 }
 
 void InfoQueue::SetMuteDebugOutput(BOOL mute) {
-  std::lock_guard lock(mutex_);
-  if (muted_ != (mute != FALSE)) mute_output(mute != FALSE);
-  muted_ = mute != FALSE;
+  {
+    std::lock_guard lock(mutex_);
+    if (muted_ == (mute != FALSE)) return;
+    muted_ = mute != FALSE;
+  }
+  mute_output(mute != FALSE);
 }
 BOOL InfoQueue::GetMuteDebugOutput() {
   std::lock_guard lock(mutex_);

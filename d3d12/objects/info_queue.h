@@ -126,8 +126,9 @@ class InfoQueue : public ID3D12InfoQueueEntries {
   };
 
   void store(StoredMessage message);
+  void keep(StoredMessage message, bool passes);
 
-  mutable std::recursive_mutex mutex_;  // callbacks may ask the queue
+  mutable std::recursive_mutex mutex_;
   std::deque<StoredMessage> messages_;
   FilterStack storage_;
   FilterStack retrieval_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stored messages, filters and callbacks of the debug layer.
 #include <cstring>
+#include <thread>
 
 #include "d3d12/objects/d3d12_fixture.h"
 
@@ -153,6 +154,51 @@ TEST_F(InfoQueueCalls, LiveObjectsAreListedByInterfaceNameAndReferences) {
   EXPECT_EQ(texts[2].find("Live ID3D12Fence at 0x"), 0u) << texts[2];
   EXPECT_NE(texts[2].find(", Name: frame \u00e4, Refcount: 1"), std::string::npos) << texts[2];
   EXPECT_NE(texts[3].find(", Name: other, Refcount: 2"), std::string::npos) << texts[3];
+}
+
+TEST_F(InfoQueueCalls, ACallbackMayTakeItselfBackAndMeetAnotherError) {
+  struct Context {
+    ID3D12InfoQueue1* info;
+    ID3D12Device* device;
+    DWORD cookie;
+    int calls;
+  } context = {info_.Get(), checked_.Get(), 0, 0};
+  ASSERT_EQ(
+      info_->RegisterMessageCallback(
+          [](D3D12_MESSAGE_CATEGORY, D3D12_MESSAGE_SEVERITY, D3D12_MESSAGE_ID, LPCSTR, void* data) {
+            auto& c = *static_cast<Context*>(data);
+            ++c.calls;
+            EXPECT_EQ(c.info->UnregisterMessageCallback(c.cookie), S_OK);
+            D3D12_DESCRIPTOR_HEAP_DESC desc = {};
+            ID3D12DescriptorHeap* heap = nullptr;
+            EXPECT_EQ(c.device->CreateDescriptorHeap(&desc, IID_PPV_ARGS(&heap)), E_INVALIDARG);
+          },
+          D3D12_MESSAGE_CALLBACK_FLAG_NONE, &context, &context.cookie),
+      S_OK);
+  make_error_happen();
+  EXPECT_EQ(context.calls, 1);
+  EXPECT_EQ(info_->GetNumStoredMessages(), 2u);
+}
+
+// Errors on one thread while another mutes and unmutes, and a third device comes and goes.
+TEST_F(InfoQueueCalls, ThreadsDoNotWaitForEachOther) {
+  std::vector<std::thread> threads;
+  threads.emplace_back([&] {
+    for (int i = 0; i < 200; ++i) make_error_happen();
+  });
+  threads.emplace_back([&] {
+    for (int i = 0; i < 200; ++i) info_->SetMuteDebugOutput(i % 2 == 0 ? TRUE : FALSE);
+  });
+  threads.emplace_back([&] {
+    for (int i = 0; i < 5; ++i) {
+      ComPtr<ID3D12Device> device;
+      EXPECT_EQ(
+          D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(device.GetAddressOf())),
+          S_OK);
+    }
+  });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(info_->GetNumStoredMessages(), 200u);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ void GraphicsCommandList::CopyTextureRegion(const D3D12_TEXTURE_COPY_LOCATION* d
                                             UINT z, const D3D12_TEXTURE_COPY_LOCATION* source,
                                             const D3D12_BOX* box) {
   if (dest == nullptr || source == nullptr) {
-    fail(ErrorId::kNullPointer, "CopyTextureRegion: pDst or pSrc.");
+    refuse(ErrorId::kNullPointer, "CopyTextureRegion: pDst or pSrc.");
     return;
   }
   rtapi::Box source_box;
@@ -53,8 +53,9 @@ void GraphicsCommandList::ClearUnorderedAccessViewUint(D3D12_GPU_DESCRIPTOR_HAND
                                                        const UINT values[4], UINT rect_count,
                                                        const D3D12_RECT*) {
   if (rect_count != 0) {
-    fail(ErrorId::kCommandList, "ClearUnorderedAccessViewUint: NumRects is " +
-                                    std::to_string(rect_count) + "; whole views are cleared here.");
+    refuse(ErrorId::kCommandList, "ClearUnorderedAccessViewUint: NumRects is " +
+                                      std::to_string(rect_count) +
+                                      "; whole views are cleared here.");
     return;
   }
   list_.ClearUnorderedAccessViewUint({gpu.ptr}, {cpu.ptr}, rtapi_resource(resource), values);
@@ -66,8 +67,9 @@ void GraphicsCommandList::ClearUnorderedAccessViewFloat(D3D12_GPU_DESCRIPTOR_HAN
                                                         const FLOAT values[4], UINT rect_count,
                                                         const D3D12_RECT*) {
   if (rect_count != 0) {
-    fail(ErrorId::kCommandList, "ClearUnorderedAccessViewFloat: NumRects is " +
-                                    std::to_string(rect_count) + "; whole views are cleared here.");
+    refuse(ErrorId::kCommandList, "ClearUnorderedAccessViewFloat: NumRects is " +
+                                      std::to_string(rect_count) +
+                                      "; whole views are cleared here.");
     return;
   }
   list_.ClearUnorderedAccessViewFloat({gpu.ptr}, {cpu.ptr}, rtapi_resource(resource), values);

@@ -83,6 +83,10 @@ void GraphicsCommandList::BeginRenderPass(UINT count,
                                           const D3D12_RENDER_PASS_RENDER_TARGET_DESC* targets,
                                           const D3D12_RENDER_PASS_DEPTH_STENCIL_DESC* depth,
                                           D3D12_RENDER_PASS_FLAGS) {
+  if (count != 0 && targets == nullptr) {
+    refuse(ErrorId::kNullPointer, "BeginRenderPass: pRenderTargets.");
+    return;
+  }
   std::vector<D3D12_CPU_DESCRIPTOR_HANDLE> handles;
   for (UINT i = 0; i < count; ++i) handles.push_back(targets[i].cpuDescriptor);
   OMSetRenderTargets(count, handles.data(), FALSE,

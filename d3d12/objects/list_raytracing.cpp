@@ -24,7 +24,7 @@ void GraphicsCommandList::BuildRaytracingAccelerationStructure(
     const D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_DESC* desc, UINT postbuild_count,
     const D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_DESC* postbuild) {
   if (desc == nullptr) {
-    fail(ErrorId::kNullPointer, "BuildRaytracingAccelerationStructure: pDesc.");
+    refuse(ErrorId::kNullPointer, "BuildRaytracingAccelerationStructure: pDesc.");
     return;
   }
   using PostbuildInfo = rtapi::RaytracingAccelerationStructurePostbuildInfoDesc;
@@ -38,8 +38,8 @@ void GraphicsCommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
     const D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_DESC* desc, UINT count,
     const D3D12_GPU_VIRTUAL_ADDRESS* sources) {
   if (desc == nullptr || (sources == nullptr && count != 0)) {
-    fail(ErrorId::kNullPointer,
-         "EmitRaytracingAccelerationStructurePostbuildInfo: pDesc or the sources.");
+    refuse(ErrorId::kNullPointer,
+           "EmitRaytracingAccelerationStructurePostbuildInfo: pDesc or the sources.");
     return;
   }
   list_.EmitRaytracingAccelerationStructurePostbuildInfo(
@@ -56,7 +56,7 @@ void GraphicsCommandList::CopyRaytracingAccelerationStructure(
 
 void GraphicsCommandList::DispatchRays(const D3D12_DISPATCH_RAYS_DESC* desc) {
   if (desc == nullptr) {
-    fail(ErrorId::kNullPointer, "DispatchRays: pDesc.");
+    refuse(ErrorId::kNullPointer, "DispatchRays: pDesc.");
     return;
   }
   list_.DispatchRays(*same_bytes<rtapi::DispatchRaysDesc>(desc));

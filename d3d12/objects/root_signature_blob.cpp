@@ -310,7 +310,9 @@ rtapi::Result<rtapi::RootSignatureDesc> root_signature_of_blob(
 // Back to D3D12's structures
 
 RootSignatureTree::RootSignatureTree(const rtapi::RootSignatureDesc& desc,
-                                     D3D_ROOT_SIGNATURE_VERSION version) {
+                                     D3D_ROOT_SIGNATURE_VERSION version,
+                                     D3D_ROOT_SIGNATURE_VERSION source) {
+  const bool adds_flags = source == D3D_ROOT_SIGNATURE_VERSION_1_0;
   samplers_.resize(desc.StaticSamplers.size());
   if (!samplers_.empty()) {
     std::memcpy(static_cast<void*>(samplers_.data()), desc.StaticSamplers.data(),
@@ -334,6 +336,12 @@ RootSignatureTree::RootSignatureTree(const rtapi::RootSignatureDesc& desc,
             r.OffsetInDescriptorsFromTableStart = range.OffsetInDescriptorsFromTableStart;
             if constexpr (requires { r.Flags; }) {
               r.Flags = static_cast<D3D12_DESCRIPTOR_RANGE_FLAGS>(range.Flags);
+              if (adds_flags) {
+                r.Flags = D3D12_DESCRIPTOR_RANGE_FLAG_DESCRIPTORS_VOLATILE;
+                if (r.RangeType != D3D12_DESCRIPTOR_RANGE_TYPE_SAMPLER) {
+                  r.Flags |= D3D12_DESCRIPTOR_RANGE_FLAG_DATA_VOLATILE;
+                }
+              }
             }
           }
           to.DescriptorTable.NumDescriptorRanges = static_cast<UINT>(table.size());
@@ -347,7 +355,9 @@ RootSignatureTree::RootSignatureTree(const rtapi::RootSignatureDesc& desc,
           to.Descriptor.ShaderRegister = from.Descriptor.ShaderRegister;
           to.Descriptor.RegisterSpace = from.Descriptor.RegisterSpace;
           if constexpr (requires { to.Descriptor.Flags; }) {
-            to.Descriptor.Flags = static_cast<D3D12_ROOT_DESCRIPTOR_FLAGS>(from.Descriptor.Flags);
+            to.Descriptor.Flags =
+                adds_flags ? D3D12_ROOT_DESCRIPTOR_FLAG_DATA_VOLATILE
+                           : static_cast<D3D12_ROOT_DESCRIPTOR_FLAGS>(from.Descriptor.Flags);
           }
       }
     }

@@ -37,7 +37,9 @@ rtapi::Result<rtapi::RootSignatureDesc> root_signature_of_blob(
 /// D3D12's structures for a description. The arrays live as long as the object.
 class RootSignatureTree {
  public:
-  RootSignatureTree(const rtapi::RootSignatureDesc& desc, D3D_ROOT_SIGNATURE_VERSION version);
+  /// `source`: the version that `desc` was read from. 1.0 has no flags; in 1.1 they are volatile.
+  RootSignatureTree(const rtapi::RootSignatureDesc& desc, D3D_ROOT_SIGNATURE_VERSION version,
+                    D3D_ROOT_SIGNATURE_VERSION source = D3D_ROOT_SIGNATURE_VERSION_1_1);
   RootSignatureTree(const RootSignatureTree&) = delete;
   RootSignatureTree& operator=(const RootSignatureTree&) = delete;
 

@@ -182,5 +182,43 @@ TEST_F(RootSignatureCalls, ALibrarysOnlyGlobalOneIsTaken) {
   EXPECT_EQ(messages_[0].substr(0, 6), "KA0633");
 }
 
+TEST_F(RootSignatureCalls, Version10ReadAs11IsVolatile) {
+  D3D12_DESCRIPTOR_RANGE ranges[2] = {};
+  ranges[0] = {D3D12_DESCRIPTOR_RANGE_TYPE_SRV, 1, 0, 0, 0};
+  D3D12_ROOT_PARAMETER parameters[2] = {};
+  parameters[0].ParameterType = D3D12_ROOT_PARAMETER_TYPE_DESCRIPTOR_TABLE;
+  parameters[0].DescriptorTable = {1, ranges};
+  parameters[1].ParameterType = D3D12_ROOT_PARAMETER_TYPE_CBV;
+  const D3D12_ROOT_SIGNATURE_DESC desc = {2, parameters, 0, nullptr,
+                                          D3D12_ROOT_SIGNATURE_FLAG_NONE};
+  ComPtr<ID3DBlob> blob;
+  ASSERT_EQ(D3D12SerializeRootSignature(&desc, D3D_ROOT_SIGNATURE_VERSION_1, blob.GetAddressOf(),
+                                        nullptr),
+            S_OK);
+  ComPtr<ID3D12VersionedRootSignatureDeserializer> reader;
+  ASSERT_EQ(
+      D3D12CreateVersionedRootSignatureDeserializer(blob->GetBufferPointer(), blob->GetBufferSize(),
+                                                    IID_PPV_ARGS(reader.GetAddressOf())),
+      S_OK);
+  const D3D12_VERSIONED_ROOT_SIGNATURE_DESC* read = nullptr;
+  ASSERT_EQ(reader->GetRootSignatureDescAtVersion(D3D_ROOT_SIGNATURE_VERSION_1_1, &read), S_OK);
+  EXPECT_EQ(
+      read->Desc_1_1.pParameters[0].DescriptorTable.pDescriptorRanges[0].Flags,
+      D3D12_DESCRIPTOR_RANGE_FLAG_DESCRIPTORS_VOLATILE | D3D12_DESCRIPTOR_RANGE_FLAG_DATA_VOLATILE);
+  EXPECT_EQ(read->Desc_1_1.pParameters[1].Descriptor.Flags,
+            D3D12_ROOT_DESCRIPTOR_FLAG_DATA_VOLATILE);
+}
+
+TEST_F(RootSignatureCalls, AnUnknownVersionOfTheOldCallFillsTheErrorBlob) {
+  const D3D12_ROOT_SIGNATURE_DESC desc = {};
+  auto* blob = reinterpret_cast<ID3DBlob*>(1);
+  ComPtr<ID3DBlob> errors;
+  EXPECT_EQ(D3D12SerializeRootSignature(&desc, D3D_ROOT_SIGNATURE_VERSION_1_1, &blob,
+                                        errors.GetAddressOf()),
+            E_INVALIDARG);
+  EXPECT_EQ(blob, nullptr);
+  EXPECT_NE(errors.Get(), nullptr);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

@@ -40,7 +40,7 @@ class VersionedDeserializer final
   VersionedDeserializer(const rtapi::RootSignatureDesc& desc, D3D_ROOT_SIGNATURE_VERSION version)
       : unconverted_(version),
         v1_0_(desc, D3D_ROOT_SIGNATURE_VERSION_1_0),
-        v1_1_(desc, D3D_ROOT_SIGNATURE_VERSION_1_1) {}
+        v1_1_(desc, D3D_ROOT_SIGNATURE_VERSION_1_1, version) {}
 
   HRESULT STDMETHODCALLTYPE
   GetRootSignatureDescAtVersion(D3D_ROOT_SIGNATURE_VERSION version,
@@ -86,13 +86,18 @@ extern "C" {
 HRESULT WINAPI D3D12SerializeRootSignature(const D3D12_ROOT_SIGNATURE_DESC* desc,
                                            D3D_ROOT_SIGNATURE_VERSION version, ID3DBlob** blob,
                                            ID3DBlob** error_blob) {
+  if (blob != nullptr) *blob = nullptr;
+  if (error_blob != nullptr) *error_blob = nullptr;
   if (desc == nullptr) {
     return fail(ErrorId::kNullPointer, "D3D12SerializeRootSignature: pRootSignature.");
   }
   if (version != D3D_ROOT_SIGNATURE_VERSION_1_0) {
-    return fail(ErrorId::kRootSignatureBlob,
-                "D3D12SerializeRootSignature: Version is " + std::to_string(version) +
-                    "; it is 1 (1.0). D3D12SerializeVersionedRootSignature takes others.");
+    const rtapi::Error error =
+        make_error(ErrorId::kRootSignatureBlob,
+                   "D3D12SerializeRootSignature: Version is " + std::to_string(version) +
+                       "; it is 1 (1.0). D3D12SerializeVersionedRootSignature takes others.");
+    if (error_blob != nullptr) *error_blob = new Blob(error.message);
+    return fail(error);
   }
   D3D12_VERSIONED_ROOT_SIGNATURE_DESC versioned = {};
   versioned.Version = version;

@@ -8,7 +8,7 @@
 
 namespace kaamos::d3d12 {
 
-/// The size of a window's content in pixels; none if the handle names no window that lives.
+/// The size of a window's content in pixels; none if the handle is not a valid window.
 std::optional<SIZE> window_size(HWND window);
 
 /// Counts a frame that was presented to this window. After KAAMOS_FRAMES of them (default 3) the
