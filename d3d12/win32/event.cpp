@@ -92,6 +92,11 @@ void set_event(Event& event, bool value) {
   }
 }
 
+size_t waiting_threads() {
+  std::lock_guard lock(waits().mutex);
+  return waits().waiters.size();
+}
+
 }  // namespace kaamos::d3d12
 
 using namespace kaamos::d3d12;  // NOLINT: the functions below are global

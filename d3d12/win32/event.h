@@ -2,6 +2,8 @@
 // Events, which programs wait for by a handle.
 #pragma once
 
+#include <cstddef>
+
 #include "d3d12/win32/handles.h"
 
 namespace kaamos::d3d12 {
@@ -17,5 +19,7 @@ class Event final : public HandleObject {
 HANDLE make_event(bool manual_reset, bool set);
 /// Sets or resets it, and lets waits go.
 void set_event(Event& event, bool value);
+/// How many threads wait at this moment.
+size_t waiting_threads();
 
 }  // namespace kaamos::d3d12

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "d3d12/com/report.h"
+#include "d3d12/win32/event.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -76,38 +77,36 @@ TEST(Clock, ItDoesNotGoBack) {
 
 // Windows lets waits go when the event is set, not when their threads run.
 TEST(Event, EachSetOfAnAutoResetEventLetsOneOfTwoWaitsGo) {
-  int both = 0;
-  for (int round = 0; round < 50; ++round) {
-    const HANDLE event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
-    std::atomic<int> gone{0};
+  const HANDLE event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+  for (int round = 0; round < 100; ++round) {
+    std::atomic<int> let_go{0};
     const auto wait = [&] {
-      if (WaitForSingleObject(event, 2000) == WAIT_OBJECT_0) ++gone;
+      if (WaitForSingleObject(event, INFINITE) == WAIT_OBJECT_0) ++let_go;
     };
     std::thread first(wait), second(wait);
-    Sleep(2);  // by then both wait, most of the time
+    while (waiting_threads() != 2) std::this_thread::yield();
     SetEvent(event);
     SetEvent(event);
     first.join();
     second.join();
-    both += gone == 2 ? 1 : 0;
-    CloseHandle(event);
+    EXPECT_EQ(let_go, 2);
   }
-  EXPECT_GE(both, 45);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_TIMEOUT);
+  CloseHandle(event);
 }
 
-TEST(Event, SettingAndResettingAManualResetEventLetsWaitsGo) {
+TEST(Event, SettingAndResettingAManualResetEventLetsAllWaitsGo) {
   const HANDLE event = CreateEvent(nullptr, TRUE, FALSE, nullptr);
-  int let_go = 0;
-  for (int round = 0; round < 50; ++round) {
-    std::thread waiter([&] {
-      if (WaitForSingleObject(event, 2000) == WAIT_OBJECT_0) ++let_go;
-    });
-    Sleep(5);  // by then it waits
+  for (int round = 0; round < 100; ++round) {
+    std::thread first([&] { WaitForSingleObject(event, INFINITE); });
+    std::thread second([&] { WaitForSingleObject(event, INFINITE); });
+    while (waiting_threads() != 2) std::this_thread::yield();
     SetEvent(event);
     ResetEvent(event);
-    waiter.join();
+    first.join();
+    second.join();
   }
-  EXPECT_GE(let_go, 45);  // a thread may need longer than that to begin its wait
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_TIMEOUT);
   CloseHandle(event);
 }
 
