@@ -40,7 +40,7 @@ D3D_SHADER_VARIABLE_CLASS variable_class(const rtapi::ShaderTypeInfo& type) {
   return type.IsVector ? D3D_SVC_VECTOR : D3D_SVC_SCALAR;
 }
 
-// Of all dimensions together; 0: no array.
+// Returns the number of elements in all dimensions, or 0 for what is no array.
 UINT element_count(const rtapi::ShaderTypeInfo& type) {
   if (type.Elements.empty()) return 0;
   UINT count = 1;

@@ -10,7 +10,7 @@
 
 namespace kaamos::d3d12 {
 
-/// Of everything behind the checksum: the container from byte 20 on.
+/// Computes a container's checksum from its bytes 20 and up, all that follow the checksum itself.
 std::array<uint32_t, 4> container_checksum(std::span<const std::byte> bytes);
 
 /// MD5 as it is. [RFC 1321]

@@ -2,19 +2,9 @@
 // Draws, what they read and write, and clears of targets.
 #include "d3d12/com/report.h"
 #include "d3d12/objects/graphics_command_list.h"
+#include "d3d12/objects/same_bytes.h"
 
 namespace kaamos::d3d12 {
-
-namespace {
-
-// Structures with the same bytes, see list_raytracing.cpp.
-template <class To, class From>
-std::span<const To> same_bytes(const From* from, size_t count) {
-  static_assert(sizeof(To) == sizeof(From) && alignof(To) <= alignof(From));
-  return {reinterpret_cast<const To*>(from), from != nullptr ? count : 0};
-}
-
-}  // namespace
 
 void GraphicsCommandList::DrawInstanced(UINT vertices, UINT instances, UINT start_vertex,
                                         UINT start_instance) {
@@ -55,10 +45,8 @@ void GraphicsCommandList::RSSetScissorRects(UINT count, const D3D12_RECT* rects)
 void GraphicsCommandList::OMSetRenderTargets(UINT count, const D3D12_CPU_DESCRIPTOR_HANDLE* targets,
                                              BOOL single_handle,
                                              const D3D12_CPU_DESCRIPTOR_HANDLE* depth) {
-  static_assert(sizeof(rtapi::CpuDescriptorHandle) == sizeof(D3D12_CPU_DESCRIPTOR_HANDLE));
-  list_.OMSetRenderTargets(count, reinterpret_cast<const rtapi::CpuDescriptorHandle*>(targets),
-                           single_handle != FALSE,
-                           reinterpret_cast<const rtapi::CpuDescriptorHandle*>(depth));
+  list_.OMSetRenderTargets(count, same_bytes<rtapi::CpuDescriptorHandle>(targets),
+                           single_handle != FALSE, same_bytes<rtapi::CpuDescriptorHandle>(depth));
 }
 
 void GraphicsCommandList::OMSetBlendFactor(const FLOAT factor[4]) {

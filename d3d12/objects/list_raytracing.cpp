@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Acceleration structures and DispatchRays. D3D12's structures have the bytes of rtapi's, so that
-// they are passed on as they are.
+// Acceleration structures and DispatchRays.
 #include <bit>
 
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/graphics_command_list.h"
+#include "d3d12/objects/same_bytes.h"
 
 namespace kaamos::d3d12 {
-
-namespace {
-
-// rtapi/src/layout_structs_test.cpp holds the members; here only sizes are looked at again.
-template <class To, class From>
-const To* same_bytes(const From* from) {
-  static_assert(sizeof(To) == sizeof(From) && alignof(To) <= alignof(From));
-  static_assert(std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>);
-  return reinterpret_cast<const To*>(from);
-}
-
-}  // namespace
 
 void GraphicsCommandList::BuildRaytracingAccelerationStructure(
     const D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_DESC* desc, UINT postbuild_count,
@@ -30,8 +18,7 @@ void GraphicsCommandList::BuildRaytracingAccelerationStructure(
   using PostbuildInfo = rtapi::RaytracingAccelerationStructurePostbuildInfoDesc;
   list_.BuildRaytracingAccelerationStructure(
       *same_bytes<rtapi::BuildRaytracingAccelerationStructureDesc>(desc),
-      std::span<const PostbuildInfo>(same_bytes<PostbuildInfo>(postbuild),
-                                     postbuild != nullptr ? postbuild_count : 0));
+      same_bytes<PostbuildInfo>(postbuild, postbuild_count));
 }
 
 void GraphicsCommandList::EmitRaytracingAccelerationStructurePostbuildInfo(

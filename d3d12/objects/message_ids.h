@@ -13,8 +13,8 @@ struct MessageKind {
   D3D12_MESSAGE_ID id;
 };
 
-/// Of an error's number, 712 for KA0712. Errors that D3D12 has no id for get
-/// D3D12_MESSAGE_ID_UNKNOWN and a category by their range.
+/// Finds the category and id of an error by its number, 712 for KA0712. An error for which D3D12
+/// has no id gets D3D12_MESSAGE_ID_UNKNOWN and the category of its range.
 MessageKind message_kind(uint16_t number);
 
 }  // namespace kaamos::d3d12

@@ -37,6 +37,7 @@ expect "^#[0-9]+ .*ProbeAnyHit.*$name" "the any-hit shader on the stack"
 expect "^#[0-9]+ .*ProbeRayGen.*$name:$caller" "the ray generation shader on the stack, at its TraceRay"
 expect "transmittance = 1" "the payload's value"
 expect "thickness = 1\.25" "a local variable's value"
+expect "where = \{e = \{0\.2" "the value of a variable that is not used any more"
 if [ -n "$printers" ]; then
   expect " = Payload = \{transmittance = 1, layers = 0, " "the payload by its HLSL name"
   # Embree's reciprocal is inexact on some CPUs.

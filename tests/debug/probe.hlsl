@@ -13,7 +13,8 @@ struct Payload {
 static const float kOpacity = 0.25;
 
 void Attenuate(inout Payload payload, float2 barycentrics) {
-  const float thickness = 1.0 + barycentrics.x;
+  const float2 where = barycentrics;
+  const float thickness = 1.0 + where.x;
   payload.transmittance *= 1.0 - kOpacity * thickness;  // BREAK HERE
   payload.layers += 1;
 }
