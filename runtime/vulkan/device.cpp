@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/device.h"
 #include "runtime/backend/errors.h"
-#include "runtime/vulkan/texture_format.h"
+#include "runtime/vulkan/textures/texture_format.h"
 
 #include <utility>
 
@@ -42,7 +42,7 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   for (const std::string& name : gpu_->unknown_workarounds()) {
     warn(runtime::Id::kUnknownWorkaround,
          "KAAMOS_VULKAN_DISABLE_WORKAROUNDS or KAAMOS_VULKAN_ENABLE_WORKAROUNDS names \"" + name +
-             "\"; runtime/vulkan/README.md and DRAWS.md list the known ones.");
+             "\"; runtime/vulkan/README.md and draws/README.md there list the known ones.");
   }
   return {};
 }

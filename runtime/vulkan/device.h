@@ -9,13 +9,13 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/backend/errors.h"
-#include "runtime/vulkan/acceleration_structure.h"
-#include "runtime/vulkan/dispatch.h"
-#include "runtime/vulkan/draw.h"
-#include "runtime/vulkan/memory.h"
-#include "runtime/vulkan/state_object.h"
-#include "runtime/vulkan/texture.h"
-#include "runtime/vulkan/timestamps.h"
+#include "runtime/vulkan/draws/draw.h"
+#include "runtime/vulkan/memory/memory.h"
+#include "runtime/vulkan/memory/timestamps.h"
+#include "runtime/vulkan/rays/dispatch.h"
+#include "runtime/vulkan/rays/state_object.h"
+#include "runtime/vulkan/structures/acceleration_structure.h"
+#include "runtime/vulkan/textures/texture.h"
 
 namespace kaamos::vulkan {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "runtime/vulkan/sort.h"
+#include "runtime/vulkan/structures/sort.h"
 #include "tests/vulkan/raw_gpu.h"
 
 namespace kaamos::bench {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Draws that meet the driver faults which the Vulkan backend works around, on both backends; and
-// that each fault is there without its workaround. [runtime/vulkan/DRAWS.md]
+// that each fault is there without its workaround. [runtime/vulkan/draws/README.md]
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #if KAAMOS_HAS_VULKAN
-#include "runtime/vulkan/gpu.h"
+#include "runtime/vulkan/gpu/gpu.h"
 #endif
 
 namespace kaamos::test {

@@ -20,7 +20,7 @@ bool vulkan_is_required();
 // Why the driver cannot be asked to compile this program's shaders; empty if it can. Without
 // AVX-512, lavapipe reads memory by a branch for each lane, and LLVM 15 takes more than ten minutes
 // and 5 GB for the pixel shader of 13-hybrid, almost all of it in the pass that moves code out of
-// loops (runtime/vulkan/DRAWS.md, LICM).
+// loops (runtime/vulkan/draws/README.md, LICM).
 std::string why_driver_cannot_compile(const std::string& program);
 
 // Collects the layers' messages during its lifetime and fails the test for each.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/testing/glsl.h"
-#include "runtime/vulkan/shader_stage.h"
+#include "runtime/vulkan/spirv/shader_stage.h"
 
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/vulkan/testing/compile_glsl.h"

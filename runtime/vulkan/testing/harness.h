@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/vulkan/dispatch.h"
-#include "runtime/vulkan/state_object.h"
+#include "runtime/vulkan/rays/dispatch.h"
+#include "runtime/vulkan/rays/state_object.h"
 #include "runtime/vulkan/testing/scene_harness.h"
 
 namespace kaamos::vulkan::testing {

@@ -12,7 +12,7 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/structures/structure_map.h"
-#include "runtime/vulkan/acceleration_structure.h"
+#include "runtime/vulkan/structures/acceleration_structure.h"
 #include "runtime/vulkan/testing/vulkan_device.h"
 
 namespace kaamos::vulkan::testing {

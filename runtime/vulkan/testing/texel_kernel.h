@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/shader/texture/format_codec.h"
-#include "runtime/vulkan/descriptor_set.h"
+#include "runtime/vulkan/textures/descriptor_set.h"
 
 namespace kaamos::vulkan::testing {
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "runtime/vulkan/gpu.h"
+#include "runtime/vulkan/gpu/gpu.h"
 
 namespace kaamos::vulkan::testing {
 

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/draws/fixed_state.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+using rtapi::Blend;
+
+VkBlendFactor factor_of(Blend blend) {
+  switch (blend) {
+    case Blend::kZero:
+      return VK_BLEND_FACTOR_ZERO;
+    case Blend::kSrcColor:
+      return VK_BLEND_FACTOR_SRC_COLOR;
+    case Blend::kInvSrcColor:
+      return VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR;
+    case Blend::kSrcAlpha:
+      return VK_BLEND_FACTOR_SRC_ALPHA;
+    case Blend::kInvSrcAlpha:
+      return VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    case Blend::kDestAlpha:
+      return VK_BLEND_FACTOR_DST_ALPHA;
+    case Blend::kInvDestAlpha:
+      return VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA;
+    case Blend::kDestColor:
+      return VK_BLEND_FACTOR_DST_COLOR;
+    case Blend::kInvDestColor:
+      return VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR;
+    case Blend::kSrcAlphaSat:
+      return VK_BLEND_FACTOR_SRC_ALPHA_SATURATE;
+    case Blend::kBlendFactor:
+      return VK_BLEND_FACTOR_CONSTANT_COLOR;
+    case Blend::kInvBlendFactor:
+      return VK_BLEND_FACTOR_ONE_MINUS_CONSTANT_COLOR;
+    default:
+      return VK_BLEND_FACTOR_ONE;
+  }
+}
+
+bool stores_alpha(rtapi::Format format) {
+  return rtapi::GetFormatInfo(format).channels == 4 && format != rtapi::Format::kB8G8R8X8Unorm &&
+         format != rtapi::Format::kB8G8R8X8UnormSrgb;
+}
+
+// Absent alpha reads 1. [RAS-121]
+VkBlendFactor factor_at(Blend blend, rtapi::Format format) {
+  if (!stores_alpha(format)) {
+    if (blend == Blend::kDestAlpha) return VK_BLEND_FACTOR_ONE;
+    if (blend == Blend::kInvDestAlpha) return VK_BLEND_FACTOR_ZERO;
+  }
+  return factor_of(blend);
+}
+
+// Both count the same operations, D3D from 1 and Vulkan from 0.
+VkBlendOp op_of(rtapi::BlendOp op) {
+  return static_cast<VkBlendOp>(static_cast<uint32_t>(op) - 1);
+}
+VkCompareOp compare_op(rtapi::ComparisonFunc func) {
+  return static_cast<VkCompareOp>(static_cast<uint32_t>(func) - 1);
+}
+static_assert(VK_BLEND_OP_MAX == static_cast<int>(rtapi::BlendOp::kMax) - 1);
+static_assert(VK_COMPARE_OP_GREATER_OR_EQUAL ==
+              static_cast<int>(rtapi::ComparisonFunc::kGreaterEqual) - 1);
+
+VkPipelineColorBlendAttachmentState blend_state(const rtapi::RenderTargetBlendDesc& desc,
+                                                rtapi::Format format) {
+  VkPipelineColorBlendAttachmentState state = {};
+  state.colorWriteMask = static_cast<VkColorComponentFlags>(desc.RenderTargetWriteMask);
+  state.blendEnable = desc.BlendEnable;
+  if (!desc.BlendEnable) return state;
+  state.srcColorBlendFactor = factor_at(desc.SrcBlend, format);
+  state.dstColorBlendFactor = factor_at(desc.DestBlend, format);
+  state.colorBlendOp = op_of(desc.BlendOp);
+  state.srcAlphaBlendFactor = factor_at(desc.SrcBlendAlpha, format);
+  state.dstAlphaBlendFactor = factor_at(desc.DestBlendAlpha, format);
+  state.alphaBlendOp = op_of(desc.BlendOpAlpha);
+  return state;
+}
+
+VkCullModeFlags cull_mode(rtapi::CullMode mode) {
+  switch (mode) {
+    case rtapi::CullMode::kFront:
+      return VK_CULL_MODE_FRONT_BIT;
+    case rtapi::CullMode::kBack:
+      return VK_CULL_MODE_BACK_BIT;
+    default:
+      return VK_CULL_MODE_NONE;
+  }
+}
+
+}  // namespace
+
+FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
+                       const GraphicsVariant& wanted)
+    : sample_mask(linked.sample_mask) {
+  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // the class; lists say which
+
+  // Depth is limited to the viewport's range in any case. [RAS-42]
+  depth_clip.depthClipEnable = linked.rasterizer.DepthClipEnable;
+  rasterizer.pNext = &depth_clip;
+  rasterizer.depthClampEnable = VK_TRUE;
+  rasterizer.polygonMode = VK_POLYGON_MODE_FILL;
+  rasterizer.cullMode = cull_mode(linked.rasterizer.CullMode);
+  rasterizer.frontFace = linked.rasterizer.FrontCounterClockwise ? VK_FRONT_FACE_COUNTER_CLOCKWISE
+                                                                 : VK_FRONT_FACE_CLOCKWISE;
+  rasterizer.lineWidth = 1;
+  const float bias = static_cast<float>(linked.rasterizer.DepthBias);
+  const bool unorm =
+      wanted.depth == rtapi::Format::kD16Unorm || wanted.depth == rtapi::Format::kD24UnormS8Uint;
+  const bool twice = unorm && gpu.workarounds().has(Workaround::kHalveDepthBias);
+  rasterizer.depthBiasConstantFactor = twice ? bias * 0.5f : bias;
+  rasterizer.depthBiasSlopeFactor = linked.rasterizer.SlopeScaledDepthBias;
+  rasterizer.depthBiasClamp = linked.rasterizer.DepthBiasClamp;
+  rasterizer.depthBiasEnable = bias != 0 || linked.rasterizer.SlopeScaledDepthBias != 0;
+
+  samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  samples.pSampleMask = &sample_mask;
+
+  depth.depthTestEnable =
+      linked.depth_stencil.DepthEnable && wanted.depth != rtapi::Format::kUnknown;
+  if (depth.depthTestEnable) depth.depthCompareOp = compare_op(linked.depth_stencil.DepthFunc);
+
+  for (uint32_t i = 0; i < wanted.color_count; ++i) {
+    const bool written =
+        linked.has_pixel() && linked.pixel_columns.targets[i].first_column != runtime::kNoColumn;
+    // A target that the pixel shader does not write keeps its contents. [RAS-110]
+    if (written && wanted.colors[i] != rtapi::Format::kUnknown) {
+      targets[i] = blend_state(linked.blend[i], wanted.colors[i]);
+    }
+  }
+  blend.attachmentCount = wanted.color_count;
+  blend.pAttachments = targets.data();
+}
+
+}  // namespace kaamos::vulkan

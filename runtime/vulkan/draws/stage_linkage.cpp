@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/draws/stage_linkage.h"
+
+#include <algorithm>
+
+#include "kaamos/shader/spirv_interface.h"
+#include "kaamos/shader/spirv_locations.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+using runtime::LinkedGraphics;
+
+constexpr uint32_t kLocationCount = 32;
+
+uint32_t output_at(const LinkedGraphics& linked, uint32_t column) {
+  const shader::GraphicsDesc& vertex = linked.vertex_desc();
+  for (uint32_t i = 0; i < vertex.output_count; ++i) {
+    if (vertex.outputs[i].first_column == column) return i;
+  }
+  return kLocationCount - 1;
+}
+
+// A location that no output of the vertex shader has: what is read there is not written.
+uint32_t free_location(const LinkedGraphics& linked) {
+  return std::min(linked.vertex_desc().output_count, kLocationCount - 1);
+}
+
+// A byte for each component, the lowest for red. [kTargetConstant]
+uint32_t bits_of_components(uint32_t color, uint32_t alpha) {
+  return color | color << 8 | color << 16 | alpha << 24;
+}
+
+uint32_t conversion_of(const Gpu& gpu, rtapi::Format format, bool blends) {
+  const rtapi::FormatInfo info = rtapi::GetFormatInfo(format);
+  const bool integer =
+      info.type == rtapi::FormatClass::kUint || info.type == rtapi::FormatClass::kSint;
+  const bool ten_bits =
+      format == rtapi::Format::kR10G10B10A2Uint || format == rtapi::Format::kR10G10B10A2Unorm;
+  if (ten_bits) {
+    const bool truncates = gpu.workarounds().has(Workaround::kRoundTenBits);
+    return integer || (truncates && !blends) ? bits_of_components(10, 2) : 0;
+  }
+  if (info.type == rtapi::FormatClass::kSnorm) {
+    return gpu.workarounds().has(Workaround::kLimitSnorm)
+               ? bits_of_components(shader::spirv::kLimitedSnorm, shader::spirv::kLimitedSnorm)
+               : 0;
+  }
+  return integer && info.channel_bits < 32
+             ? bits_of_components(info.channel_bits, info.channel_bits)
+             : 0;
+}
+
+}  // namespace
+
+uint32_t barycentrics_location(const LinkedGraphics& linked) {
+  return output_at(linked, linked.vertex_columns.position);
+}
+
+std::vector<uint32_t> linked_pixel_code(const LinkedGraphics& linked) {
+  const shader::ExportDesc& code = *linked.pixel.code;
+  std::vector<uint32_t> words(code.spirv, code.spirv + code.spirv_words);
+  const shader::GraphicsDesc& pixel = linked.pixel_desc();
+  std::vector<uint32_t> locations;
+  for (uint32_t i = 0; i < pixel.input_count; ++i) {
+    const shader::SignatureElement& input = pixel.inputs[i];
+    if (input.system_value == shader::SystemValue::kBarycentrics) {
+      locations.push_back(barycentrics_location(linked));
+      continue;
+    }
+    const auto varying = std::find_if(
+        linked.varyings.begin(), linked.varyings.end(),
+        [&](const runtime::LinkedVarying& v) { return v.pixel_column == input.first_column; });
+    locations.push_back(varying == linked.varyings.end()
+                            ? free_location(linked)
+                            : output_at(linked, varying->vertex_column));
+  }
+  shader::spirv::relocate_inputs(words, locations);
+  return words;
+}
+
+std::vector<StageConstant> target_constants(const Gpu& gpu, const LinkedGraphics& linked,
+                                            const GraphicsVariant& wanted) {
+  std::vector<StageConstant> constants;
+  for (uint32_t i = 0; i < wanted.color_count; ++i) {
+    const uint32_t conversion = conversion_of(gpu, wanted.colors[i], linked.blend[i].BlendEnable);
+    if (conversion != 0) constants.push_back({shader::spirv::kTargetConstant + i, conversion});
+  }
+  return constants;
+}
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/rays/state_object.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/backend/errors.h"
+#include "runtime/backend/wave_size.h"
+#include "runtime/vulkan/rays/callable_frame.h"
+#include "runtime/vulkan/rays/pipeline_stack.h"
+#include "runtime/vulkan/spirv/shader_stage.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+constexpr VkShaderStageFlags kAllStages =
+    VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
+    VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
+    VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR |
+    VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_ALL_GRAPHICS;
+
+// Groups of the pipeline. The first ones belong to the records, in order.
+struct Groups {
+  std::vector<VkRayTracingShaderGroupCreateInfoKHR> infos;
+  std::vector<const runtime::LinkedRecord*> records;
+};
+
+// Adds the stage of a shader, which may be absent.
+rtapi::Status add_stage(StageList& stages, const runtime::LinkedShader* shader, bool own,
+                        uint32_t* index) {
+  *index = VK_SHADER_UNUSED_KHR;
+  if (shader == nullptr) return {};
+  auto added = stages.add(*shader, own);
+  if (!added) return added.error();
+  *index = *added;
+  return {};
+}
+
+VkRayTracingShaderGroupCreateInfoKHR general_group(uint32_t stage) {
+  VkRayTracingShaderGroupCreateInfoKHR info = {
+      VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
+  info.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+  info.generalShader = stage;
+  info.closestHitShader = info.anyHitShader = info.intersectionShader = VK_SHADER_UNUSED_KHR;
+  return info;
+}
+
+rtapi::Status add_group(const runtime::LinkedRecord& record, bool own_intersection,
+                        StageList& stages, Groups& groups) {
+  const bool procedural = record.kind == runtime::RecordKind::kHitGroup &&
+                          record.hit_group_type == rtapi::HitGroupType::kProceduralPrimitive;
+  // Vulkan has no procedural group without an intersection shader. Nothing is ever hit through such
+  // a group, so a null record serves as well.
+  if (procedural && record.intersection == nullptr) return {};
+  VkRayTracingShaderGroupCreateInfoKHR info = general_group(VK_SHADER_UNUSED_KHR);
+  if (record.kind != runtime::RecordKind::kHitGroup) {
+    if (auto s = add_stage(stages, record.shader, false, &info.generalShader); !s) return s;
+    if (info.generalShader == VK_SHADER_UNUSED_KHR) return {};
+  } else {
+    info.type = procedural ? VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR
+                           : VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+    if (auto s = add_stage(stages, record.closest_hit, false, &info.closestHitShader); !s) return s;
+    if (auto s = add_stage(stages, record.any_hit, false, &info.anyHitShader); !s) return s;
+    if (procedural) {
+      auto s = add_stage(stages, record.intersection, own_intersection, &info.intersectionShader);
+      if (!s) return s;
+    }
+  }
+  groups.infos.push_back(info);
+  groups.records.push_back(&record);
+  return {};
+}
+
+VkPipelineCreateFlags create_flags(rtapi::RaytracingPipelineFlags flags) {
+  const auto bits = static_cast<uint32_t>(flags);
+  VkPipelineCreateFlags result = 0;
+  if (bits & static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipTriangles)) {
+    result |= VK_PIPELINE_CREATE_RAY_TRACING_SKIP_TRIANGLES_BIT_KHR;
+  }
+  if (bits & static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipProceduralPrimitives)) {
+    result |= VK_PIPELINE_CREATE_RAY_TRACING_SKIP_AABBS_BIT_KHR;
+  }
+  return result;
+}
+
+}  // namespace
+
+rtapi::Result<std::shared_ptr<PipelineLayout>> PipelineLayout::create(
+    std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors, bool collect_statistics) {
+  std::shared_ptr<PipelineLayout> layout(
+      new PipelineLayout(std::move(gpu), std::move(descriptors)));
+  layout->collect_statistics_ = collect_statistics;
+  const VkPushConstantRange range = {kAllStages, 0, sizeof(uint64_t)};
+  const VkDescriptorSetLayout set = layout->descriptors_->layout();
+  VkPipelineLayoutCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &set;
+  info.pushConstantRangeCount = 1;
+  info.pPushConstantRanges = &range;
+  const Gpu& g = *layout->gpu_;
+  const VkResult r = g.vk().vkCreatePipelineLayout(g.device(), &info, nullptr, &layout->handle_);
+  if (r != VK_SUCCESS) return g.error(r, "the pipeline layout");
+  return layout;
+}
+
+PipelineLayout::~PipelineLayout() {
+  gpu_->vk().vkDestroyPipelineLayout(gpu_->device(), handle_, nullptr);
+}
+
+void PipelineLayout::bind(VkCommandBuffer commands, VkPipelineBindPoint point,
+                          VkPipeline pipeline) const {
+  const VkDescriptorSet set = descriptors_->handle();
+  gpu_->vk().vkCmdBindPipeline(commands, point, pipeline);
+  gpu_->vk().vkCmdBindDescriptorSets(commands, point, handle_, 0, 1, &set, 0, nullptr);
+}
+
+void PipelineLayout::push(VkCommandBuffer commands, uint64_t block_address) const {
+  gpu_->vk().vkCmdPushConstants(commands, handle_, kAllStages, 0, sizeof(block_address),
+                                &block_address);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> RaytracingPipeline::create(
+    std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedPipeline> linked) {
+  std::shared_ptr<RaytracingPipeline> pipeline(
+      new RaytracingPipeline(std::move(layout), std::move(linked)));
+  if (auto s = pipeline->start(); !s) return s.error();
+  return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
+}
+
+rtapi::Status RaytracingPipeline::start() {
+  Gpu& gpu = layout_->gpu();
+  max_trace_depth_ =
+      std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
+  uint32_t max_callable_depth = kMaxCallableDepth;
+  if (gpu.workarounds().has(Workaround::kBoundPayloads)) {
+    const uint64_t stack = default_thread_stack_bytes();
+    max_trace_depth_ =
+        std::min(max_trace_depth_, nested_payload_limit(largest_payload(*linked_), stack));
+    max_callable_depth =
+        std::min(max_callable_depth, nested_payload_limit(largest_callable_data(*linked_), stack));
+  }
+  CallableFrame frame;
+  if (gpu.workarounds().has(Workaround::kReserveCallables)) {
+    frame = callable_frame(*linked_, max_callable_depth, default_thread_stack_bytes());
+    max_callable_depth = frame.depth;
+  } else if (gpu.is_lavapipe()) {
+    max_callable_depth = std::min(max_callable_depth, kMaxBareCallableDepth);
+  }
+  groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
+  StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics()});
+  const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
+  Groups groups;
+  bool runs = false;
+  for (const auto& record : linked_->records) {
+    if (auto s = add_group(*record, own_intersection, stages, groups); !s) return s;
+    runs |= record->kind == runtime::RecordKind::kRayGeneration;
+  }
+  if (frame.words != 0) {
+    auto stage = stages.add(callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, frame.words);
+    if (!stage) return stage.error();
+    groups.infos.push_back(general_group(*stage));
+  }
+  stage_shaders_ = stages.shaders();
+  if (!runs) return {};
+  VkRayTracingPipelineCreateInfoKHR info = {VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
+  info.flags = create_flags(linked_->flags);
+  info.stageCount = static_cast<uint32_t>(stages.stages().size());
+  info.pStages = stages.stages().data();
+  info.groupCount = static_cast<uint32_t>(groups.infos.size());
+  info.pGroups = groups.infos.data();
+  info.maxPipelineRayRecursionDepth = max_trace_depth_;
+  info.layout = layout_->handle();
+  const VkDynamicState stack_state = VK_DYNAMIC_STATE_RAY_TRACING_PIPELINE_STACK_SIZE_KHR;
+  VkPipelineDynamicStateCreateInfo dynamic = {VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+  dynamic.dynamicStateCount = 1;
+  dynamic.pDynamicStates = &stack_state;
+  const bool own_stack = needs_own_stack(*linked_);
+  if (own_stack) info.pDynamicState = &dynamic;
+  const VkResult r = gpu.vk().vkCreateRayTracingPipelinesKHR(
+      gpu.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &handle_);
+  if (r != VK_SUCCESS) return gpu.error(r, "ray tracing pipeline \"" + linked_->name + "\"");
+  if (own_stack) {
+    stack_bytes_ = pipeline_stack_bytes(gpu, handle_, groups.infos, groups.records,
+                                        max_trace_depth_, max_callable_depth);
+  }
+  return read_handles(groups.records);
+}
+
+void RaytracingPipeline::bind(VkCommandBuffer commands) const {
+  layout_->bind(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, handle_);
+  if (stack_bytes_ != 0) {
+    layout_->gpu().vk().vkCmdSetRayTracingPipelineStackSizeKHR(commands, stack_bytes_);
+  }
+}
+
+rtapi::Status RaytracingPipeline::read_handles(
+    const std::vector<const runtime::LinkedRecord*>& records) {
+  const Gpu& gpu = layout_->gpu();
+  const size_t size = gpu.properties().ray_tracing.shaderGroupHandleSize;
+  std::vector<uint8_t> bytes(size * records.size());
+  const VkResult r = gpu.vk().vkGetRayTracingShaderGroupHandlesKHR(
+      gpu.device(), handle_, 0, static_cast<uint32_t>(records.size()), bytes.size(), bytes.data());
+  if (r != VK_SUCCESS) return gpu.error(r, "reading shader group handles");
+  for (size_t i = 0; i < records.size(); ++i) groups_.add(records[i], bytes.data() + i * size);
+  return {};
+}
+
+RaytracingPipeline::~RaytracingPipeline() {
+  layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
+}
+
+namespace {
+
+// What the GLSL of waves uses. [runtime/hlsl/glsl/waves.cpp]
+constexpr VkSubgroupFeatureFlags kWaveOperations =
+    VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
+    VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
+    VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+
+rtapi::Status check_waves(const Gpu& gpu, const runtime::LinkedCompute& linked) {
+  const VkPhysicalDeviceVulkan11Properties& core = gpu.properties().vulkan11;
+  const VkPhysicalDeviceVulkan13Properties& sizes = gpu.properties().vulkan13;
+  const bool works = (core.subgroupSupportedOperations & kWaveOperations) == kWaveOperations &&
+                     (core.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  if (linked.shader.code->compute->has_waves && !works) {
+    return runtime::make_error(runtime::Id::kNoSubgroups,
+                               "compute shader \"" + linked.shader.name +
+                                   "\" has wave intrinsics, which need vote, arithmetic, ballot "
+                                   "and shuffle operations of subgroups in compute shaders.");
+  }
+  const bool chooses = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  const uint32_t least = chooses ? sizes.minSubgroupSize : core.subgroupSize;
+  const uint32_t most = chooses ? sizes.maxSubgroupSize : core.subgroupSize;
+  return runtime::check_wave_size(
+      linked, least, most,
+      "those of this device have " + std::to_string(least) + " to " + std::to_string(most) + ".");
+}
+
+}  // namespace
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> ComputePipeline::create(
+    std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedCompute> linked) {
+  std::shared_ptr<ComputePipeline> pipeline(
+      new ComputePipeline(std::move(layout), std::move(linked)));
+  Gpu& gpu = pipeline->layout_->gpu();
+  const runtime::LinkedShader& shader = pipeline->linked_->shader;
+  if (auto s = check_waves(gpu, *pipeline->linked_); !s) return s.error();
+  StageList stages(gpu, {});
+  if (auto added = stages.add(shader); !added) return added.error();
+  VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+  info.stage = stages.stages()[0];
+  VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size = {
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
+  const VkPhysicalDeviceVulkan13Properties& sizes = gpu.properties().vulkan13;
+  const bool chooses = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  if (const uint32_t least = shader.code->compute->least_wave_lanes; least != 0 && chooses) {
+    size.requiredSubgroupSize = std::max(least, sizes.minSubgroupSize);
+    size.pNext = const_cast<void*>(info.stage.pNext);
+    info.stage.pNext = &size;
+  }
+  info.layout = pipeline->layout_->handle();
+  const VkResult r = gpu.vk().vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info,
+                                                       nullptr, &pipeline->handle_);
+  if (r != VK_SUCCESS) return gpu.error(r, "compute pipeline \"" + shader.name + "\"");
+  return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
+}
+
+ComputePipeline::~ComputePipeline() {
+  layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
+}
+
+}  // namespace kaamos::vulkan

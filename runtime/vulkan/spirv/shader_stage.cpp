@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/spirv/shader_stage.h"
+
+#include "kaamos/shader/spirv_interface.h"
+#include "runtime/backend/errors.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+class Constants {
+ public:
+  void add(uint32_t id, uint32_t value) {
+    result.entries.push_back(
+        {id, static_cast<uint32_t>(result.values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+    result.values.push_back(value);
+  }
+  StageConstants result;
+};
+
+uint32_t count_of(const shader::BindingSlot& slot) {
+  switch (slot.source) {
+    case shader::SlotSource::kDescriptorTable:
+      return slot.descriptor_count;
+    case shader::SlotSource::kRootConstants:
+      return slot.size_bytes;
+    case shader::SlotSource::kRootDescriptor:
+      return slot.stride_bytes;
+    default:
+      return 0;
+  }
+}
+
+void add_slot(uint32_t binding, const shader::BindingSlot& slot, Constants& constants) {
+  using namespace shader::spirv;
+  if (slot.source == shader::SlotSource::kUnbound) return;
+  const uint32_t first = binding * kConstantsPerBinding;
+  const bool sampler = slot.source == shader::SlotSource::kStaticSampler;
+  constants.add(first + kBindingSource, static_cast<uint32_t>(slot.source) |
+                                            static_cast<uint32_t>(slot.local) << 8 |
+                                            static_cast<uint32_t>(slot.kind) << 16 |
+                                            static_cast<uint32_t>(slot.access) << 24);
+  constants.add(first + kBindingOffset, sampler
+                                            ? static_cast<uint32_t>(slot.static_sampler->address)
+                                            : slot.argument_offset);
+  constants.add(first + kBindingIndex, slot.descriptor_index);
+  constants.add(first + kBindingCount, count_of(slot));
+}
+
+}  // namespace
+
+VkShaderStageFlagBits stage_of(shader::Stage stage) {
+  switch (stage) {
+    case shader::Stage::kRayGeneration:
+      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
+    case shader::Stage::kIntersection:
+      return VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
+    case shader::Stage::kAnyHit:
+      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
+    case shader::Stage::kClosestHit:
+      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+    case shader::Stage::kMiss:
+      return VK_SHADER_STAGE_MISS_BIT_KHR;
+    case shader::Stage::kCallable:
+      return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+    case shader::Stage::kPixel:
+      return VK_SHADER_STAGE_FRAGMENT_BIT;
+    case shader::Stage::kVertex:
+      return VK_SHADER_STAGE_VERTEX_BIT;
+    case shader::Stage::kCompute:
+    case shader::Stage::kLibrary:
+      break;
+  }
+  return VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
+                               const StageOptions& options, std::span<const StageConstant> more) {
+  Constants constants;
+  for (size_t i = 0; i < shader.slots.size(); ++i) {
+    add_slot(static_cast<uint32_t>(i), shader.slots[i], constants);
+  }
+  constants.add(shader::spirv::kWorkaroundsConstant, workaround_bits);
+  constants.add(shader::spirv::kMaxTraceDepthConstant, options.max_trace_depth);
+  constants.add(shader::spirv::kMaxCallableDepthConstant, options.max_callable_depth);
+  constants.add(shader::spirv::kShaderConstant, options.shader);
+  if (options.count) constants.add(shader::spirv::kCountConstant, 1);
+  for (const StageConstant& constant : more) constants.add(constant.id, constant.value);
+  return std::move(constants.result);
+}
+
+StageList::~StageList() {
+  for (const VkShaderModule module : all_modules_) {
+    gpu_.vk().vkDestroyShaderModule(gpu_.device(), module, nullptr);
+  }
+}
+
+rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
+  if (shader.code->spirv == nullptr) {
+    return runtime::make_error(
+        runtime::Id::kNoSpirv,
+        "shader \"" + shader.name + "\" of " + shader.library->name +
+            " has no code for Vulkan, because its library was compiled without SPIR-V; compile it "
+            "again with kaamos-hlsl -spirv.");
+  }
+  if ((shader.code->flags & shader::kExportUsesRayQuery) != 0 && !gpu_.features().ray_query) {
+    return runtime::make_error(
+        runtime::Id::kNoRayQuery,
+        "shader \"" + shader.name + "\" of " + shader.library->name +
+            " uses RayQuery, but the device has no VK_KHR_ray_query; use another device "
+            "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
+  }
+  return {};
+}
+
+rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
+  if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
+  if (auto s = check_code(shader); !s) return s.error();
+  auto made = create_module({shader.code->spirv, shader.code->spirv_words},
+                            "the module of shader \"" + shader.name + "\"");
+  if (made) modules_[shader.code] = *made;
+  return made;
+}
+
+rtapi::Result<VkShaderModule> StageList::create_module(std::span<const uint32_t> spirv,
+                                                       const std::string& name) {
+  VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+  info.codeSize = spirv.size_bytes();
+  info.pCode = spirv.data();
+  VkShaderModule made = VK_NULL_HANDLE;
+  const VkResult r = gpu_.vk().vkCreateShaderModule(gpu_.device(), &info, nullptr, &made);
+  if (r != VK_SUCCESS) return gpu_.error(r, name);
+  all_modules_.push_back(made);
+  return made;
+}
+
+uint32_t StageList::push(VkShaderStageFlagBits stage, VkShaderModule module,
+                         StageConstants constants) {
+  const StageConstants& kept = constants_.emplace_back(std::move(constants));
+  infos_.push_back({static_cast<uint32_t>(kept.entries.size()), kept.entries.data(),
+                    kept.values.size() * sizeof(uint32_t), kept.values.data()});
+  VkPipelineShaderStageCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+  info.stage = stage;
+  info.module = module;
+  info.pName = "main";
+  info.pSpecializationInfo = &infos_.back();
+  stages_.push_back(info);
+  return static_cast<uint32_t>(stages_.size() - 1);
+}
+
+rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool own) {
+  if (!own) {
+    if (const auto it = indices_.find(&shader); it != indices_.end()) return it->second;
+  }
+  auto made = module(shader);
+  if (!made) return made.error();
+  StageOptions options = options_;
+  options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  shaders_.push_back(&shader);
+  const uint32_t index = push(stage_of(shader.code->stage), *made,
+                              stage_constants(shader, gpu_.workarounds().shader_bits(), options));
+  if (!own) indices_[&shader] = index;
+  return index;
+}
+
+rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader,
+                                       std::span<const uint32_t> code,
+                                       std::span<const StageConstant> more) {
+  if (auto s = check_code(shader); !s) return s.error();
+  auto made = create_module(code, "the module of shader \"" + shader.name + "\"");
+  if (!made) return made.error();
+  StageOptions options = options_;
+  options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  shaders_.push_back(&shader);
+  return push(stage_of(shader.code->stage), *made,
+              stage_constants(shader, gpu_.workarounds().shader_bits(), options, more));
+}
+
+rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
+                                       uint32_t constant) {
+  auto made = create_module(spirv, "a module of the backend's own");
+  if (!made) return made.error();
+  Constants constants;
+  constants.add(0, constant);
+  return push(stage, *made, std::move(constants.result));
+}
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+//
+// Linked shaders as stages of a Vulkan pipeline: the module of the export, and the specialization
+// constants that say where its bindings are (spirv_interface.h).
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/backend/linked_pipeline.h"
+#include "runtime/vulkan/gpu/gpu.h"
+
+namespace kaamos::vulkan {
+
+struct StageOptions {
+  uint32_t max_trace_depth = 0;
+  uint32_t max_callable_depth = 0;
+  bool count = false;   // for statistics
+  uint32_t shader = 0;  // CheckEntry::shader
+};
+
+// A specialization constant of a stage.
+struct StageConstant {
+  uint32_t id = 0;
+  uint32_t value = 0;
+};
+
+VkShaderStageFlagBits stage_of(shader::Stage stage);
+
+// The values of a stage's constants, as VkSpecializationInfo takes them.
+struct StageConstants {
+  std::vector<VkSpecializationMapEntry> entries;
+  std::vector<uint32_t> values;
+};
+StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
+                               const StageOptions& options,
+                               std::span<const StageConstant> more = {});
+
+// The stages of one pipeline while it is being created. Modules are destroyed with it; pipelines do
+// not need them.
+class StageList {
+ public:
+  StageList(Gpu& gpu, const StageOptions& options) : gpu_(gpu), options_(options) {}
+  ~StageList();
+  StageList(const StageList&) = delete;
+  StageList& operator=(const StageList&) = delete;
+
+  // The index of the shader's stage; repeated calls share the stage unless `own`. Errors: KA0954
+  // the shader has no SPIR-V, KA0952.
+  rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
+  // Adds a stage whose code was changed for this pipeline, with constants besides its own. Errors:
+  // as above.
+  rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, std::span<const uint32_t> code,
+                              std::span<const StageConstant> more);
+  // Adds one of the backend's own shaders, after all others; `constant` is its specialization
+  // constant 0.
+  rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
+                              uint32_t constant);
+  const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
+  // The shader of each stage, without the backend's own stages.
+  const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
+
+ private:
+  rtapi::Result<VkShaderModule> module(const runtime::LinkedShader& shader);
+  rtapi::Status check_code(const runtime::LinkedShader& shader) const;
+  rtapi::Result<VkShaderModule> create_module(std::span<const uint32_t> spirv,
+                                              const std::string& name);
+  uint32_t push(VkShaderStageFlagBits stage, VkShaderModule module, StageConstants constants);
+
+  Gpu& gpu_;
+  StageOptions options_;
+  std::vector<VkPipelineShaderStageCreateInfo> stages_;
+  std::vector<const runtime::LinkedShader*> shaders_;
+  std::deque<StageConstants> constants_;  // in a deque, because the infos point to them
+  std::deque<VkSpecializationInfo> infos_;
+  std::vector<VkShaderModule> all_modules_;
+  std::map<const shader::ExportDesc*, VkShaderModule> modules_;
+  std::map<const runtime::LinkedShader*, uint32_t> indices_;
+};
+
+}  // namespace kaamos::vulkan

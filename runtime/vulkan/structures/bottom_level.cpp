@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/structures/bottom_level.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/structure_commands.h"
+#include "runtime/vulkan/structures/primitive_list.h"
+
+namespace kaamos::vulkan {
+
+using rtapi::RaytracingGeometryDesc;
+using rtapi::RaytracingGeometryType;
+
+// Decodes the inputs, lists and sorts the primitives, copies all to memory that the driver reads,
+// and builds.
+class BottomLevelBuilder {
+ public:
+  BottomLevelBuilder(std::shared_ptr<Gpu> gpu, std::span<const RaytracingGeometryDesc> geometries,
+                     const BottomLevel* update_of, BottomLevel& level)
+      : gpu_(std::move(gpu)),
+        geometries_(geometries),
+        update_of_(update_of),
+        level_(level),
+        list_(list_options(gpu_->workarounds())) {}
+
+  rtapi::Status run() {
+    if (auto s = decode(); !s) return s;
+    list_.finish();
+    if (auto s = copy_inputs(); !s) return s;
+    return build();
+  }
+
+ private:
+  struct Decoded {
+    std::vector<float> xyz;
+    std::vector<uint32_t> indices;
+    std::vector<rtapi::RaytracingAabb> boxes;
+    uint64_t vertex_offset = 0;  // in the input buffer
+    uint64_t list_offset = 0;    // offset of indices or boxes
+  };
+
+  bool procedural(size_t g) const {
+    return geometries_[g].Type == RaytracingGeometryType::kProceduralPrimitiveAabbs;
+  }
+  rtapi::Status decode();
+  void decode_triangles(size_t g, Decoded& out);
+  rtapi::Status copy_inputs();
+  StructureGeometry describe(size_t g) const;
+  rtapi::Status build();
+  void keep_inputs();
+
+  std::shared_ptr<Gpu> gpu_;
+  std::span<const RaytracingGeometryDesc> geometries_;
+  const BottomLevel* update_of_;
+  BottomLevel& level_;
+  PrimitiveList list_;
+  std::vector<Decoded> decoded_;
+  std::unique_ptr<GpuBuffer> inputs_;
+};
+
+rtapi::Status BottomLevelBuilder::decode() {
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    const RaytracingGeometryDesc& desc = geometries_[g];
+    if (auto s = runtime::check_primitive_count(desc, static_cast<uint32_t>(g)); !s) return s;
+    Decoded& out = decoded_.emplace_back();
+    if (!procedural(g)) {
+      decode_triangles(g, out);
+      list_.add_triangles(out.xyz, out.indices);
+      continue;
+    }
+    out.boxes.reserve(desc.AABBs.AABBCount);
+    for (uint64_t i = 0; i < desc.AABBs.AABBCount; ++i) {
+      out.boxes.push_back(runtime::aabb_at(desc.AABBs, i));
+    }
+    list_.add_boxes(out.boxes);
+  }
+  return {};
+}
+
+void BottomLevelBuilder::decode_triangles(size_t g, Decoded& out) {
+  const auto& desc = geometries_[g].Triangles;
+  const uint64_t primitives = runtime::primitive_count(geometries_[g]);
+  if (primitives == 0 || desc.VertexCount == 0) return;
+  out.xyz.resize(3 * uint64_t{desc.VertexCount});
+  runtime::decode_vertices(desc, out.xyz.data());
+  if (update_of_ != nullptr && desc.IndexFormat != rtapi::Format::kUnknown) {
+    out.indices = update_of_->inputs_[g].indices;
+    return;
+  }
+  out.indices.resize(3 * primitives);
+  level_.out_of_range_triangles_ += runtime::decode_indices(desc, out.indices.data());
+}
+
+rtapi::Status BottomLevelBuilder::copy_inputs() {
+  uint64_t bytes = 0;
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    Decoded& in = decoded_[g];
+    in.vertex_offset = bytes;
+    bytes += in.xyz.size() * sizeof(float);
+    bytes = (bytes + 15) / 16 * 16;
+    in.list_offset = bytes;
+    bytes += list_.items(g).size() * (procedural(g) ? sizeof(VkAabbPositionsKHR) : 12);
+    bytes = (bytes + 47) / 48 * 48;  // so that the next array begins at a whole vertex
+  }
+  auto buffer = gpu_->create_buffer(bytes, "inputs of a bottom level", InitialContents::kAny);
+  if (!buffer) return buffer.error();
+  inputs_ = std::move(*buffer);
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    const Decoded& in = decoded_[g];
+    std::copy(in.xyz.begin(), in.xyz.end(),
+              reinterpret_cast<float*>(inputs_->host() + in.vertex_offset));
+    uint8_t* out = inputs_->host() + in.list_offset;
+    for (const SortItem& item : list_.items(g)) {
+      if (procedural(g)) {
+        const runtime::PaddedBounds box = runtime::padded_bounds(in.boxes[item.primitive]);
+        std::memcpy(out, box.lower, 12);
+        std::memcpy(out + 12, box.upper, 12);
+        out += 24;
+      } else {
+        std::memcpy(out, &in.indices[3 * size_t{item.primitive}], 12);
+        out += 12;
+      }
+    }
+  }
+  return {};
+}
+
+StructureGeometry BottomLevelBuilder::describe(size_t g) const {
+  const Decoded& in = decoded_[g];
+  StructureGeometry result;
+  result.range.primitiveCount = static_cast<uint32_t>(list_.items(g).size());
+  VkAccelerationStructureGeometryKHR& geometry = result.geometry;
+  geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
+  if (level_.shapes_[g].opaque) geometry.flags |= VK_GEOMETRY_OPAQUE_BIT_KHR;
+  if (level_.shapes_[g].no_duplicate_any_hit) {
+    geometry.flags |= VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
+  }
+  if (procedural(g)) {
+    geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
+    auto& aabbs = geometry.geometry.aabbs;
+    aabbs.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
+    aabbs.data.deviceAddress = inputs_->address() + in.list_offset;
+    aabbs.stride = sizeof(VkAabbPositionsKHR);
+    return result;
+  }
+  geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
+  auto& triangles = geometry.geometry.triangles;
+  triangles.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
+  triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
+  triangles.vertexStride = 12;
+  const uint64_t vertices = in.xyz.size() / 3;
+  triangles.maxVertex = static_cast<uint32_t>(vertices == 0 ? 0 : vertices - 1);
+  triangles.indexType = VK_INDEX_TYPE_UINT32;
+  triangles.indexData.deviceAddress = inputs_->address() + in.list_offset;
+  triangles.vertexData.deviceAddress = inputs_->address();
+  if (gpu_->workarounds().has(Workaround::kFirstVertexInAddress)) {
+    triangles.vertexData.deviceAddress += in.vertex_offset;
+  } else {
+    result.range.firstVertex = static_cast<uint32_t>(in.vertex_offset / 12);
+    triangles.maxVertex += result.range.firstVertex;
+  }
+  return result;
+}
+
+rtapi::Status BottomLevelBuilder::build() {
+  std::vector<StructureGeometry> geometries;
+  for (size_t g = 0; g < geometries_.size(); ++g) geometries.push_back(describe(g));
+  const std::vector<uint32_t> words = list_.remap_words();
+  auto structure =
+      VulkanStructure::build(gpu_, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, level_.flags_,
+                             geometries, words.size() * sizeof(uint32_t));
+  if (!structure) return structure.error();
+  level_.structure_ = std::move(*structure);
+  level_.held_bytes_ = level_.structure_->size_bytes() + words.size() * sizeof(uint32_t);
+  if (!words.empty()) {
+    std::memcpy(level_.structure_->extra_host(), words.data(), words.size() * sizeof(uint32_t));
+    level_.remap_ = level_.structure_->extra_address();
+  }
+  level_.empty_ = list_.empty();
+  level_.bounds_ = list_.bounds();
+  keep_inputs();
+  return {};
+}
+
+void BottomLevelBuilder::keep_inputs() {
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    BottomLevel::Inputs& kept = level_.inputs_.emplace_back();
+    kept.xyz = std::move(decoded_[g].xyz);
+    kept.boxes = std::move(decoded_[g].boxes);
+    if (!procedural(g) && geometries_[g].Triangles.IndexFormat != rtapi::Format::kUnknown) {
+      kept.indices = std::move(decoded_[g].indices);
+    }
+    level_.held_bytes_ += kept.xyz.size() * sizeof(float) + kept.indices.size() * sizeof(uint32_t) +
+                          kept.boxes.size() * sizeof(rtapi::RaytracingAabb);
+  }
+}
+
+rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
+    const std::shared_ptr<Gpu>& gpu, std::span<const RaytracingGeometryDesc> geometries,
+    runtime::BuildFlags flags, const BottomLevel* update_of,
+    std::span<const runtime::GeometryShape> shapes) {
+  std::shared_ptr<BottomLevel> level(new BottomLevel);
+  level->flags_ = flags & ~runtime::BuildFlags::kPerformUpdate;
+  for (uint32_t g = 0; g < geometries.size(); ++g) {
+    level->shapes_.push_back(runtime::shape_of(geometries[g], g));
+  }
+  if (auto s = BottomLevelBuilder(gpu, geometries, update_of, *level).run(); !s) return s.error();
+  if (!shapes.empty()) level->shapes_.assign(shapes.begin(), shapes.end());
+  return level;
+}
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// A bottom level: a Vulkan acceleration structure, with a copy of its decoded inputs on the host.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <rtapi/raytracing.h>
+#include <rtapi/result.h>
+
+#include "runtime/structures/structure_map.h"
+#include "runtime/vulkan/structures/vulkan_structure.h"
+
+namespace kaamos::vulkan {
+
+class BottomLevel final : public runtime::BottomLevelBase {
+ public:
+  // `geometries` must have passed check_inputs, and have host addresses. With `update_of`, the
+  // indices are those of its build. [DXR: Acceleration structure update constraints] `shapes`, if
+  // given (for a deserialized structure), are what updates are checked against. Errors: KA0794 too
+  // many primitives or geometries, KA0990 out of memory.
+  static rtapi::Result<std::shared_ptr<BottomLevel>> build(
+      const std::shared_ptr<Gpu>& gpu, std::span<const rtapi::RaytracingGeometryDesc> geometries,
+      runtime::BuildFlags flags, const BottomLevel* update_of = nullptr,
+      std::span<const runtime::GeometryShape> shapes = {});
+
+  bool empty() const override { return empty_; }
+  runtime::Bounds object_bounds() const override { return bounds_; }
+  std::vector<runtime::GeometryShape> geometry_shapes() const override { return shapes_; }
+  runtime::GeometryContents geometry_contents(uint32_t geometry) const override {
+    const Inputs& inputs = inputs_[geometry];
+    return {inputs.xyz, inputs.indices, inputs.boxes};
+  }
+
+  uint64_t address() const { return structure_->address(); }
+  uint64_t primitive_remap() const { return remap_; }  // spirv::InstanceEntry::primitive_remap
+  uint64_t held_bytes() const { return held_bytes_; }
+  uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }
+  std::span<const runtime::GeometryShape> shapes() const { return shapes_; }
+  runtime::BuildFlags flags() const { return flags_; }
+  const VulkanStructure& structure() const { return *structure_; }
+
+ private:
+  friend class BottomLevelBuilder;
+  BottomLevel() = default;
+
+  std::unique_ptr<VulkanStructure> structure_;
+  uint64_t remap_ = 0;
+  uint64_t held_bytes_ = 0;
+  uint64_t out_of_range_triangles_ = 0;
+  bool empty_ = true;
+  runtime::Bounds bounds_;
+  runtime::BuildFlags flags_ = runtime::BuildFlags::kNone;
+  std::vector<runtime::GeometryShape> shapes_;
+  // A driver's tree is opaque and cannot be decoded, and DXR does not say before a build whether
+  // the structure will be serialized, so this is kept for every bottom level. It takes 12 bytes per
+  // vertex, 12 per indexed triangle and 24 per box, besides the 104 for each in lavapipe's tree.
+  // Updates take the indices from it, too.
+  struct Inputs {
+    std::vector<float> xyz;
+    std::vector<uint32_t> indices;  // empty: 0, 1, 2, ...
+    std::vector<rtapi::RaytracingAabb> boxes;
+  };
+  std::vector<Inputs> inputs_;  // one per geometry
+};
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// A top level: a Vulkan acceleration structure, its part of the instance table, and the bottom
+// levels that it keeps alive.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <rtapi/result.h>
+
+#include "runtime/structures/instances.h"
+#include "runtime/vulkan/structures/bottom_level.h"
+#include "runtime/vulkan/structures/instance_table.h"
+
+namespace kaamos::vulkan {
+
+class TopLevel final : public runtime::TopLevelBase {
+ public:
+  // `instances` are in input order: the index is InstanceIndex. Errors: KA0794 too many instances,
+  // KA0990 out of memory.
+  static rtapi::Result<std::shared_ptr<TopLevel>> build(
+      const std::shared_ptr<Gpu>& gpu, InstanceTable& table,
+      std::span<const runtime::Instance> instances, runtime::BuildFlags flags);
+
+  uint64_t address() const { return structure_->address(); }  // what accelerationStructureEXT takes
+  uint64_t held_bytes() const { return held_bytes_; }
+  // The largest index of a hit record that a ray can ask for: the ray contributes at most 15, and
+  // the geometries at most 15 each. [DXR: Hit group table indexing]
+  uint64_t largest_hit_record() const { return largest_hit_record_; }
+
+ private:
+  TopLevel() = default;
+
+  std::unique_ptr<VulkanStructure> structure_;
+  InstanceTable::Range entries_;
+  uint64_t held_bytes_ = 0;
+  uint64_t largest_hit_record_ = 0;
+  std::vector<std::shared_ptr<const runtime::BottomLevelBase>> bottom_levels_;  // each appears once
+};
+
+}  // namespace kaamos::vulkan
