@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "rtapi/src/shader_library_impl.h"
+#include "rtapi/src/shaders/shader_library_impl.h"
 #include "runtime/backend/ray_flags.h"
 
 namespace kaamos::bench {

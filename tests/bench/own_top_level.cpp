@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "rtapi/src/device_impl.h"
+#include "rtapi/src/device/device_impl.h"
 #include "runtime/embree/device.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/ray_state.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "rtapi/src/checked_library.h"
+#include "rtapi/src/shaders/checked_library.h"
 #include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 

@@ -34,7 +34,7 @@ std::vector<Row> api(bool of_compiler) {
   {number, "error", #code, title, rule, cure},
 #define KAAMOS_RTAPI_WARNING(number, name, title, rule, cure) \
   {number, "warning", "", title, rule, cure},
-#include "rtapi/src/errors.inc"
+#include "rtapi/src/errors/errors.inc"
 #undef KAAMOS_RTAPI_WARNING
 #undef KAAMOS_RTAPI_ERROR
   };
@@ -133,7 +133,7 @@ const std::vector<Layer>& all_layers() {
        "errors "
        "of its recording, and `Close` returns the first. KA05nn: state objects; KA06nn: root "
        "signatures and descriptors; KA07nn: acceleration structures; KA08nn: command lists, queues "
-       "and shader tables; KA09nn: devices and resources. Table: `rtapi/src/errors.inc`.",
+       "and shader tables; KA09nn: devices and resources. Table: `rtapi/src/errors/errors.inc`.",
        {{500, 999}},
        api(false)},
       {"Backends",
@@ -151,7 +151,7 @@ const std::vector<Layer>& all_layers() {
        compiler()},
       {"Shaders compiled at run time",
        "What `CompileShaderLibrary` returns as a whole, after the compiler's front end. Table: "
-       "`rtapi/src/errors.inc`.",
+       "`rtapi/src/errors/errors.inc`.",
        {{2750, 2799}},
        api(true)},
       {"Effects",

@@ -15,7 +15,7 @@
 #include <cstring>
 #include <thread>
 
-#include "rtapi/src/shader_library_impl.h"
+#include "rtapi/src/shaders/shader_library_impl.h"
 #include "runtime/hlsl/driver/frontend.h"
 #include "runtime/hlsl/front/file_loader.h"
 

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+//
+// State and dispatches of command lists. Root arguments, draws, acceleration structures and copies
+// are in files of their own.
+#include <rtapi/command_list.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "rtapi/src/commands/command_list_impl.h"
+#include "rtapi/src/pipelines/pipeline_state_impl.h"
+#include "rtapi/src/pipelines/root_signature_impl.h"
+#include "rtapi/src/pipelines/state_object_impl.h"
+#include "rtapi/src/resources/resource_impl.h"
+#include "runtime/backend/dispatch_checks.h"
+
+namespace rtapi {
+
+namespace detail {
+
+bool CommandListImpl::CheckOpen(const char* call) {
+  if (open) return true;
+  Fail(MakeError(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
+  return false;
+}
+
+void CommandListImpl::Use(const char* call, GpuVirtualAddress address, std::string role) {
+  MemoryUse use = UseOf(*device, address, std::move(role));
+  if (use.address == 0) return;
+  use.call = call;
+  use.command = commands->size();
+  uses->push_back(std::move(use));
+}
+
+runtime::RootBindings CommandListImpl::Snapshot(const char* call, const RootState& root) {
+  for (const auto& [parameter, view] : root.views) {
+    MemoryUse& use = uses->emplace_back(view);
+    use.call = call;
+    use.command = commands->size();
+  }
+  runtime::RootBindings state;
+  state.root_arguments = root.arguments;
+  if (view_heap) state.view_heap = view_heap.impl()->memory;
+  if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
+  state.root_signature = root.signature;
+  if (const auto& signature = root.signature.impl()) {
+    state.argument_offsets = {signature, &signature->offsets};
+  }
+  state.set_parameters = root.set_parameters;
+  state.forgotten_parameters = root.forgotten_parameters;
+  return state;
+}
+
+const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
+  if (!raytracing_pipeline) {
+    Fail(MakeError(Id::kPipelineNotSet, call,
+                   " without a ray tracing pipeline; call SetPipelineState1 first"));
+    return nullptr;
+  }
+  const StateObjectImpl& pipeline = *raytracing_pipeline.impl();
+  // At least one ray generation shader must match the root signature that is set. Which of them
+  // runs is known only on the GPU: its identifier is in GPU memory.
+  const auto& globals = pipeline.global_root_signatures;
+  const bool fits =
+      globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
+        return !g || SameDefinition(g, compute.signature);
+      });
+  if (fits) return &pipeline;
+  Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
+                 compute.signature
+                     ? "the compute root signature does not match any ray generation shader of the "
+                       "pipeline"
+                     : "no compute root signature is set",
+                 "; call SetComputeRootSignature with the state object's global root signature"));
+  return nullptr;
+}
+
+namespace {
+
+// Returns the pipeline that is set if it is of the kind and has the root signature; else null.
+const PipelineStateImpl* FitPipeline(CommandListImpl& list, const char* call, bool graphics) {
+  const char* const kind = graphics ? "graphics" : "compute";
+  const PipelineStateImpl* pipeline = list.pipeline_state.impl().get();
+  if (!pipeline || (pipeline->graphics != nullptr) != graphics) {
+    list.Fail(MakeError(Id::kPipelineNotSet, call, " without a ", kind,
+                        " pipeline; call SetPipelineState first"));
+    return nullptr;
+  }
+  const RootSignature& set = graphics ? list.graphics.signature : list.compute.signature;
+  if (SameDefinition(pipeline->root_signature, set)) return pipeline;
+  list.Fail(
+      MakeError(Id::kPipelineRootSignature, call, ": ",
+                set ? Text("the ", kind, " root signature is not that of pipeline ")
+                    : Text("no ", kind, " root signature is set, but one is needed by pipeline "),
+                Quoted(pipeline->name)));
+  return nullptr;
+}
+
+}  // namespace
+
+const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
+  return FitPipeline(*this, call, false);
+}
+const PipelineStateImpl* CommandListImpl::GraphicsPipeline(const char* call) {
+  return FitPipeline(*this, call, true);
+}
+
+namespace {
+
+// Turns a rule that the host's arguments break into its error.
+Status CheckRules(const runtime::DispatchProblem& problem) {
+  switch (problem.fault) {
+    case runtime::DispatchFault::kNone:
+      return {};
+    case runtime::DispatchFault::kTableLayout:
+      return MakeError(Id::kShaderTableLayout, problem.text);
+    case runtime::DispatchFault::kTableMemory:
+      return MakeError(Id::kShaderTableMemory, problem.text);
+    case runtime::DispatchFault::kTooLarge:
+      break;
+  }
+  return MakeError(Id::kDispatchTooLarge, problem.text);
+}
+
+}  // namespace
+
+}  // namespace detail
+
+using namespace detail;
+
+namespace {
+const std::vector<Error> kNoErrors;
+}
+
+Status CommandList::Reset() {
+  if (!impl_) return MakeError(Id::kNullHandle, "Reset on an empty command list handle");
+  if (Status s = impl_->device->removed(); !s.ok()) return s;
+  CommandListImpl fresh;
+  fresh.device = impl_->device;
+  *impl_ = std::move(fresh);
+  return {};
+}
+
+Status CommandList::Close() {
+  if (!impl_) return MakeError(Id::kNullHandle, "Close on an empty command list handle");
+  if (!impl_->open) return MakeError(Id::kListNotOpen, "Close on a closed command list");
+  if (impl_->open_events > 0) {
+    impl_->Fail(
+        MakeError(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
+  }
+  impl_->open = false;
+  if (impl_->errors.empty()) return {};
+  return impl_->errors.front();
+}
+
+const std::vector<Error>& CommandList::GetErrors() const {
+  return impl_ ? impl_->errors : kNoErrors;
+}
+bool CommandList::is_open() const {
+  return impl_ && impl_->open;
+}
+
+void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
+  if (!impl_ || !impl_->CheckOpen("SetDescriptorHeaps")) return;
+  DescriptorHeap views, samplers;
+  for (const DescriptorHeap& heap : heaps) {
+    if (Status s = CheckHandle(impl_->device, heap, "SetDescriptorHeaps: a heap"); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+    const DescriptorHeapDesc& desc = heap.GetDesc();
+    if (!HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible)) {
+      return impl_->Fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
+                                   " was created without kShaderVisible"));
+    }
+    DescriptorHeap& slot = desc.Type == DescriptorHeapType::kSampler ? samplers : views;
+    if (slot) {
+      return impl_->Fail(
+          MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
+                    " is the second heap of its type; only one of each type can be set"));
+    }
+    slot = heap;
+  }
+  impl_->view_heap = views;
+  impl_->sampler_heap = samplers;
+}
+
+void CommandList::SetPipelineState(const PipelineState& pipeline) {
+  if (!impl_ || !impl_->CheckOpen("SetPipelineState")) return;
+  if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState: the pipeline"); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  impl_->pipeline_state = pipeline;
+  impl_->raytracing_pipeline = {};
+}
+
+void CommandList::SetPipelineState1(const StateObject& pipeline) {
+  if (!impl_ || !impl_->CheckOpen("SetPipelineState1")) return;
+  if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState1: the state object");
+      !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (pipeline.GetType() != StateObjectType::kRaytracingPipeline) {
+    return impl_->Fail(MakeError(Id::kPipelineNotSet,
+                                 "SetPipelineState1 takes a ray tracing pipeline, but this is a "
+                                 "collection"));
+  }
+  impl_->raytracing_pipeline = pipeline;
+  impl_->pipeline_state = {};
+}
+
+void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
+  if (!impl_ || !impl_->CheckOpen("DispatchRays")) return;
+  const StateObjectImpl* pipeline = impl_->RaysPipeline("DispatchRays");
+  if (!pipeline) return;
+  if (Status s = CheckRules(runtime::check_dispatch_rays(impl_->device->addresses, desc));
+      !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  const std::pair<const char*, GpuVirtualAddressRangeAndStride> tables[] = {
+      {"RayGenerationShaderRecord",
+       {desc.RayGenerationShaderRecord.StartAddress, desc.RayGenerationShaderRecord.SizeInBytes,
+        0}},
+      {"MissShaderTable", desc.MissShaderTable},
+      {"HitGroupTable", desc.HitGroupTable},
+      {"CallableShaderTable", desc.CallableShaderTable}};
+  for (const auto& [name, table] : tables) {
+    if (table.SizeInBytes != 0) impl_->Use("DispatchRays", table.StartAddress, name);
+  }
+  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline,
+                                             impl_->Snapshot("DispatchRays", impl_->compute), desc,
+                                             pipeline->stack_bytes.load(), pipeline->linked});
+}
+
+void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
+  if (!impl_ || !impl_->CheckOpen("Dispatch")) return;
+  const PipelineStateImpl* pipeline = impl_->ComputePipeline("Dispatch");
+  if (!pipeline) return;
+  runtime::DispatchCommand command;
+  command.groups[0] = x;
+  command.groups[1] = y;
+  command.groups[2] = z;
+  if (Status s = CheckRules(runtime::check_dispatch(command.groups)); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  command.pipeline = pipeline->pipeline;
+  command.linked = pipeline->linked;
+  command.state = impl_->Snapshot("Dispatch", impl_->compute);
+  impl_->Record(std::move(command));
+}
+
+void CommandList::BeginEvent(std::string name) {
+  if (!impl_ || !impl_->CheckOpen("BeginEvent")) return;
+  ++impl_->open_events;
+  impl_->Record(runtime::EventCommand{true, std::move(name)});
+}
+
+void CommandList::EndEvent() {
+  if (!impl_ || !impl_->CheckOpen("EndEvent")) return;
+  if (impl_->open_events == 0) {
+    return impl_->Fail(MakeError(Id::kEvents, "EndEvent without BeginEvent"));
+  }
+  --impl_->open_events;
+  impl_->Record(runtime::EventCommand{false, {}});
+}
+
+Result<CommandList> Device::CreateCommandList() const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateCommandList on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  auto list = std::make_shared<CommandListImpl>();
+  list->device = impl_;
+  return CommandList(std::move(list));
+}
+
+}  // namespace rtapi

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+//
+// Barriers, copies and clears.
+#include <cstring>
+
+#include "rtapi/src/commands/command_list_impl.h"
+#include "rtapi/src/resources/resource_impl.h"
+
+namespace rtapi {
+
+using namespace detail;
+
+namespace {
+
+template <class T>
+bool Is(const Resource& r) {
+  return std::holds_alternative<T>(r);
+}
+
+Status CheckResource(const std::shared_ptr<DeviceImpl>& device, const Resource& resource,
+                     std::string_view what) {
+  if (const auto* b = std::get_if<Buffer>(&resource)) return CheckHandle(device, *b, what);
+  if (const auto* t = std::get_if<Texture>(&resource)) return CheckHandle(device, *t, what);
+  return MakeError(Id::kNullHandle, what, " is empty");
+}
+
+std::string Name(const Resource& resource) {
+  if (const auto* b = std::get_if<Buffer>(&resource)) return Named("buffer", b->name());
+  if (const auto* t = std::get_if<Texture>(&resource)) return Named("texture", t->name());
+  return "no resource";
+}
+
+Status CheckTransition(const ResourceBarrier& barrier) {
+  const std::string name = Name(barrier.Resource);
+  if (barrier.StateBefore == barrier.StateAfter) {
+    return MakeError(Id::kBarrier, name, ": transition from state ",
+                     Hex(static_cast<uint32_t>(barrier.StateBefore)), " to itself");
+  }
+  const auto structure = ResourceStates::kRaytracingAccelerationStructure;
+  const auto* buffer = std::get_if<Buffer>(&barrier.Resource);
+  const bool holds_structures = buffer && buffer->GetDesc().InitialState == structure;
+  if (holds_structures || HasAny(barrier.StateBefore | barrier.StateAfter, structure)) {
+    return MakeError(Id::kAccelerationStructureTransition, name,
+                     ": a buffer keeps the state kRaytracingAccelerationStructure for life; order "
+                     "builds and traces with UAV barriers");
+  }
+  if (buffer && buffer->GetDesc().Heap != HeapType::kDefault) {
+    return MakeError(Id::kBarrier, name, ": upload and readback buffers cannot leave their state");
+  }
+  const auto* texture = std::get_if<Texture>(&barrier.Resource);
+  const uint32_t count = texture ? texture->subresource_count() : 1;
+  if (barrier.Subresource != kResourceBarrierAllSubresources && barrier.Subresource >= count) {
+    return MakeError(Id::kBarrier, name, ": subresource ", barrier.Subresource,
+                     " does not exist; there are ", count);
+  }
+  return {};
+}
+
+// One side of a texture copy: source or destination.
+struct CopySide {
+  runtime::TextureCopyPlace place;
+  uint32_t size[3] = {0, 0, 0};  // texels of the subresource or footprint
+  Format format = Format::kUnknown;
+  std::string name;
+
+  // Texels to an element along an axis: more than one in blocks.
+  uint32_t step(int axis) const { return axis < 2 ? GetFormatInfo(format).block_side : 1u; }
+  uint32_t elements(int axis) const { return (size[axis] + step(axis) - 1) / step(axis); }
+};
+
+Result<CopySide> ResolveTextureSide(const TextureCopyLocation& location, const char* which) {
+  const Texture& texture = std::get<Texture>(location.pResource);
+  const TextureDesc& desc = texture.GetDesc();
+  CopySide side;
+  side.name = Text(which, " ", Named("texture", desc.Name));
+  if (location.SubresourceIndex >= texture.subresource_count()) {
+    return MakeError(Id::kCopyRange, side.name, ": subresource ", location.SubresourceIndex,
+                     " does not exist; there are ", texture.subresource_count());
+  }
+  side.place.texture = texture.impl()->memory;
+  side.place.mip = location.SubresourceIndex % desc.MipLevels;
+  side.place.array_element = location.SubresourceIndex / desc.MipLevels;
+  const MipExtent extent = GetMipExtent(desc, side.place.mip);
+  side.size[0] = extent.width;
+  side.size[1] = extent.height;
+  side.size[2] = extent.depth;
+  side.format = desc.Format;
+  return side;
+}
+
+Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const char* which) {
+  const Buffer& buffer = std::get<Buffer>(location.pResource);
+  const SubresourceFootprint& f = location.PlacedFootprint.Footprint;
+  CopySide side;
+  side.name = Text(which, " ", Named("buffer", buffer.name()));
+  const uint64_t offset = location.PlacedFootprint.Offset;
+  const FormatInfo format = GetFormatInfo(f.Format);
+  const uint64_t element = format.bytes;
+  if (element == 0 || f.Width == 0 || f.Height == 0 || f.Depth == 0) {
+    return MakeError(Id::kCopyFootprint, side.name, ": the footprint has ", f.Width, "x", f.Height,
+                     "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format),
+                     element == 0 ? ", which cannot be copied" : "; no size may be 0");
+  }
+  if (f.Width % format.block_side != 0 || f.Height % format.block_side != 0) {
+    return MakeError(Id::kCopyBlocks, side.name, ": the footprint has ", f.Width, "x", f.Height,
+                     " texels of block-compressed format ", static_cast<uint32_t>(f.Format),
+                     "; both must be multiples of ", int{format.block_side});
+  }
+  const uint64_t row_bytes = f.Width / format.block_side * element;
+  if (offset % kTextureDataPlacementAlignment != 0 ||
+      f.RowPitch % kTextureDataPitchAlignment != 0 || f.RowPitch < row_bytes) {
+    return MakeError(
+        Id::kCopyFootprint, side.name, ": offset ", offset, " and row pitch ", f.RowPitch,
+        " for rows of ", row_bytes,
+        " bytes; the offset must be a multiple of 512, the pitch a multiple of 256 and "
+        "at least ",
+        row_bytes);
+  }
+  // Each factor is checked by itself, so that the product cannot overflow.
+  const uint32_t slice_rows = f.Height / format.block_side;
+  const uint64_t rows = uint64_t{slice_rows} * f.Depth;
+  const uint64_t size = buffer.size();
+  const bool fits = offset <= size && rows - 1 <= size / f.RowPitch &&
+                    (rows - 1) * f.RowPitch + row_bytes <= size - offset;
+  if (!fits) {
+    return MakeError(Id::kCopyRange, side.name, ": a footprint of ", rows, " rows of ", f.RowPitch,
+                     " bytes from byte ", offset, " does not fit its ", size, " bytes");
+  }
+  side.place.buffer = buffer.impl()->memory;
+  side.place.offset = offset;
+  side.place.row_pitch = f.RowPitch;
+  side.place.slice_pitch = uint64_t{f.RowPitch} * slice_rows;
+  side.size[0] = f.Width;
+  side.size[1] = f.Height;
+  side.size[2] = f.Depth;
+  side.format = f.Format;
+  return side;
+}
+
+Result<CopySide> ResolveSide(const std::shared_ptr<DeviceImpl>& device,
+                             const TextureCopyLocation& location, const char* which) {
+  if (Status s = CheckResource(device, location.pResource, which); !s.ok()) return s.error();
+  const bool texture = Is<Texture>(location.pResource);
+  if (texture != (location.Type == TextureCopyType::kSubresourceIndex)) {
+    return MakeError(Id::kCopyFormat, which, " is ", texture ? "a texture" : "a buffer",
+                     ", its Type says otherwise");
+  }
+  return texture ? ResolveTextureSide(location, which) : ResolveBufferSide(location, which);
+}
+
+// Formats of one family; or one of blocks and one of integers with as many bytes in an element.
+// [D3D11.3 5.6: format conversion by copies]
+bool CanCopy(Format a, Format b) {
+  if (FormatFamily(a) == FormatFamily(b)) return true;
+  const FormatInfo one = GetFormatInfo(a), other = GetFormatInfo(b);
+  if (one.bytes != other.bytes || (one.block_side == 1) == (other.block_side == 1)) return false;
+  const FormatClass plain = one.block_side == 1 ? one.type : other.type;
+  return plain == FormatClass::kUint || plain == FormatClass::kSint ||
+         plain == FormatClass::kTypeless;
+}
+
+Status CheckCopyFormats(const CopySide& to, const CopySide& from) {
+  if (CanCopy(to.format, from.format)) return {};
+  const FormatInfo a = GetFormatInfo(to.format), b = GetFormatInfo(from.format);
+  return MakeError(
+      Id::kCopyFormat, "CopyTextureRegion: ", from.name, " has format ",
+      static_cast<uint32_t>(from.format), " and ", to.name, " has format ",
+      static_cast<uint32_t>(to.format), "; both must belong to one format family",
+      a.block_side == b.block_side ? "" : ", or blocks go with integers of the same bytes");
+}
+
+// Whether an edge of a box, or the place that it goes to, lies between blocks. The far edge may
+// also be that of the subresource.
+Status CheckBlockEdges(const CopySide& side, int axis, uint32_t first, uint32_t last) {
+  const uint32_t step = side.step(axis);
+  if (first % step == 0 && (last % step == 0 || last == side.size[axis])) return {};
+  return MakeError(Id::kCopyBlocks, "CopyTextureRegion: on axis ", axis, ", texels ", first, "..",
+                   last, " of ", side.name, " (format ", static_cast<uint32_t>(side.format),
+                   ", size ", side.size[axis], ") are not whole blocks; both must be multiples of ",
+                   step, ", or the second the size");
+}
+
+Status CheckCopyHeaps(const Buffer& dest, const Buffer& source) {
+  if (dest.GetDesc().Heap == HeapType::kUpload) {
+    return MakeError(Id::kCopyHeap, "dest ", Named("buffer", dest.name()),
+                     " is on the upload heap, which commands cannot write");
+  }
+  if (source.GetDesc().Heap == HeapType::kReadback) {
+    return MakeError(Id::kCopyHeap, "source ", Named("buffer", source.name()),
+                     " is on the readback heap, which commands cannot read");
+  }
+  const auto structure = ResourceStates::kRaytracingAccelerationStructure;
+  for (const Buffer* b : {&dest, &source}) {
+    if (b->GetDesc().InitialState == structure) {
+      return MakeError(Id::kCopyHeap, Named("buffer", b->name()),
+                       " holds acceleration structures; use CopyRaytracingAccelerationStructure");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barriers) {
+  if (!impl_ || !impl_->CheckOpen("ResourceBarrier")) return;
+  for (const auto& barrier : barriers) {
+    const bool uav = barrier.Type == ResourceBarrierType::kUav;
+    if (!uav && barrier.Type != ResourceBarrierType::kTransition) {
+      impl_->Fail(MakeError(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
+                            "; it must be kTransition or kUav"));
+      continue;
+    }
+    Status s;
+    if (!(uav && Is<std::monostate>(barrier.Resource))) {
+      s = CheckResource(impl_->device, barrier.Resource, "ResourceBarrier: the resource");
+    }
+    if (s.ok() && !uav) s = CheckTransition(barrier);
+    if (!s.ok()) {
+      impl_->Fail(s.error());
+      continue;
+    }
+    runtime::BarrierCommand command;
+    command.kind =
+        uav ? runtime::BarrierCommand::Kind::kUav : runtime::BarrierCommand::Kind::kTransition;
+    if (const auto* b = std::get_if<Buffer>(&barrier.Resource)) command.buffer = b->impl()->memory;
+    if (const auto* t = std::get_if<Texture>(&barrier.Resource)) {
+      command.texture = t->impl()->memory;
+      command.subresource = barrier.Subresource;
+    }
+    command.before = barrier.StateBefore;
+    command.after = barrier.StateAfter;
+    impl_->Record(std::move(command));
+  }
+}
+
+void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, const Buffer& source,
+                                   uint64_t source_offset, uint64_t size) {
+  if (!impl_ || !impl_->CheckOpen("CopyBufferRegion")) return;
+  if (Status s = CheckHandle(impl_->device, dest, "CopyBufferRegion: dest"); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (Status s = CheckHandle(impl_->device, source, "CopyBufferRegion: source"); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (Status s = CheckCopyHeaps(dest, source); !s.ok()) return impl_->Fail(s.error());
+  auto outside = [size](const Buffer& b, uint64_t offset) {
+    return offset > b.size() || size > b.size() - offset;
+  };
+  if (outside(dest, dest_offset) || outside(source, source_offset)) {
+    const bool at_dest = outside(dest, dest_offset);
+    const Buffer& b = at_dest ? dest : source;
+    return impl_->Fail(MakeError(Id::kCopyRange, "CopyBufferRegion: ", size, " bytes from byte ",
+                                 at_dest ? dest_offset : source_offset, " on do not fit in ",
+                                 at_dest ? "dest " : "source ", Named("buffer", b.name()),
+                                 ", which has ", b.size(), " bytes"));
+  }
+  const bool overlap =
+      dest == source && dest_offset < source_offset + size && source_offset < dest_offset + size;
+  if (overlap && size != 0) {
+    return impl_->Fail(MakeError(Id::kCopyOverlap, "CopyBufferRegion: ", size, " bytes from byte ",
+                                 source_offset, " to byte ", dest_offset, " of ",
+                                 Named("buffer", dest.name())));
+  }
+  if (size == 0) return;
+  impl_->Record(runtime::CopyBufferCommand{dest.impl()->memory, dest_offset, source.impl()->memory,
+                                           source_offset, size});
+}
+
+void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x, uint32_t y,
+                                    uint32_t z, const TextureCopyLocation& source, const Box* box) {
+  if (!impl_ || !impl_->CheckOpen("CopyTextureRegion")) return;
+  auto to = ResolveSide(impl_->device, dest, "dest");
+  if (!to.ok()) return impl_->Fail(to.error());
+  auto from = ResolveSide(impl_->device, source, "source");
+  if (!from.ok()) return impl_->Fail(from.error());
+  if (!to->place.texture && !from->place.texture) {
+    return impl_->Fail(MakeError(Id::kCopyFormat,
+                                 "CopyTextureRegion: both sides are buffers; use "
+                                 "CopyBufferRegion"));
+  }
+  if (Status s = CheckCopyFormats(*to, *from); !s.ok()) return impl_->Fail(s.error());
+  const Box whole = {0, 0, 0, from->size[0], from->size[1], from->size[2]};
+  const Box& b = box ? *box : whole;
+  const uint32_t first[3] = {b.left, b.top, b.front};
+  const uint32_t last[3] = {b.right, b.bottom, b.back};
+  const uint32_t target[3] = {x, y, z};
+  runtime::CopyTextureCommand command;
+  for (int i = 0; i < 3; ++i) {
+    if (last[i] <= first[i]) return;  // empty boxes copy nothing [D3D12: CopyTextureRegion]
+    if (Status s = CheckBlockEdges(*from, i, first[i], last[i]); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+    if (Status s = CheckBlockEdges(*to, i, target[i], to->size[i]); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+    // From here on in elements.
+    const uint32_t end = (last[i] - 1) / from->step(i) + 1;
+    from->place.origin[i] = first[i] / from->step(i);
+    to->place.origin[i] = target[i] / to->step(i);
+    command.extent[i] = end - from->place.origin[i];
+    if (end > from->elements(i) || to->place.origin[i] > to->elements(i) ||
+        command.extent[i] > to->elements(i) - to->place.origin[i]) {
+      return impl_->Fail(MakeError(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
+                                   first[i], "..", last[i], " of ", from->name, " (size ",
+                                   from->size[i], ") do not fit at ", target[i], " of ", to->name,
+                                   " (size ", to->size[i], ")"));
+    }
+  }
+  if (to->place.texture && to->place.texture == from->place.texture &&
+      to->place.mip == from->place.mip && to->place.array_element == from->place.array_element) {
+    return impl_->Fail(MakeError(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
+                                 ": source and dest are the same subresource"));
+  }
+  command.dest = std::move(to->place);
+  command.source = std::move(from->place);
+  impl_->Record(std::move(command));
+}
+
+void CommandList::CopyResource(const Resource& dest, const Resource& source) {
+  if (!impl_ || !impl_->CheckOpen("CopyResource")) return;
+  for (const Resource* r : {&dest, &source}) {
+    if (Status s = CheckResource(impl_->device, *r,
+                                 r == &dest ? "CopyResource: dest" : "CopyResource: source");
+        !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+  }
+  if (Is<Buffer>(dest) && Is<Buffer>(source)) {
+    const Buffer& to = std::get<Buffer>(dest);
+    const Buffer& from = std::get<Buffer>(source);
+    if (to.size() != from.size()) {
+      return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " has ",
+                                   to.size(), " bytes, but ", Name(source), " has ", from.size()));
+    }
+    return CopyBufferRegion(to, 0, from, 0, to.size());
+  }
+  if (!Is<Texture>(dest) || !Is<Texture>(source)) {
+    return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " and ",
+                                 Name(source), " must both be buffers or both be textures"));
+  }
+  const TextureDesc& a = std::get<Texture>(dest).GetDesc();
+  const TextureDesc& b = std::get<Texture>(source).GetDesc();
+  bool same_size = a.MipLevels == b.MipLevels && a.DepthOrArraySize == b.DepthOrArraySize;
+  // Blocks may go to texels: the other texture then has a quarter of the size.
+  const bool same_blocks = GetFormatInfo(a.Format).block_side == GetFormatInfo(b.Format).block_side;
+  for (uint32_t mip = 0; same_size && mip < a.MipLevels; ++mip) {
+    same_size = same_blocks ? GetMipExtent(a, mip) == GetMipExtent(b, mip)
+                            : GetMipElements(a, mip) == GetMipElements(b, mip);
+  }
+  if (a.Dimension != b.Dimension || !same_size) {
+    return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " and ",
+                                 Name(source), " differ in dimension, size or mip levels"));
+  }
+  const uint32_t count = std::get<Texture>(dest).subresource_count();
+  for (uint32_t i = 0; i < count; ++i) {
+    CopyTextureRegion({std::get<Texture>(dest), i}, 0, 0, 0, {std::get<Texture>(source), i});
+  }
+}
+
+namespace {
+
+// Finds the view that both handles name, and checks that it fits the resource.
+Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescriptorHandle gpu,
+                                              CpuDescriptorHandle cpu, const Resource& resource) {
+  const auto slot = list.device->FindSlot(cpu);
+  if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
+    return MakeError(Id::kClearView, "the CPU handle ", Hex(cpu.ptr),
+                     " is not in a live CBV/SRV/UAV heap");
+  }
+  const uint64_t start = list.view_heap.GetGPUDescriptorHandleForHeapStart().ptr;
+  const uint64_t index = (gpu.ptr - start) / kDescriptorHandleIncrementSize;
+  if (!list.view_heap || gpu.ptr < start ||
+      (gpu.ptr - start) % kDescriptorHandleIncrementSize != 0 ||
+      index >= list.view_heap.GetDesc().NumDescriptors) {
+    return MakeError(Id::kClearView, "the GPU handle ", Hex(gpu.ptr),
+                     " is not in the CBV/SRV/UAV heap that is set");
+  }
+  runtime::ClearUavCommand command;
+  std::memcpy(&command.view, slot->slot, sizeof command.view);
+  if (command.view.access != shader::DescriptorAccess::kUnorderedAccess) {
+    return MakeError(Id::kClearView, "the descriptor is not an unordered access view");
+  }
+  if (Status s = CheckResource(list.device, resource, "the cleared resource"); !s.ok()) {
+    return s.error();
+  }
+  const bool texture_view = command.view.kind == shader::DescriptorKind::kTexture;
+  if (texture_view != Is<Texture>(resource)) {
+    return MakeError(Id::kClearView, "the descriptor is a view of a ",
+                     texture_view ? "texture" : "buffer", ", but the resource is ", Name(resource));
+  }
+  if (const auto* buffer = std::get_if<Buffer>(&resource)) {
+    const uint64_t offset = command.view.address - buffer->GetGPUVirtualAddress();
+    if (offset > buffer->size() || command.view.size_bytes > buffer->size() - offset) {
+      return MakeError(Id::kClearView, "the view is not of ", Name(resource));
+    }
+    command.resource = buffer->impl()->memory;
+  } else {
+    command.resource = std::get<Texture>(resource).impl()->memory;
+  }
+  return command;
+}
+
+}  // namespace
+
+void CommandList::ClearUnorderedAccessViewUint(GpuDescriptorHandle gpu, CpuDescriptorHandle cpu,
+                                               const Resource& resource, const uint32_t values[4]) {
+  if (!impl_ || !impl_->CheckOpen("ClearUnorderedAccessViewUint")) return;
+  auto command = ResolveClear(*impl_, gpu, cpu, resource);
+  if (!command.ok()) return impl_->Fail(command.error());
+  if (!values) return impl_->Fail(MakeError(Id::kClearView, "values is a null pointer"));
+  std::memcpy(command->values, values, sizeof command->values);
+  impl_->Record(std::move(*command));
+}
+
+void CommandList::ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu, CpuDescriptorHandle cpu,
+                                                const Resource& resource, const float values[4]) {
+  if (!impl_ || !impl_->CheckOpen("ClearUnorderedAccessViewFloat")) return;
+  auto command = ResolveClear(*impl_, gpu, cpu, resource);
+  if (!command.ok()) return impl_->Fail(command.error());
+  if (!values) return impl_->Fail(MakeError(Id::kClearView, "values is a null pointer"));
+  command->is_float = true;
+  std::memcpy(command->values, values, sizeof command->values);
+  impl_->Record(std::move(*command));
+}
+
+}  // namespace rtapi

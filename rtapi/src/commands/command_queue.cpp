@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/command_queue.h>
+
+#include <chrono>
+
+#include <rtapi/device.h>
+
+#include "rtapi/src/commands/command_queue_impl.h"
+
+namespace rtapi {
+
+namespace detail {
+
+uint64_t FenceImpl::value() const {
+  std::lock_guard lock(mutex);
+  return current;
+}
+
+void FenceImpl::Signal(uint64_t value) {
+  std::vector<std::weak_ptr<CommandQueueImpl>> woken;
+  {
+    std::lock_guard lock(mutex);
+    current = value;
+    woken.swap(waiting);
+  }
+  changed.notify_all();
+  for (const auto& queue : woken) {
+    if (auto alive = queue.lock()) alive->Drain();
+  }
+}
+
+bool FenceImpl::ReachedOrWake(uint64_t value, const std::weak_ptr<CommandQueueImpl>& queue) {
+  std::lock_guard lock(mutex);
+  if (current >= value) return true;
+  waiting.push_back(queue);
+  return false;
+}
+
+void CommandQueueImpl::Submit(Operation operation) {
+  {
+    std::lock_guard lock(mutex_);
+    pending_.push_back(std::move(operation));
+  }
+  Drain();
+}
+
+void CommandQueueImpl::Drain() {
+  std::unique_lock lock(mutex_);
+  if (draining_) {
+    again_ = true;
+    return;
+  }
+  draining_ = true;
+  do {
+    again_ = false;
+    while (!pending_.empty()) {
+      if (const auto* wait = std::get_if<WaitFence>(&pending_.front())) {
+        if (!wait->fence->ReachedOrWake(wait->value, weak_from_this())) break;
+      }
+      const Operation operation = std::move(pending_.front());
+      pending_.pop_front();
+      lock.unlock();
+      Run(operation);
+      lock.lock();
+    }
+  } while (again_);
+  draining_ = false;
+}
+
+void CommandQueueImpl::Run(const Operation& operation) {
+  if (const auto* signal = std::get_if<SignalFence>(&operation)) {
+    return signal->fence->Signal(signal->value);
+  }
+  const auto* execute = std::get_if<Execute>(&operation);
+  if (!execute || !device->removed().ok()) return;
+  // Freed while the list waited for a fence, or by another thread between the check and here. What
+  // is held now stays until the list has run.
+  const auto held = HoldAll(*execute->uses);
+  if (!held) return device->Remove(held.error());
+  std::lock_guard lock(device->execute_mutex);
+  if (device->checks) {
+    kaamos::checks::compare_uploads(device->addresses, *device->reporter, execute->uploads);
+    device->checks->begin_list();
+  }
+  if (Status s = device->backend->execute(*execute->commands); !s.ok()) device->Remove(s.error());
+  if (device->checks) device->checks->end_list();
+}
+
+}  // namespace detail
+
+using namespace detail;
+
+uint64_t Fence::GetCompletedValue() const {
+  if (!impl_) return 0;
+  return impl_->device->removed().ok() ? impl_->value() : UINT64_MAX;
+}
+
+Status Fence::Signal(uint64_t value) {
+  if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty fence handle");
+  impl_->Signal(value);
+  return {};
+}
+
+Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "Wait on an empty fence handle");
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::milliseconds(timeout_ms);
+  std::unique_lock lock(impl_->mutex);
+  while (impl_->current < value) {
+    // Device removal does not signal the fence, so a waiter looks for it every 20 ms.
+    impl_->changed.wait_for(lock, std::chrono::milliseconds(20));
+    if (impl_->current >= value) break;
+    if (Status removed = impl_->device->removed(); !removed.ok()) return removed;
+    if (timeout_ms != 0 && Clock::now() >= end) {
+      return MakeError(Id::kFenceWait, "the fence is still at ", impl_->current, " after ",
+                       timeout_ms, " ms; the wait is for ", value);
+    }
+  }
+  return {};
+}
+
+Result<Fence> Device::CreateFence(uint64_t initial_value) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateFence on an empty device handle");
+  auto fence = std::make_shared<FenceImpl>();
+  fence->device = impl_;
+  fence->current = initial_value;
+  return Fence(std::move(fence));
+}
+
+Result<CommandQueue> Device::CreateCommandQueue() const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateCommandQueue on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  auto queue = std::make_shared<CommandQueueImpl>();
+  queue->device = impl_;
+  return CommandQueue(std::move(queue));
+}
+
+Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) {
+  if (!impl_) return MakeError(Id::kNullHandle, "ExecuteCommandLists on an empty queue handle");
+  if (Status s = impl_->device->removed(); !s.ok()) return s;
+  for (const CommandList& list : lists) {
+    if (Status s = CheckHandle(impl_->device, list, "ExecuteCommandLists: a list"); !s.ok()) {
+      return s;
+    }
+    if (list.is_open()) {
+      return MakeError(Id::kListNotExecutable, "the list is still open; call Close first");
+    }
+    if (!list.GetErrors().empty()) {
+      return MakeError(Id::kListNotExecutable, "recording failed with ", list.GetErrors().size(),
+                       " errors; the first is: ", list.GetErrors().front().message);
+    }
+    if (const auto held = HoldAll(*list.impl()->uses); !held) return held.error();
+  }
+  for (const CommandList& list : lists) {
+    CommandQueueImpl::Execute execute{list.impl()->commands, list.impl()->uses};
+    if (impl_->device->checks) {
+      execute.uploads =
+          kaamos::checks::read_uploads(impl_->device->addresses, *list.impl()->commands);
+    }
+    impl_->Submit(std::move(execute));
+  }
+  return impl_->device->removed();
+}
+
+Status CommandQueue::Signal(const Fence& fence, uint64_t value) {
+  if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty queue handle");
+  if (Status s = CheckHandle(impl_->device, fence, "Signal: the fence"); !s.ok()) return s;
+  impl_->Submit(CommandQueueImpl::SignalFence{fence.impl(), value});
+  return impl_->device->removed();
+}
+
+Status CommandQueue::Wait(const Fence& fence, uint64_t value) {
+  if (!impl_) return MakeError(Id::kNullHandle, "Wait on an empty queue handle");
+  if (Status s = CheckHandle(impl_->device, fence, "Wait: the fence"); !s.ok()) return s;
+  impl_->Submit(CommandQueueImpl::WaitFence{fence.impl(), value});
+  return impl_->device->removed();
+}
+
+Status CommandQueue::ExecuteAndWait(CommandList& list) {
+  if (!impl_) return MakeError(Id::kNullHandle, "ExecuteAndWait on an empty queue handle");
+  if (list.is_open()) {
+    if (Status s = list.Close(); !s.ok()) return s;
+  }
+  if (Status s = ExecuteCommandLists({list}); !s.ok()) return s;
+  auto fence = Device(impl_->device).CreateFence();
+  if (!fence.ok()) return fence.error();
+  if (Status s = Signal(*fence, 1); !s.ok()) return s;
+  if (Status s = fence->Wait(1); !s.ok()) return s;
+  return impl_->device->removed();
+}
+
+}  // namespace rtapi

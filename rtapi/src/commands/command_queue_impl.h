@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include <rtapi/command_queue.h>
+
+#include "rtapi/src/commands/command_list_impl.h"
+#include "runtime/checks/uploads.h"
+
+namespace rtapi::detail {
+
+struct FenceImpl {
+  std::shared_ptr<DeviceImpl> device;
+
+  uint64_t value() const;
+  // Sets the value and resumes the queues that wait for it.
+  void Signal(uint64_t value);
+  // Returns true if the fence has reached `value`; else a later Signal wakes `queue`.
+  bool ReachedOrWake(uint64_t value, const std::weak_ptr<struct CommandQueueImpl>& queue);
+
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  uint64_t current = 0;
+  std::vector<std::weak_ptr<CommandQueueImpl>> waiting;
+};
+
+// Work runs at once on the thread that submits it, or, if the queue waits for a fence, on the
+// thread whose signal ends the wait. A backend uses all cores for one command, so a thread per
+// queue would gain nothing and would lose the call stack in a debugger.
+struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
+  struct Execute {
+    std::shared_ptr<const CommandVector> commands;
+    std::shared_ptr<const MemoryUses> uses;
+    std::vector<kaamos::checks::UploadRange> uploads = {};  // on a checked device: as submitted
+  };
+  struct SignalFence {
+    std::shared_ptr<FenceImpl> fence;
+    uint64_t value;
+  };
+  struct WaitFence {
+    std::shared_ptr<FenceImpl> fence;
+    uint64_t value;
+  };
+  using Operation = std::variant<Execute, SignalFence, WaitFence>;
+
+  std::shared_ptr<DeviceImpl> device;
+
+  void Submit(Operation operation);
+  void Drain();
+
+ private:
+  void Run(const Operation& operation);
+
+  std::mutex mutex_;
+  std::deque<Operation> pending_;
+  bool draining_ = false;
+  bool again_ = false;  // a drain was requested while one was running
+};
+
+}  // namespace rtapi::detail

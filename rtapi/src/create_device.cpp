@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+//
+// Puts a device together: its backend, and in checked mode the layer that reads its lists.
+#include <algorithm>
+#include <atomic>
+
+#include <rtapi/device.h>
+
+#include "rtapi/src/backends.h"
+#include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/pipelines/root_signature_impl.h"
+
+namespace rtapi {
+
+namespace {
+
+std::atomic<uint32_t> g_device_count{0};
+
+Status CheckDesc(const DeviceDesc& desc) {
+  using detail::Id;
+  if (desc.Precision > TraversalPrecision::kExact) {
+    return detail::MakeError(Id::kDeviceDesc, "Precision is ",
+                             static_cast<uint32_t>(desc.Precision),
+                             "; it must be kFast, kRobust or kExact");
+  }
+  if (desc.Tier != RaytracingTier::kTier1_0 && desc.Tier != RaytracingTier::kTier1_1) {
+    return detail::MakeError(Id::kDeviceDesc, "Tier is ", static_cast<uint32_t>(desc.Tier),
+                             "; it must be kTier1_0 or kTier1_1");
+  }
+  if (desc.Threads > 4096) {
+    return detail::MakeError(Id::kDeviceDesc, "Threads is ", desc.Threads,
+                             "; it must be 0 (all threads of the machine) to 4096");
+  }
+  const uint32_t lanes = desc.WaveLanes;
+  if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16 && lanes != 32) {
+    return detail::MakeError(Id::kDeviceDesc, "WaveLanes is ", lanes,
+                             "; it must be 4, 8, 16, 32, or 0 (8 lanes)");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> EnumerateDevices() {
+  std::vector<DeviceInfo> devices;
+  for (const auto* factory : detail::backends()) {
+    for (auto& info : factory->enumerate()) devices.push_back(std::move(info));
+  }
+  return devices;
+}
+
+Result<Device> CreateDevice(const DeviceDesc& desc) {
+  using namespace detail;
+  if (Status s = CheckDesc(desc); !s.ok()) return s.error();
+  const auto known = detail::backends();
+  if (known.empty()) {
+    return MakeError(Id::kNoBackend,
+                     "this build has no backend; install libembree-dev and run CMake again");
+  }
+  auto it = std::find_if(known.begin(), known.end(),
+                         [&](const runtime::BackendFactory* f) { return desc.Backend == f->name; });
+  if (it == known.end()) {
+    std::string names;
+    for (const auto* f : known) names += Text(names.empty() ? "" : ", ", Quoted(f->name));
+    return MakeError(Id::kUnknownBackend, Quoted(desc.Backend), "; this build has ", names);
+  }
+  auto impl = std::make_shared<DeviceImpl>();
+  impl->desc = desc;
+  impl->tag = ++g_device_count;
+  impl->context.addresses = &impl->addresses;
+  // The backend is a member of the device: the pointer outlives it.
+  impl->context.message = [raw = impl.get()](const Message& message) {
+    if (raw->desc.OnMessage) raw->desc.OnMessage(message);
+  };
+  if (desc.Checked) {
+    impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);
+    bool (*same_root_signature)(const RootSignature&, const RootSignature&) =
+        &detail::SameDefinition;
+    impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter,
+                                                           same_root_signature);
+    impl->context.reporter = impl->reporter.get();
+    impl->context.observer = impl->checks.get();
+  }
+  auto backend = (*it)->create(desc, impl->context);
+  if (!backend.ok()) return backend.error();
+  impl->backend = std::move(*backend);
+  return Device(std::move(impl));
+}
+
+}  // namespace rtapi

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/device.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/shaders/checked_library.h"
+#include "runtime/backend/dispatch_checks.h"
+
+namespace rtapi {
+
+namespace detail {
+
+namespace {
+
+uint64_t Mix(uint64_t x) {  // splitmix64's finisher
+  x += 0x9E3779B97F4A7C15ull;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+  return x ^ (x >> 31);
+}
+
+}  // namespace
+
+void DeviceImpl::Remove(const Error& reason) {
+  {
+    std::lock_guard lock(removed_mutex_);
+    if (!removed_.ok()) return;  // the first reason counts
+    Error error = reason;
+    error.code = ErrorCode::kDeviceRemoved;
+    removed_ = error;
+  }
+  Report(MessageSeverity::kError, reason);
+}
+
+Status DeviceImpl::removed() const {
+  std::lock_guard lock(removed_mutex_);
+  return removed_;
+}
+
+void DeviceImpl::Report(MessageSeverity severity, const Error& error) const {
+  if (desc.OnMessage) desc.OnMessage({severity, error.id, error.message});
+}
+
+void DeviceImpl::RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
+                              TargetSlot* targets) {
+  std::lock_guard lock(heaps_mutex_);
+  heaps_[reinterpret_cast<uintptr_t>(host)] = {
+      heap.Type,           HasAny(heap.Flags, DescriptorHeapFlags::kShaderVisible),
+      heap.NumDescriptors, address,
+      heap.Name,           targets};
+}
+
+void DeviceImpl::UnregisterHeap(uint8_t* host) {
+  std::lock_guard lock(heaps_mutex_);
+  heaps_.erase(reinterpret_cast<uintptr_t>(host));
+}
+
+std::optional<HeapSlot> DeviceImpl::FindSlot(CpuDescriptorHandle handle) const {
+  std::lock_guard lock(heaps_mutex_);
+  auto it = heaps_.upper_bound(handle.ptr);
+  if (it == heaps_.begin()) return std::nullopt;
+  const auto& [start, heap] = *std::prev(it);
+  const uint64_t offset = handle.ptr - start;
+  const uint64_t index = offset / kDescriptorHandleIncrementSize;
+  if (index >= heap.count || offset % kDescriptorHandleIncrementSize != 0) return std::nullopt;
+  return HeapSlot{heap.type,
+                  heap.shader_visible,
+                  heap.targets ? nullptr : reinterpret_cast<shader::Descriptor*>(handle.ptr),
+                  heap.targets ? heap.targets + index : nullptr,
+                  static_cast<uint32_t>(index),
+                  heap.count - static_cast<uint32_t>(index),
+                  heap.name};
+}
+
+std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
+  uintptr_t host = 0;
+  {
+    std::lock_guard lock(heaps_mutex_);
+    for (const auto& [start, heap] : heaps_) {
+      const uint64_t bytes = uint64_t{heap.count} * kDescriptorHandleIncrementSize;
+      if (!heap.shader_visible || handle.ptr - heap.address >= bytes) continue;
+      host = start + (handle.ptr - heap.address);
+    }
+  }
+  return host == 0 ? std::nullopt : FindSlot(CpuDescriptorHandle{host});
+}
+
+std::string DescribeHeap(const std::optional<HeapSlot>& slot) {
+  if (!slot) return " is not in a live descriptor heap";
+  switch (slot->type) {
+    case DescriptorHeapType::kCbvSrvUav:
+      return " is in a CBV/SRV/UAV heap";
+    case DescriptorHeapType::kSampler:
+      return " is in a sampler heap";
+    case DescriptorHeapType::kRtv:
+      return " is in an RTV heap";
+    case DescriptorHeapType::kDsv:
+      return " is in a DSV heap";
+  }
+  return " is in a heap of unknown type";
+}
+
+ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
+  if (!reporter) return library;
+  CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");
+  if (!found.note.empty()) {
+    reporter->report(
+        found.checked ? kaamos::checks::Id::kCodeInterpreted : kaamos::checks::Id::kCodeNotChecked,
+        found.note);
+  }
+  return found.library;
+}
+
+ShaderIdentifier DeviceImpl::MakeIdentifier(std::string_view name) {
+  const uint32_t index = next_identifier_++;
+  uint64_t hash = Mix((uint64_t{tag} << 32) | index);
+  for (char c : name) hash = Mix(hash ^ static_cast<unsigned char>(c));
+  const uint64_t words[4] = {uint64_t{index} | (uint64_t{tag} << 32), hash, Mix(hash),
+                             Mix(Mix(hash))};
+  ShaderIdentifier identifier;
+  std::memcpy(identifier.data(), words, sizeof words);
+  return identifier;
+}
+
+std::string DeviceImpl::DescribeAddress(GpuVirtualAddress address) const {
+  return runtime::describe_address(addresses, address);
+}
+
+std::string Named(const char* kind, const std::string& name) {
+  return name.empty() ? Text("unnamed ", kind) : Text(kind, " ", Quoted(name));
+}
+
+}  // namespace detail
+
+namespace {
+
+const DeviceDesc kEmptyDesc;
+const DeviceInfo kEmptyInfo;
+
+}  // namespace
+
+const DeviceInfo& Device::GetInfo() const {
+  return impl_ ? impl_->backend->info() : kEmptyInfo;
+}
+const DeviceDesc& Device::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyDesc;
+}
+
+Status Device::GetDeviceRemovedReason() const {
+  if (!impl_) return detail::MakeError(detail::Id::kNullHandle, "the device is an empty handle");
+  return impl_->removed();
+}
+
+RaytracingStatistics Device::GetStatistics() const {
+  return impl_ ? impl_->backend->statistics() : RaytracingStatistics{};
+}
+void Device::ResetStatistics() {
+  if (impl_) impl_->backend->reset_statistics();
+}
+
+}  // namespace rtapi

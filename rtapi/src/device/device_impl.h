@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+//
+// The object behind the handle of device.h, and what the objects that it makes have in common.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <rtapi/device.h>
+
+#include "rtapi/src/device/heap_slot.h"
+#include "rtapi/src/device/view_names.h"
+#include "rtapi/src/errors/error_table.h"
+#include "runtime/backend/backend.h"
+#include "runtime/checks/layer.h"
+#include "runtime/checks/report.h"
+
+namespace rtapi::detail {
+
+namespace runtime = kaamos::runtime;
+namespace shader = kaamos::shader;
+
+struct DeviceImpl {
+  DeviceDesc desc;
+  ViewNames views;  // which textures and samplers the descriptors stand for
+  runtime::AddressMap addresses;
+  runtime::Context context;
+  // Checked mode; null if it is off.
+  std::unique_ptr<kaamos::checks::Reporter> reporter;
+  std::unique_ptr<kaamos::checks::Layer> checks;
+  std::unique_ptr<runtime::BackendDevice> backend;
+
+  // Executions run one at a time, whatever the queue: a dispatch or build uses every core already.
+  std::mutex execute_mutex;
+
+  void Remove(const Error& reason);
+  Status removed() const;
+  void Report(MessageSeverity severity, const Error& error) const;
+
+  // Finds the slot of a handle. Handles carry no type, so heaps are registered by host address.
+  void RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
+                    TargetSlot* targets);
+  void UnregisterHeap(uint8_t* host);
+  std::optional<HeapSlot> FindSlot(CpuDescriptorHandle handle) const;
+  // The same by GPU handle, for shader-visible heaps only.
+  std::optional<HeapSlot> FindSlot(GpuDescriptorHandle handle) const;
+
+  // Returns the library's checked variant on a checked device, else the library itself.
+  ShaderLibrary LibraryToRun(const ShaderLibrary& library) const;
+
+  ShaderIdentifier MakeIdentifier(std::string_view name);
+
+  // Returns "buffer \"x\" (416 bytes)" for a live address, else "no live buffer".
+  std::string DescribeAddress(GpuVirtualAddress address) const;
+
+ private:
+  struct HeapRange {
+    DescriptorHeapType type;
+    bool shader_visible;
+    uint32_t count;
+    uint64_t address;  // for GPU handles
+    std::string name;
+    TargetSlot* targets;  // null unless RTVs or DSVs
+  };
+  mutable std::mutex heaps_mutex_;
+  std::map<uintptr_t, HeapRange> heaps_;
+  mutable std::mutex removed_mutex_;
+  Status removed_;
+  std::atomic<uint32_t> next_identifier_{1};
+
+ public:
+  uint32_t tag = 0;  // makes identifiers of different devices differ
+};
+
+// Returns "buffer \"name\"" or "unnamed buffer".
+std::string Named(const char* kind, const std::string& name);
+
+// Fails for an empty handle or another device's object; `what` names the argument.
+template <class Handle>
+Status CheckHandle(const std::shared_ptr<DeviceImpl>& device, const Handle& handle,
+                   std::string_view what) {
+  if (!handle) return MakeError(Id::kNullHandle, what, " is an empty handle");
+  if (handle.impl()->device != device) {
+    return MakeError(Id::kForeignObject, what, " belongs to another device");
+  }
+  return {};
+}
+
+inline uint64_t AlignUp(uint64_t value, uint64_t alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
+
+}  // namespace rtapi::detail

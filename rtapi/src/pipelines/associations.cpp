@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+//
+// Second stage of making a state object: decides which configs and root signatures belong to which
+// export. [DXR: Subobject association behavior]
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "rtapi/src/pipelines/state_object_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+// Indexes explicit associations by the export names they list, because a large pipeline has
+// thousands of exports.
+using Index = std::unordered_map<std::string_view, std::vector<const ExplicitAssociation*>>;
+
+Index MakeIndex(const Parts& parts) {
+  Index index;
+  for (const ExplicitAssociation& a : parts.explicit_associations) {
+    for (const std::string& name : a.exports) index[name].push_back(&a);
+  }
+  return index;
+}
+
+std::vector<const ExplicitAssociation*> Find(const Index& index, const Subject& subject) {
+  std::vector<const ExplicitAssociation*> found;
+  for (const std::string* name : {&subject.name, &subject.mangled}) {
+    auto it = index.find(*name);
+    if (name->empty() || it == index.end()) continue;
+    found.insert(found.end(), it->second.begin(), it->second.end());
+  }
+  return found;
+}
+
+// Finds the explicit association of a subject in one category, on one level: in the state object
+// itself, or in any of its libraries. Several associations are fine as long as they agree.
+Result<DefinitionPtr> FindExplicit(const std::vector<const ExplicitAssociation*>& candidates,
+                                   const Subject& subject, Category category,
+                                   bool in_state_object) {
+  const ExplicitAssociation* first = nullptr;
+  for (const ExplicitAssociation* a : candidates) {
+    if (a->definition->category != category || (a->library_scope < 0) != in_state_object) continue;
+    if (first && !SameDefinition(*first->definition, *a->definition)) {
+      return MakeError(Id::kAssociationConflict, Quoted(subject.name), " is associated with two ",
+                       CategoryName(category), "s: ", first->definition->where, " (by ",
+                       first->where, ") and ", a->definition->where, " (by ", a->where, ")");
+    }
+    if (!first) first = a;
+  }
+  return first ? first->definition : nullptr;
+}
+
+// Returns the default of a scope, or null. An association with an empty export list takes
+// precedence over subobjects that are in no association. If several different candidates remain,
+// there is no default.
+DefinitionPtr FindDefault(const DefaultScope& scope, Category category) {
+  for (const auto* candidates : {&scope.by_empty, &scope.implicit}) {
+    DefinitionPtr found;
+    bool ambiguous = false;
+    for (const DefinitionPtr& d : *candidates) {
+      if (d->category != category) continue;
+      if (found && !SameDefinition(*found, *d)) ambiguous = true;
+      found = d;
+    }
+    if (ambiguous) return nullptr;
+    if (found) return found;
+  }
+  return nullptr;
+}
+
+Result<Associated> Resolve(const Parts& parts,
+                           const std::vector<const ExplicitAssociation*>& candidates,
+                           const Subject& subject, Category category) {
+  const auto own = FindExplicit(candidates, subject, category, true);
+  if (!own.ok()) return own.error();
+  const Associated& given = subject.associations[static_cast<size_t>(category)];
+  if (given.definition) {  // set by its collection, so final
+    if (*own && !SameDefinition(**own, *given.definition)) {
+      return MakeError(Id::kAssociationConflict, "the collection of ", Quoted(subject.name),
+                       " already set its ", CategoryName(category), " (", given.definition->where,
+                       "), so ", (*own)->where,
+                       " cannot replace it; associate it when you create the collection");
+    }
+    return given;
+  }
+  if (*own) return Associated{*own, Strength::kExplicit};
+  if (auto d = FindDefault(parts.own_scope, category)) return Associated{d, Strength::kDefault};
+  const auto in_libraries = FindExplicit(candidates, subject, category, false);
+  if (!in_libraries.ok()) return in_libraries.error();
+  if (*in_libraries) return Associated{*in_libraries, Strength::kExplicit};
+  if (subject.library_scope >= 0) {
+    const auto& scope = parts.library_scopes[static_cast<size_t>(subject.library_scope)];
+    if (auto d = FindDefault(scope, category)) return Associated{d, Strength::kDefault};
+  }
+  return Associated{};
+}
+
+// Every name in an explicit association of a pipeline must exist. Libraries may name their own
+// functions even if an export list left them out.
+Status CheckNamesExist(const Parts& parts) {
+  for (const ExplicitAssociation& a : parts.explicit_associations) {
+    for (const std::string& name : a.exports) {
+      const bool known = std::any_of(parts.subjects.begin(), parts.subjects.end(),
+                                     [&](const SubjectPtr& s) { return s->answers_to(name); });
+      if (known) continue;
+      if (a.library_scope >= 0) {
+        const auto& library = parts.libraries[static_cast<size_t>(a.library_scope)];
+        const auto& exports = library.GetExports();
+        if (std::any_of(exports.begin(), exports.end(), [&](const ShaderExportInfo& e) {
+              return e.Name == name || e.MangledName == name;
+            })) {
+          continue;
+        }
+      }
+      return MakeError(Id::kAssociationUnknownExport, a.where, " associates ",
+                       CategoryName(a.definition->category), " with ", Quoted(name),
+                       ", which this state object does not export");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status AssociateAll(Parts& parts) {
+  if (!parts.is_collection()) {
+    if (Status s = CheckNamesExist(parts); !s.ok()) return s;
+  }
+  const Index index = MakeIndex(parts);
+  for (const SubjectPtr& subject : parts.subjects) {
+    const auto candidates = Find(index, *subject);
+    for (size_t c = 0; c < kCategories; ++c) {
+      auto associated = Resolve(parts, candidates, *subject, static_cast<Category>(c));
+      if (!associated.ok()) return associated.error();
+      subject->associations[c] = *associated;
+    }
+  }
+  return {};
+}
+
+}  // namespace rtapi::detail

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/pipelines/bindings.h"
+
+#include <optional>
+
+#include "rtapi/src/pipelines/root_signature_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+using shader::BindingDesc;
+using shader::BindingSlot;
+using shader::BindingType;
+using shader::DescriptorAccess;
+using shader::DescriptorKind;
+using shader::RegisterClass;
+using shader::SlotSource;
+
+DescriptorKind KindOf(BindingType type) {
+  switch (type) {
+    case BindingType::kConstantBuffer:
+      return DescriptorKind::kConstantBuffer;
+    case BindingType::kRawBuffer:
+      return DescriptorKind::kRawBuffer;
+    case BindingType::kStructuredBuffer:
+      return DescriptorKind::kStructuredBuffer;
+    case BindingType::kTypedBuffer:
+      return DescriptorKind::kTypedBuffer;
+    case BindingType::kTexture:
+      return DescriptorKind::kTexture;
+    case BindingType::kSampler:
+    case BindingType::kComparisonSampler:
+      return DescriptorKind::kSampler;
+    case BindingType::kAccelerationStructure:
+      return DescriptorKind::kAccelerationStructure;
+  }
+  return DescriptorKind::kNull;
+}
+
+std::string Describe(const BindingDesc& b) {
+  return Text(Quoted(b.name), " (", RegisterText(b.register_class, b.register_index, b.space), ")");
+}
+
+// Finds the range of a signature that contains the binding's first register and is visible.
+std::optional<RegisterRange> Find(const RootSignature& signature, const BindingDesc& binding,
+                                  ShaderVisibility stage) {
+  if (!signature) return std::nullopt;
+  for (const RegisterRange& r : GetRegisterRanges(signature.GetDesc())) {
+    if (r.register_class == binding.register_class && r.space == binding.space &&
+        binding.register_index >= r.first && binding.register_index < r.end &&
+        (r.visibility == ShaderVisibility::kAll || r.visibility == stage)) {
+      return r;
+    }
+  }
+  return std::nullopt;
+}
+
+const DescriptorRange& FindDescriptorRange(const RootDescriptorTable& table,
+                                           const RegisterRange& range) {
+  // Within one table, class, space and first register identify a range: overlapping ranges were
+  // refused earlier.
+  for (const DescriptorRange& r : table.Ranges) {
+    if (r.BaseShaderRegister != range.first || r.RegisterSpace != range.space) continue;
+    static constexpr RegisterClass kClasses[] = {
+        RegisterClass::kShaderResource, RegisterClass::kUnorderedAccess,
+        RegisterClass::kConstantBuffer, RegisterClass::kSampler};
+    if (kClasses[static_cast<uint32_t>(r.RangeType) & 3] == range.register_class) return r;
+  }
+  return table.Ranges.front();
+}
+
+Status FillTable(const BindingDesc& binding, const RegisterRange& range,
+                 const RootParameter& parameter, const std::string& where, BindingSlot& slot) {
+  const DescriptorRange& descriptors = FindDescriptorRange(parameter.DescriptorTable, range);
+  const uint64_t skipped = uint64_t{binding.register_index} - range.first;
+  const uint64_t available = range.end - binding.register_index;
+  const bool unbounded = binding.count == shader::kUnbounded;
+  if (!unbounded && binding.count > available) {
+    return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding), " needs ",
+                     binding.count, " registers, but parameter ", range.parameter, " has only ",
+                     available, " from there on");
+  }
+  slot.source = SlotSource::kDescriptorTable;
+  slot.descriptor_index =
+      static_cast<uint32_t>(descriptors.OffsetInDescriptorsFromTableStart + skipped);
+  slot.descriptor_count = binding.count;
+  if (unbounded && descriptors.NumDescriptors != kUnboundedDescriptors) {
+    slot.descriptor_count = static_cast<uint32_t>(available);
+  }
+  return {};
+}
+
+Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range,
+                          const std::string& where, BindingSlot& slot) {
+  const bool buffer = binding.type == BindingType::kConstantBuffer ||
+                      binding.type == BindingType::kRawBuffer ||
+                      binding.type == BindingType::kStructuredBuffer ||
+                      binding.type == BindingType::kAccelerationStructure;
+  if (!buffer || binding.count != 1) {
+    return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
+                     binding.count != 1 ? " is an array" : " is a texture or typed buffer",
+                     ", which root descriptor ", range.parameter,
+                     " cannot hold; bind it through a descriptor table");
+  }
+  slot.source = SlotSource::kRootDescriptor;
+  if (binding.type == BindingType::kConstantBuffer) slot.size_bytes = binding.size_bytes;
+  return {};
+}
+
+DescriptorAccess AccessOf(RegisterClass register_class) {
+  switch (register_class) {
+    case RegisterClass::kUnorderedAccess:
+      return DescriptorAccess::kUnorderedAccess;
+    case RegisterClass::kShaderResource:
+      return DescriptorAccess::kShaderResource;
+    default:
+      return DescriptorAccess::kOther;
+  }
+}
+
+Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
+                const RegisterRange& range, const std::string& where, BindingSlot& slot) {
+  slot.kind = KindOf(binding.type);
+  slot.access = AccessOf(binding.register_class);
+  if (binding.type == BindingType::kStructuredBuffer || binding.type == BindingType::kTexture) {
+    slot.stride_bytes = binding.size_bytes;
+  }
+  if (range.static_sampler) {
+    if (binding.count != 1) {
+      return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
+                       " is an array, but a static sampler covers a single register");
+    }
+    slot.source = SlotSource::kStaticSampler;
+    slot.static_sampler = &signature.impl()->static_samplers[range.parameter];
+    return {};
+  }
+  slot.local = signature.is_local();
+  slot.argument_offset = signature.GetArgumentOffset(range.parameter);
+  const RootParameter& parameter = signature.GetDesc().Parameters[range.parameter];
+  switch (parameter.ParameterType) {
+    case RootParameterType::kDescriptorTable:
+      return FillTable(binding, range, parameter, where, slot);
+    case RootParameterType::k32BitConstants:
+      if (binding.count != 1) {
+        return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
+                         " is an array, which root constants (parameter ", range.parameter,
+                         ") cannot hold");
+      }
+      slot.source = SlotSource::kRootConstants;
+      slot.size_bytes = parameter.Constants.Num32BitValues * 4;
+      return {};
+    default:
+      return FillRootDescriptor(binding, range, where, slot);
+  }
+}
+
+Status CheckHeapAccess(const shader::ExportDesc& code, const RootSignature& global,
+                       const std::string& where) {
+  const RootSignatureFlags flags = global.GetDesc().Flags;
+  if ((code.flags & shader::kExportUsesViewHeap) &&
+      !HasAny(flags, RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed)) {
+    return MakeError(Id::kBindingMissing, where,
+                     ": uses ResourceDescriptorHeap, so its global root signature needs the flag "
+                     "kCbvSrvUavHeapDirectlyIndexed");
+  }
+  if ((code.flags & shader::kExportUsesSamplerHeap) &&
+      !HasAny(flags, RootSignatureFlags::kSamplerHeapDirectlyIndexed)) {
+    return MakeError(Id::kBindingMissing, where,
+                     ": uses SamplerDescriptorHeap, so its global root signature needs the flag "
+                     "kSamplerHeapDirectlyIndexed");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<BindingSlot>> ResolveBindings(const shader::LibraryDesc& library,
+                                                 const shader::ExportDesc& code,
+                                                 const RootSignature& global,
+                                                 const RootSignature& local,
+                                                 const std::string& where, ShaderVisibility stage) {
+  if (Status s = CheckHeapAccess(code, global, where); !s.ok()) return s.error();
+  std::vector<BindingSlot> slots(library.binding_count);
+  for (uint32_t i = 0; i < code.binding_count; ++i) {
+    const uint32_t index = code.bindings[i];
+    const BindingDesc& binding = library.bindings[index];
+    const RootSignature* signature = &local;
+    auto range = Find(local, binding, stage);
+    if (!range) {
+      signature = &global;
+      range = Find(global, binding, stage);
+    }
+    if (!range) {
+      return MakeError(
+          Id::kBindingMissing, where, ": resource ", Describe(binding), " of ",
+          Quoted(library.name ? library.name : ""), " is ",
+          global && local ? "in neither its global nor its local root signature"
+          : global ? "not in its global root signature, or not visible to this stage; it has no "
+                     "local one"
+          : local  ? "not in its local root signature; it has no global one"
+                   : "in no root signature: none is associated with it");
+    }
+    if (Status s = FillSlot(*signature, binding, *range, where, slots[index]); !s.ok()) {
+      return s.error();
+    }
+  }
+  return slots;
+}
+
+Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignature& local,
+                                   const std::string& where) {
+  if (!global || !local) return {};
+  const auto outer = GetRegisterRanges(global.GetDesc());
+  for (const RegisterRange& a : GetRegisterRanges(local.GetDesc())) {
+    for (const RegisterRange& b : outer) {
+      if (!Overlap(a, b)) continue;
+      return MakeError(Id::kRootSignaturesOverlap, where, ": register ",
+                       RegisterText(a.register_class, std::max(a.first, b.first), a.space),
+                       " is in its local root signature (",
+                       a.static_sampler ? "sampler " : "parameter ", a.parameter,
+                       ") and in its global one (", b.static_sampler ? "sampler " : "parameter ",
+                       b.parameter, ")");
+    }
+  }
+  return {};
+}
+
+Status CheckTier(const DeviceImpl& device, const shader::ExportDesc& code,
+                 const std::string& where) {
+  if (device.desc.Tier >= RaytracingTier::kTier1_1) return {};
+  if ((code.flags & shader::kExportUsesRayQuery) != 0) {
+    return MakeError(Id::kShaderTier, where,
+                     " uses RayQuery, but the device was created with tier 1.0");
+  }
+  constexpr uint32_t kSkipFlags = 0x300;
+  for (uint32_t i = 0; i < code.trace_call_count; ++i) {
+    const shader::TraceCall& call = code.trace_calls[i];
+    if ((call.known & shader::kKnowsRayFlags) == 0 || (call.ray_flags & kSkipFlags) == 0) continue;
+    return MakeError(Id::kShaderTier, where, " calls TraceRay with ray flags ", Hex(call.ray_flags),
+                     " (", call.file ? call.file : "", ":", call.line,
+                     "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES "
+                     "need tier 1.1, but the device was created with tier 1.0");
+  }
+  return {};
+}
+
+}  // namespace rtapi::detail

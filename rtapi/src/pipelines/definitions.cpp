@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+//
+// Checks configs, root signatures and hit groups, whether the API or HLSL declares them.
+#include "rtapi/src/pipelines/root_signature_impl.h"
+#include "rtapi/src/pipelines/state_object_gatherer.h"
+
+namespace rtapi::detail {
+
+const char* CategoryName(Category category) {
+  static constexpr const char* kNames[] = {"shader config", "pipeline config",
+                                           "global root signature", "local root signature"};
+  return kNames[static_cast<size_t>(category)];
+}
+
+bool SameDefinition(const Definition& a, const Definition& b) {
+  if (a.category != b.category) return false;
+  switch (a.category) {
+    case Category::kShaderConfig:
+      return a.shader_config.MaxPayloadSizeInBytes == b.shader_config.MaxPayloadSizeInBytes &&
+             a.shader_config.MaxAttributeSizeInBytes == b.shader_config.MaxAttributeSizeInBytes;
+    case Category::kPipelineConfig:
+      return a.pipeline_config.MaxTraceRecursionDepth == b.pipeline_config.MaxTraceRecursionDepth &&
+             a.pipeline_config.Flags == b.pipeline_config.Flags;
+    default:
+      return SameDefinition(a.root_signature, b.root_signature);
+  }
+}
+
+Status Gatherer::DefineRootSignature(const RootSignature& signature, bool local,
+                                     const std::string& where, DefinitionPtr& out) {
+  if (Status s = CheckHandle(parts_.device, signature, where + ": the root signature"); !s.ok()) {
+    return s;
+  }
+  if (signature.is_local() != local) {
+    return MakeError(Id::kRootSignatureKind, where, " takes a ", local ? "local" : "global",
+                     " root signature, but this one was created ", local ? "without" : "with",
+                     " the flag kLocalRootSignature");
+  }
+  Definition d;
+  d.category = local ? Category::kLocalRootSignature : Category::kGlobalRootSignature;
+  d.root_signature = signature;
+  d.where = where;
+  out = std::make_shared<Definition>(std::move(d));
+  return {};
+}
+
+Status Gatherer::DefineShaderConfig(const RaytracingShaderConfig& config, const std::string& where,
+                                    DefinitionPtr& out) {
+  if (config.MaxAttributeSizeInBytes > kRaytracingMaxAttributeSizeInBytes) {
+    return MakeError(Id::kAttributeSizeLimit, where, ": MaxAttributeSizeInBytes is ",
+                     config.MaxAttributeSizeInBytes, "; it must be 0 to 32");
+  }
+  Definition d;
+  d.category = Category::kShaderConfig;
+  d.shader_config = config;
+  d.where = where;
+  out = std::make_shared<Definition>(std::move(d));
+  return {};
+}
+
+Status Gatherer::DefinePipelineConfig(const RaytracingPipelineConfig1& config, bool config1,
+                                      const std::string& where, DefinitionPtr& out) {
+  if (config.MaxTraceRecursionDepth > kRaytracingMaxDeclarableTraceRecursionDepth) {
+    return MakeError(Id::kRecursionDepth, where, ": MaxTraceRecursionDepth is ",
+                     config.MaxTraceRecursionDepth, "; it must be 0 to 31");
+  }
+  if (config1 && parts_.device->desc.Tier < RaytracingTier::kTier1_1) {
+    return MakeError(Id::kPipelineConfig1Tier, where,
+                     " is a RaytracingPipelineConfig1, but this device was created with tier 1.0");
+  }
+  const auto known =
+      RaytracingPipelineFlags::kSkipTriangles | RaytracingPipelineFlags::kSkipProceduralPrimitives;
+  if ((config.Flags & ~known) != RaytracingPipelineFlags::kNone) {
+    return MakeError(Id::kConfigFlags, where, ": undefined pipeline flags ",
+                     Hex(static_cast<uint32_t>(config.Flags)),
+                     "; only 0x100 and 0x200 are defined");
+  }
+  if (config.Flags == known) {
+    return MakeError(Id::kConfigFlags, where,
+                     ": kSkipTriangles and kSkipProceduralPrimitives cannot both be set");
+  }
+  Definition d;
+  d.category = Category::kPipelineConfig;
+  d.pipeline_config = config;
+  d.where = where;
+  out = std::make_shared<Definition>(std::move(d));
+  return {};
+}
+
+Status Gatherer::AddHitGroup(const HitGroupDesc& group, int scope, const std::string& where) {
+  if (group.HitGroupExport.empty()) {
+    return MakeError(Id::kExportUnnamed, where, ": HitGroupExport is empty");
+  }
+  const std::string name = Text(where, ", hit group ", Quoted(group.HitGroupExport));
+  const bool has_intersection = !group.IntersectionShaderImport.empty();
+  if (group.Type != HitGroupType::kTriangles && group.Type != HitGroupType::kProceduralPrimitive) {
+    return MakeError(Id::kHitGroupShape, name, ": type ", static_cast<uint32_t>(group.Type),
+                     "; it must be kTriangles (0) or kProceduralPrimitive (1)");
+  }
+  if (group.Type == HitGroupType::kTriangles && has_intersection) {
+    return MakeError(Id::kHitGroupShape, name,
+                     ": a triangle hit group cannot have an intersection shader, but this one "
+                     "imports ",
+                     Quoted(group.IntersectionShaderImport));
+  }
+  if (group.Type == HitGroupType::kProceduralPrimitive && !has_intersection) {
+    return MakeError(Id::kHitGroupShape, name,
+                     ": a procedural hit group needs an intersection shader");
+  }
+  auto subject = std::make_shared<Subject>();
+  subject->name = group.HitGroupExport;
+  subject->group = group;
+  subject->library_scope = scope;
+  parts_.subjects.push_back(std::move(subject));
+  return {};
+}
+}  // namespace rtapi::detail

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/pipelines/graphics_link.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+
+#include "rtapi/src/device/device_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+using runtime::LinkedGraphics;
+using shader::ColumnType;
+using shader::SignatureElement;
+using shader::SystemValue;
+
+constexpr uint32_t kMaxElementEnd = 2048;  // bytes from the start of a vertex
+constexpr uint32_t kMaxInterstageVectors = 32;
+constexpr uint32_t kMaxClipAndCullDistances = 8;
+
+std::span<const SignatureElement> InputsOf(const runtime::LinkedShader& s) {
+  return {s.code->graphics->inputs, s.code->graphics->input_count};
+}
+std::span<const SignatureElement> OutputsOf(const runtime::LinkedShader& s) {
+  return {s.code->graphics->outputs, s.code->graphics->output_count};
+}
+
+bool SameName(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::toupper(x) == std::toupper(y);
+  });
+}
+
+bool SameSemantic(const SignatureElement& a, const SignatureElement& b) {
+  return a.semantic_index == b.semantic_index && SameName(a.semantic, b.semantic);
+}
+
+const char* TypeName(ColumnType type) {
+  switch (type) {
+    case ColumnType::kFloat:
+      return "float";
+    case ColumnType::kInt:
+      return "int";
+    default:
+      return "uint";
+  }
+}
+
+// "COLOR1 (float3, gbuffer.hlsl:31)"
+std::string Describe(const SignatureElement& e) {
+  std::string type = TypeName(e.type);
+  if (e.components > 1) type += std::to_string(e.components);
+  return Text(e.semantic, e.semantic_index, " (", type, ", ", e.file ? e.file : "", ":", e.line,
+              ")");
+}
+
+std::string ListSemantics(std::span<const InputElementDesc> elements) {
+  std::string out;
+  for (const InputElementDesc& e : elements) {
+    out += Text(out.empty() ? "" : ", ", e.SemanticName, e.SemanticIndex);
+  }
+  return out.empty() ? "nothing" : out;
+}
+
+// The type class that a shader must declare for a format. [RAS-18]
+ColumnType ColumnTypeOf(Format format) {
+  switch (GetFormatInfo(format).type) {
+    case FormatClass::kUint:
+      return ColumnType::kUint;
+    case FormatClass::kSint:
+      return ColumnType::kInt;
+    default:
+      return ColumnType::kFloat;
+  }
+}
+
+Status CheckElement(const InputElementDesc& e, size_t index, uint32_t offset) {
+  const std::string where =
+      Text("InputLayout[", index, "] (", e.SemanticName, e.SemanticIndex, ")");
+  const FormatInfo info = GetFormatInfo(e.Format);
+  if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless || info.srgb ||
+      IsDepthFormat(e.Format)) {
+    return MakeError(Id::kInputLayout, where, " has DXGI format ", static_cast<uint32_t>(e.Format),
+                     ", which vertices cannot have");
+  }
+  if (e.InputSlot >= kIAVertexInputResourceSlotCount) {
+    return MakeError(Id::kInputLayout, where, " is in slot ", e.InputSlot, "; there are 0 to 31");
+  }
+  const uint32_t alignment = std::min<uint32_t>(4, info.bytes);
+  if (offset % alignment != 0 || offset + info.bytes > kMaxElementEnd) {
+    return MakeError(Id::kInputLayout, where, " is at byte ", offset, "; it must be a multiple of ",
+                     alignment, " and end by byte 2048");
+  }
+  if (e.InputSlotClass > InputClassification::kPerInstanceData) {
+    return MakeError(Id::kInputLayout, where, " has class ",
+                     static_cast<uint32_t>(e.InputSlotClass), "; it must be 0 or 1");
+  }
+  if (e.InputSlotClass == InputClassification::kPerVertexData && e.InstanceDataStepRate != 0) {
+    return MakeError(Id::kInputLayout, where, " changes with the vertex, but has a step rate of ",
+                     e.InstanceDataStepRate, "; it must be 0");
+  }
+  return {};
+}
+
+// Offsets of all elements, appended ones resolved in the order of the array, slot by slot. [RAS-16]
+Result<std::vector<uint32_t>> Offsets(std::span<const InputElementDesc> elements) {
+  std::array<uint32_t, kIAVertexInputResourceSlotCount> ends = {};
+  std::vector<uint32_t> out;
+  for (size_t i = 0; i < elements.size(); ++i) {
+    const InputElementDesc& e = elements[i];
+    const uint32_t bytes = GetFormatInfo(e.Format).bytes;
+    uint32_t offset = e.AlignedByteOffset;
+    if (offset == kAppendAlignedElement && e.InputSlot < ends.size()) {
+      offset = static_cast<uint32_t>(AlignUp(ends[e.InputSlot], std::clamp<uint32_t>(bytes, 1, 4)));
+    }
+    if (offset > kMaxElementEnd) offset = kMaxElementEnd + 1;
+    if (Status s = CheckElement(e, i, offset); !s.ok()) return s.error();
+    ends[e.InputSlot] = offset + bytes;
+    out.push_back(offset);
+    for (size_t k = 0; k < i; ++k) {
+      const InputElementDesc& other = elements[k];
+      if (other.SemanticIndex == e.SemanticIndex && SameName(other.SemanticName, e.SemanticName)) {
+        return MakeError(Id::kInputLayout, "InputLayout has ", e.SemanticName, e.SemanticIndex,
+                         " twice, as elements ", k, " and ", i);
+      }
+      if (other.InputSlot == e.InputSlot && other.InputSlotClass != e.InputSlotClass) {
+        return MakeError(Id::kInputLayout, "InputLayout elements ", k, " and ", i, " are in slot ",
+                         e.InputSlot, ", one with the vertex and one with the instance");
+      }
+    }
+  }
+  return out;
+}
+
+Status LinkVertexInput(const GraphicsPipelineStateDesc& desc, std::span<const uint32_t> offsets,
+                       const SignatureElement& input, LinkedGraphics& linked) {
+  switch (input.system_value) {
+    case SystemValue::kVertexId:
+      linked.vertex_columns.vertex_id = input.first_column;
+      return {};
+    case SystemValue::kInstanceId:
+      linked.vertex_columns.instance_id = input.first_column;
+      return {};
+    default:
+      break;
+  }
+  const auto& elements = desc.InputLayout;
+  const auto it = std::find_if(elements.begin(), elements.end(), [&](const InputElementDesc& e) {
+    return e.SemanticIndex == input.semantic_index && SameName(e.SemanticName, input.semantic);
+  });
+  if (it == elements.end()) {
+    return MakeError(Id::kInputLayout, "vertex shader ", Quoted(linked.vertex.name), " reads ",
+                     Describe(input), "; the input layout has ", ListSemantics(elements));
+  }
+  if (ColumnTypeOf(it->Format) != input.type) {
+    return MakeError(Id::kInputLayout, "vertex shader ", Quoted(linked.vertex.name), " reads ",
+                     Describe(input), ", but DXGI format ", static_cast<uint32_t>(it->Format),
+                     " of the element gives ", TypeName(ColumnTypeOf(it->Format)));
+  }
+  runtime::LinkedElement element;
+  element.slot = it->InputSlot;
+  element.offset_bytes = offsets[static_cast<size_t>(it - elements.begin())];
+  element.format = it->Format;
+  element.per_instance = it->InputSlotClass == InputClassification::kPerInstanceData;
+  element.step_rate = it->InstanceDataStepRate;
+  element.first_column = input.first_column;
+  element.components = input.components;
+  linked.elements.push_back(element);
+  return {};
+}
+
+void AppendColumns(const SignatureElement& e, std::vector<uint32_t>& columns) {
+  for (uint32_t c = 0; c < e.components; ++c) columns.push_back(e.first_column + c);
+}
+
+Status LinkVertexOutputs(LinkedGraphics& linked) {
+  auto& columns = linked.vertex_columns;
+  for (const SignatureElement& e : OutputsOf(linked.vertex)) {
+    switch (e.system_value) {
+      case SystemValue::kPosition:
+        columns.position = e.first_column;
+        break;
+      case SystemValue::kRenderTargetArrayIndex:
+        columns.target_array_index = e.first_column;
+        break;
+      case SystemValue::kViewportArrayIndex:
+        columns.viewport_array_index = e.first_column;
+        break;
+      case SystemValue::kClipDistance:
+        AppendColumns(e, columns.clip_distances);
+        break;
+      case SystemValue::kCullDistance:
+        AppendColumns(e, columns.cull_distances);
+        break;
+      default:
+        break;
+    }
+  }
+  if (columns.position == runtime::kNoColumn) {
+    return MakeError(Id::kStageLinkage, "vertex shader ", Quoted(linked.vertex.name),
+                     " writes no SV_Position, which rasterization needs");
+  }
+  const size_t distances = columns.clip_distances.size() + columns.cull_distances.size();
+  if (distances > kMaxClipAndCullDistances) {
+    return MakeError(Id::kStageLinkage, "vertex shader ", Quoted(linked.vertex.name), " writes ",
+                     columns.clip_distances.size(), " clip and ", columns.cull_distances.size(),
+                     " cull distances; together at most 8");
+  }
+  const uint32_t vectors = linked.vertex.code->graphics->output_count;
+  if (vectors > kMaxInterstageVectors) {
+    return MakeError(Id::kStageLinkage, "vertex shader ", Quoted(linked.vertex.name), " writes ",
+                     vectors, " vectors; at most 32");
+  }
+  return {};
+}
+
+// Returns whether the pipeline itself feeds the input.
+bool LinkPixelSystemValue(const SignatureElement& input, runtime::PixelSystemColumns& columns) {
+  switch (input.system_value) {
+    case SystemValue::kPosition:
+      columns.position = input.first_column;
+      columns.position_components = input.components;
+      return true;
+    case SystemValue::kPrimitiveId:
+      columns.primitive_id = input.first_column;
+      return true;
+    case SystemValue::kIsFrontFace:
+      columns.is_front_face = input.first_column;
+      return true;
+    case SystemValue::kBarycentrics:
+      columns.barycentrics = input.first_column;
+      columns.barycentric_components = input.components;
+      columns.barycentrics_no_perspective =
+          input.interpolation == shader::Interpolation::kNoPerspective;
+      return true;
+    default:
+      return false;
+  }
+}
+
+Status LinkPixelInput(const SignatureElement& input, LinkedGraphics& linked) {
+  if (LinkPixelSystemValue(input, linked.pixel_columns)) return {};
+  const std::string reads =
+      Text("pixel shader ", Quoted(linked.pixel.name), " reads ", Describe(input));
+  for (const SignatureElement& output : OutputsOf(linked.vertex)) {
+    if (!SameSemantic(output, input)) continue;
+    if (output.type != input.type || output.components < input.components) {
+      return MakeError(Id::kStageLinkage, reads, "; vertex shader ", Quoted(linked.vertex.name),
+                       " writes ", Describe(output));
+    }
+    linked.varyings.push_back(
+        {output.first_column, input.first_column, input.components, input.interpolation});
+    return {};
+  }
+  // Without a vertex shader's output these two are 0. [D3D11.3: 15.8.1, 15.15]
+  if (input.system_value == SystemValue::kRenderTargetArrayIndex ||
+      input.system_value == SystemValue::kViewportArrayIndex) {
+    return {};
+  }
+  return MakeError(Id::kStageLinkage, reads, ", which vertex shader ", Quoted(linked.vertex.name),
+                   " does not write");
+}
+
+// Native D3D12 links by registers, which follow the order of declaration. [RAS-21]
+void WarnOfOrder(const DeviceImpl& device, const LinkedGraphics& linked) {
+  const bool in_order = std::is_sorted(
+      linked.varyings.begin(), linked.varyings.end(),
+      [](const auto& a, const auto& b) { return a.vertex_column < b.vertex_column; });
+  if (in_order) return;
+  device.Report(MessageSeverity::kWarning,
+                MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name),
+                          ": pixel shader ", Quoted(linked.pixel.name),
+                          " declares its inputs in another order than vertex shader ",
+                          Quoted(linked.vertex.name),
+                          " its outputs; Direct3D 12 itself links them by position and refuses "
+                          "that"));
+}
+
+}  // namespace
+
+Status LinkInputLayout(const GraphicsPipelineStateDesc& desc, LinkedGraphics& linked) {
+  if (desc.InputLayout.size() > kIAVertexInputResourceSlotCount) {
+    return MakeError(Id::kInputLayout, "InputLayout has ", desc.InputLayout.size(),
+                     " elements; at most 32");
+  }
+  auto offsets = Offsets(desc.InputLayout);
+  if (!offsets.ok()) return offsets.error();
+  for (const SignatureElement& input : InputsOf(linked.vertex)) {
+    if (Status s = LinkVertexInput(desc, *offsets, input, linked); !s.ok()) return s;
+  }
+  return {};
+}
+
+Status LinkStages(const DeviceImpl& device, LinkedGraphics& linked) {
+  if (Status s = LinkVertexOutputs(linked); !s.ok()) return s;
+  if (!linked.has_pixel()) return {};
+  for (const SignatureElement& input : InputsOf(linked.pixel)) {
+    if (Status s = LinkPixelInput(input, linked); !s.ok()) return s;
+  }
+  WarnOfOrder(device, linked);
+  return {};
+}
+
+Status LinkTargets(const DeviceImpl& device, LinkedGraphics& linked) {
+  if (!linked.has_pixel()) return {};
+  for (const SignatureElement& e : OutputsOf(linked.pixel)) {
+    if (e.system_value == SystemValue::kDepth) linked.pixel_columns.depth = e.first_column;
+    if (e.system_value != SystemValue::kTarget) continue;
+    const uint32_t slot = e.semantic_index;
+    if (slot >= kSimultaneousRenderTargetCount) continue;  // refused by the compiler
+    linked.pixel_columns.targets[slot] = {e.first_column, e.components};
+    const Format format = linked.target_formats[slot];
+    if (slot >= linked.target_count || format == Format::kUnknown) {
+      device.Report(
+          MessageSeverity::kWarning,
+          MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name),
+                    ": pixel shader ", Quoted(linked.pixel.name), " writes ", Describe(e),
+                    ", but RTVFormats has no target in that slot: the output is dropped"));
+      continue;
+    }
+    if (ColumnTypeOf(format) != e.type) {
+      return MakeError(Id::kTargetOutput, "pixel shader ", Quoted(linked.pixel.name), " writes ",
+                       Describe(e), "; RTVFormats[", slot, "] is DXGI format ",
+                       static_cast<uint32_t>(format), ", which takes ",
+                       TypeName(ColumnTypeOf(format)));
+    }
+  }
+  return {};
+}
+
+}  // namespace rtapi::detail

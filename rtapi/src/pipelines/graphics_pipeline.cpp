@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/graphics_pipeline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <rtapi/device.h>
+
+#include "rtapi/src/pipelines/bindings.h"
+#include "rtapi/src/pipelines/graphics_link.h"
+#include "rtapi/src/pipelines/pipeline_state_impl.h"
+#include "rtapi/src/pipelines/root_signature_impl.h"
+#include "rtapi/src/shaders/shader_library_impl.h"
+#include "runtime/backend/linked_graphics.h"
+
+namespace rtapi {
+
+namespace detail {
+
+namespace {
+
+using runtime::LinkedGraphics;
+
+constexpr const char* kZeroed = "; was the description zeroed? Begin with a default one";
+
+Status Unsupported(const std::string& what) {
+  return MakeError(Id::kGraphicsUnsupported, what);
+}
+
+Status CheckRasterizer(const RasterizerDesc& desc) {
+  if (desc.FillMode == FillMode::kWireframe) return Unsupported("FillMode is kWireframe");
+  if (desc.FillMode != FillMode::kSolid) {
+    return MakeError(Id::kGraphicsDesc, "FillMode is ", static_cast<uint32_t>(desc.FillMode),
+                     "; it must be kSolid (3)", kZeroed);
+  }
+  if (desc.CullMode < CullMode::kNone || desc.CullMode > CullMode::kBack) {
+    return MakeError(Id::kGraphicsDesc, "CullMode is ", static_cast<uint32_t>(desc.CullMode),
+                     "; it must be 1 to 3", kZeroed);
+  }
+  if (!std::isfinite(desc.DepthBiasClamp) || !std::isfinite(desc.SlopeScaledDepthBias)) {
+    return MakeError(Id::kGraphicsDesc, "DepthBiasClamp is ", desc.DepthBiasClamp,
+                     " and SlopeScaledDepthBias ", desc.SlopeScaledDepthBias,
+                     "; both must be finite");
+  }
+  return {};
+}
+
+Status CheckDepth(const DepthStencilDesc& desc) {
+  if (desc.StencilEnable) return Unsupported("StencilEnable is true: there is no stencil test");
+  if (!desc.DepthEnable) return {};
+  if (desc.DepthFunc < ComparisonFunc::kNever || desc.DepthFunc > ComparisonFunc::kAlways) {
+    return MakeError(Id::kGraphicsDesc, "DepthFunc is ", static_cast<uint32_t>(desc.DepthFunc),
+                     "; it must be 1 to 8", kZeroed);
+  }
+  if (desc.DepthWriteMask > DepthWriteMask::kAll) {
+    return MakeError(Id::kGraphicsDesc, "DepthWriteMask is ",
+                     static_cast<uint32_t>(desc.DepthWriteMask), "; it must be 0 or 1");
+  }
+  return {};
+}
+
+bool ReadsSecondSource(Blend blend) {
+  return blend >= Blend::kSrc1Color && blend <= Blend::kInvSrc1Alpha;
+}
+bool IsBlend(Blend blend) {
+  return (blend >= Blend::kZero && blend <= Blend::kSrcAlphaSat) || blend == Blend::kBlendFactor ||
+         blend == Blend::kInvBlendFactor;
+}
+bool IsColorBlend(Blend blend) {
+  return blend == Blend::kSrcColor || blend == Blend::kInvSrcColor || blend == Blend::kDestColor ||
+         blend == Blend::kInvDestColor;
+}
+
+Status CheckBlend(const RenderTargetBlendDesc& desc, uint32_t slot) {
+  const std::string where = Text("RenderTarget[", slot, "]");
+  if (desc.LogicOpEnable) return Unsupported(where + " has LogicOpEnable");
+  if (static_cast<uint32_t>(desc.RenderTargetWriteMask) > 15) {
+    return MakeError(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
+                     static_cast<uint32_t>(desc.RenderTargetWriteMask), "; it must be 0 to 15");
+  }
+  if (!desc.BlendEnable) return {};
+  const std::pair<const char*, Blend> factors[] = {{"SrcBlend", desc.SrcBlend},
+                                                   {"DestBlend", desc.DestBlend},
+                                                   {"SrcBlendAlpha", desc.SrcBlendAlpha},
+                                                   {"DestBlendAlpha", desc.DestBlendAlpha}};
+  for (const auto& [name, factor] : factors) {
+    if (ReadsSecondSource(factor)) {
+      return Unsupported(Text(where, ".", name, " reads a second source of colours"));
+    }
+    if (!IsBlend(factor)) {
+      return MakeError(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
+                       "; it must be 1 to 11, 14 or 15", kZeroed);
+    }
+    const bool of_alpha = std::string_view(name).ends_with("Alpha");
+    if (of_alpha && IsColorBlend(factor)) {
+      return MakeError(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
+                       ", a colour; alpha takes the factor of the same name with Alpha");
+    }
+  }
+  const auto is_op = [](BlendOp op) { return op >= BlendOp::kAdd && op <= BlendOp::kMax; };
+  if (is_op(desc.BlendOp) && is_op(desc.BlendOpAlpha)) return {};
+  return MakeError(Id::kGraphicsDesc, where, " has BlendOp ", static_cast<uint32_t>(desc.BlendOp),
+                   " and BlendOpAlpha ", static_cast<uint32_t>(desc.BlendOpAlpha),
+                   "; they must be 1 to 5", kZeroed);
+}
+
+Status CheckTopology(const GraphicsPipelineStateDesc& desc) {
+  const auto type = desc.PrimitiveTopologyType;
+  if (type == PrimitiveTopologyType::kUndefined || type > PrimitiveTopologyType::kPatch) {
+    return MakeError(Id::kGraphicsDesc, "PrimitiveTopologyType is ", static_cast<uint32_t>(type),
+                     "; it must be kTriangle (3)");
+  }
+  if (type != PrimitiveTopologyType::kTriangle) {
+    return Unsupported(Text("PrimitiveTopologyType is ", static_cast<uint32_t>(type),
+                            "; only kTriangle (3) is drawn"));
+  }
+  if (desc.IBStripCutValue > IndexBufferStripCutValue::k0xFFFFFFFF) {
+    return MakeError(Id::kGraphicsDesc, "IBStripCutValue is ",
+                     static_cast<uint32_t>(desc.IBStripCutValue), "; it must be 0 to 2");
+  }
+  return {};
+}
+
+// Formats of targets, and what is blended into them.
+Status TakeTargets(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
+                   LinkedGraphics& linked) {
+  if (desc.RTVFormats.size() > kSimultaneousRenderTargetCount) {
+    return MakeError(Id::kGraphicsDesc, "RTVFormats has ", desc.RTVFormats.size(),
+                     " formats; at most 8");
+  }
+  linked.target_count = static_cast<uint32_t>(desc.RTVFormats.size());
+  if (desc.BlendState.AlphaToCoverageEnable) return Unsupported("AlphaToCoverageEnable is true");
+  for (uint32_t i = 0; i < kSimultaneousRenderTargetCount; ++i) {
+    linked.blend[i] = desc.BlendState.RenderTarget[desc.BlendState.IndependentBlendEnable ? i : 0];
+    if (i >= linked.target_count) continue;
+    if (Status s = CheckBlend(linked.blend[i], i); !s.ok()) return s;
+    const Format format = desc.RTVFormats[i];
+    linked.target_formats[i] = format;
+    if (format == Format::kUnknown) continue;
+    const FormatInfo info = GetFormatInfo(format);
+    const bool blend = linked.blend[i].BlendEnable;
+    if (blend && (info.type == FormatClass::kUint || info.type == FormatClass::kSint)) {
+      return MakeError(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
+                       static_cast<uint32_t>(format), ", whose integers cannot be blended");
+    }
+    if (!device.backend->supports_target(format, blend)) {
+      const bool only_blend = blend && device.backend->supports_target(format, false);
+      return MakeError(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
+                       static_cast<uint32_t>(format), ", which this backend cannot ",
+                       only_blend ? "blend" : "draw to");
+    }
+  }
+  linked.depth_format = desc.DSVFormat;
+  if (desc.DSVFormat != Format::kUnknown &&
+      (!IsDepthFormat(desc.DSVFormat) || !device.backend->supports_target(desc.DSVFormat, false))) {
+    return MakeError(Id::kTargetFormat, "DSVFormat is DXGI format ",
+                     static_cast<uint32_t>(desc.DSVFormat), "; it must be a depth format");
+  }
+  return {};
+}
+
+// The only export of a stage, or that of the name.
+Result<const shader::ExportDesc*> FindShader(const ShaderLibrary& library, const std::string& name,
+                                             shader::Stage stage, const char* kind) {
+  const auto& table = *library.impl()->desc;
+  const shader::ExportDesc* found = nullptr;
+  std::string known;
+  for (uint32_t i = 0; i < table.export_count; ++i) {
+    const auto& e = table.exports[i];
+    if (e.stage != stage || !e.graphics) continue;
+    known += Text(known.empty() ? "" : ", ", Quoted(e.name));
+    if (!name.empty() && name != e.name) continue;
+    if (found) {
+      return MakeError(Id::kGraphicsShader, Quoted(library.name()), " has several ", kind,
+                       " shaders; name one of ", known, " in EntryPoint");
+    }
+    found = &e;
+  }
+  if (found) return found;
+  return MakeError(Id::kGraphicsShader, Quoted(library.name()), " has no ", kind, " shader ",
+                   Quoted(name), "; it has ", known.empty() ? "none" : known);
+}
+
+Status LinkShader(const DeviceImpl& device, const RootSignature& signature,
+                  const GraphicsShader& given, shader::Stage stage, runtime::LinkedShader& linked) {
+  const bool vertex = stage == shader::Stage::kVertex;
+  const ShaderLibrary library = device.LibraryToRun(given.Library);
+  auto code = FindShader(library, given.EntryPoint, stage, vertex ? "vertex" : "pixel");
+  if (!code.ok()) return code.error();
+  const std::string where = Text(vertex ? "vertex" : "pixel", " shader ", Quoted((*code)->name));
+  if (Status s = CheckTier(device, **code, where); !s.ok()) return s;
+  const RootSignatureFlags denied = vertex ? RootSignatureFlags::kDenyVertexShaderRootAccess
+                                           : RootSignatureFlags::kDenyPixelShaderRootAccess;
+  if ((*code)->binding_count > 0 && HasAny(signature.GetDesc().Flags, denied)) {
+    return MakeError(Id::kStageRootAccess, where, " has ", (*code)->binding_count,
+                     " resources, but the root signature has kDeny", vertex ? "Vertex" : "Pixel",
+                     "ShaderRootAccess");
+  }
+  const auto& table = *library.impl()->desc;
+  auto slots = ResolveBindings(table, **code, signature, RootSignature(), where,
+                               vertex ? ShaderVisibility::kVertex : ShaderVisibility::kPixel);
+  if (!slots.ok()) return slots.error();
+  linked.name = (*code)->name;
+  linked.stage = stage;
+  linked.code = *code;
+  linked.library = &table;
+  linked.slots = std::move(*slots);
+  linked.stack_bytes = (*code)->stack_bytes;
+  linked.library_owner = library;
+  linked.global_root_signature = signature;
+  return {};
+}
+
+Status LinkShaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
+                   LinkedGraphics& linked) {
+  if (!desc.VS.Library) return MakeError(Id::kNullHandle, "VS.Library is an empty library handle");
+  if (Status s =
+          LinkShader(device, desc.pRootSignature, desc.VS, shader::Stage::kVertex, linked.vertex);
+      !s.ok()) {
+    return s;
+  }
+  linked.name = desc.Name.empty() ? linked.vertex.name : desc.Name;
+  if (desc.PS.Library) {
+    if (Status s =
+            LinkShader(device, desc.pRootSignature, desc.PS, shader::Stage::kPixel, linked.pixel);
+        !s.ok()) {
+      return s;
+    }
+  }
+  if (!desc.InputLayout.empty() && !HasAny(desc.pRootSignature.GetDesc().Flags,
+                                           RootSignatureFlags::kAllowInputAssemblerInputLayout)) {
+    return MakeError(Id::kStageRootAccess, "InputLayout has ", desc.InputLayout.size(),
+                     " elements, but the root signature lacks kAllowInputAssemblerInputLayout");
+  }
+  if (Status s = LinkInputLayout(desc, linked); !s.ok()) return s;
+  if (Status s = LinkStages(device, linked); !s.ok()) return s;
+  return LinkTargets(device, linked);
+}
+
+void WarnOfSampleMask(const DeviceImpl& device, const LinkedGraphics& linked) {
+  if ((linked.sample_mask & 1) != 0) return;
+  device.Report(
+      MessageSeverity::kWarning,
+      MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name), ": SampleMask is ",
+                Hex(linked.sample_mask), ", so that nothing is drawn; set it to 0xFFFFFFFF"));
+}
+
+}  // namespace
+
+}  // namespace detail
+
+using namespace detail;
+
+Result<PipelineState> Device::CreateGraphicsPipelineState(
+    const GraphicsPipelineStateDesc& desc) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateGraphicsPipelineState on an empty device");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
+    return s.error();
+  }
+  if (desc.pRootSignature.is_local()) {
+    return MakeError(Id::kRootSignatureKind,
+                     "a graphics pipeline needs a global root signature, but this one is local");
+  }
+  if (Status s = CheckRasterizer(desc.RasterizerState); !s.ok()) return s.error();
+  if (Status s = CheckDepth(desc.DepthStencilState); !s.ok()) return s.error();
+  if (Status s = CheckTopology(desc); !s.ok()) return s.error();
+  auto linked = std::make_shared<runtime::LinkedGraphics>();
+  linked->rasterizer = desc.RasterizerState;
+  linked->depth_stencil = desc.DepthStencilState;
+  linked->sample_mask = desc.SampleMask;
+  linked->strip_cut = desc.IBStripCutValue;
+  if (Status s = TakeTargets(*impl_, desc, *linked); !s.ok()) return s.error();
+  if (Status s = LinkShaders(*impl_, desc, *linked); !s.ok()) return s.error();
+  WarnOfSampleMask(*impl_, *linked);
+  if (impl_->checks) impl_->checks->created(*linked);
+  auto pipeline = impl_->backend->create_graphics_pipeline(linked);
+  if (!pipeline.ok()) return pipeline.error();
+  auto impl = std::make_shared<PipelineStateImpl>();
+  impl->device = impl_;
+  impl->name = linked->name;
+  impl->root_signature = desc.pRootSignature;
+  impl->pipeline = std::move(*pipeline);
+  impl->graphics = std::move(linked);
+  return PipelineState(std::move(impl));
+}
+
+}  // namespace rtapi

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/pipelines/hit_attributes.h"
+
+#include <vector>
+
+namespace rtapi::detail {
+
+namespace {
+
+using shader::Stage;
+
+bool IgnoresAttributes(const Subject& s) {
+  return (s.code->flags & shader::kExportIgnoresAttributes) != 0;
+}
+
+}  // namespace
+
+const char* StageName(Stage stage) {
+  switch (stage) {
+    case Stage::kPixel:
+      return "pixel";
+    case Stage::kVertex:
+      return "vertex";
+    case Stage::kCompute:
+      return "compute";
+    case Stage::kLibrary:
+      return "library function";
+    case Stage::kRayGeneration:
+      return "ray generation";
+    case Stage::kIntersection:
+      return "intersection";
+    case Stage::kAnyHit:
+      return "any-hit";
+    case Stage::kClosestHit:
+      return "closest-hit";
+    case Stage::kMiss:
+      return "miss";
+    case Stage::kCallable:
+      return "callable";
+  }
+  return "unknown";
+}
+
+std::string Describe(const Subject& s) {
+  return s.is_group() ? Text("hit group ", Quoted(s.name))
+                      : Text(StageName(s.code->stage), " shader ", Quoted(s.name));
+}
+
+// A shader that reads no attributes may declare any in a procedural group, as with the drivers of
+// native devices: often it is one that serves triangles, too.
+Status CheckAttributes(const DeviceImpl& device, const Subject& group) {
+  const bool triangles = group.group.Type == HitGroupType::kTriangles;
+  const Subject* first = nullptr;
+  std::vector<const Subject*> unread;
+  for (const SubjectPtr& m : group.members) {
+    if (!m || m->code->attribute_bytes == 0) continue;
+    if (triangles && m->code->attribute_bytes != 8) {
+      return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*m), " takes ",
+                       m->code->attribute_bytes,
+                       " bytes of attributes, but triangles pass "
+                       "BuiltInTriangleIntersectionAttributes (8 bytes)");
+    }
+    if (!triangles && IgnoresAttributes(*m)) {
+      unread.push_back(m.get());
+      continue;
+    }
+    if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
+      return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*first), " has ",
+                       first->code->attribute_bytes, " bytes of attributes, but ", Describe(*m),
+                       " has ", m->code->attribute_bytes);
+    }
+    first = m.get();
+  }
+  // One that has an identifier was checked with the state object that it comes from.
+  if (!first || group.identifier) return {};
+  for (const Subject* m : unread) {
+    if (m->code->attribute_bytes == first->code->attribute_bytes) continue;
+    device.Report(
+        MessageSeverity::kWarning,
+        MakeError(Id::kAttributesUnread, Describe(group), ": ", Describe(*m), " declares ",
+                  m->code->attribute_bytes, " bytes of attributes and reads none of them, and ",
+                  Describe(*first), " has ", first->code->attribute_bytes,
+                  "; DXR wants one type in a hit group"));
+  }
+  return {};
+}
+
+}  // namespace rtapi::detail

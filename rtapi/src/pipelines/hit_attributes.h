@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+//
+// The attributes of a hit group: what its intersection shader reports and its other shaders take.
+#pragma once
+
+#include <string>
+
+#include "rtapi/src/pipelines/state_object_impl.h"
+
+namespace rtapi::detail {
+
+const char* StageName(shader::Stage stage);    // "closest-hit"
+std::string Describe(const Subject& subject);  // "hit group \"Sofa\""
+
+// Errors: KA0524 sizes differ. Warns of KA0553: they differ where nothing is read.
+Status CheckAttributes(const DeviceImpl& device, const Subject& group);
+
+}  // namespace rtapi::detail

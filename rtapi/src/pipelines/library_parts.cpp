@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+//
+// What a state object takes from a shader library: exports, and subobjects declared in HLSL.
+// [DXR: Subobjects in DXIL libraries]
+#include <algorithm>
+#include <cstdio>
+
+#include "rtapi/src/pipelines/root_signature_impl.h"
+#include "rtapi/src/pipelines/state_object_gatherer.h"
+#include "rtapi/src/shaders/shader_library_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+std::vector<std::string> SplitNames(const char* list) {
+  std::vector<std::string> names;
+  std::string current;
+  for (const char* c = list ? list : "";; ++c) {
+    if (*c == ';' || *c == '\0') {
+      if (!current.empty()) names.push_back(current);
+      current.clear();
+      if (*c == '\0') return names;
+    } else if (*c != ' ') {
+      current += *c;
+    }
+  }
+}
+
+}  // namespace
+
+Status Gatherer::Gather(const DxilLibraryDesc& sub, size_t i) {
+  const std::string where = Where(i);
+  if (!sub.DXILLibrary) {
+    return MakeError(Id::kNullHandle, where, ": DXILLibrary is an empty handle");
+  }
+  const std::string& target = sub.DXILLibrary.target();
+  unsigned major = 0, minor = 0;
+  const bool lib = std::sscanf(target.c_str(), "lib_%u_%u", &major, &minor) == 2;
+  if (!lib || major < 6 || (major == 6 && minor < 3)) {
+    return MakeError(Id::kLibraryTarget, where, ": ", Quoted(sub.DXILLibrary.name()),
+                     " was compiled for ", Quoted(target), "; it must be lib_6_3 or later");
+  }
+  const int scope = static_cast<int>(parts_.libraries.size());
+  parts_.libraries.push_back(sub.DXILLibrary);
+  parts_.library_scopes.emplace_back();
+  library_definitions_.emplace_back();
+  if (Status s = GatherExports(sub, scope, where); !s.ok()) return s;
+  return GatherLibrarySubobjects(sub, scope);
+}
+
+bool Gatherer::IsListed(const DxilLibraryDesc& sub, const char* name) {
+  if (sub.Exports.empty()) return true;
+  return name && std::any_of(sub.Exports.begin(), sub.Exports.end(), [&](const ExportDesc& e) {
+           return e.Name == name || e.ExportToRename == name;
+         });
+}
+
+void Gatherer::AddShader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
+                         const std::string& renamed) {
+  // What a state object has no use for.
+  if (code.stage == shader::Stage::kCompute || code.stage == shader::Stage::kVertex ||
+      code.stage == shader::Stage::kPixel) {
+    return;
+  }
+  auto subject = std::make_shared<Subject>();
+  subject->name = renamed.empty() ? code.name : renamed;
+  if (renamed.empty() && code.mangled_name) subject->mangled = code.mangled_name;
+  subject->code = &code;
+  subject->library = library;
+  subject->library_scope = scope;
+  parts_.subjects.push_back(std::move(subject));
+}
+
+Status Gatherer::GatherExports(const DxilLibraryDesc& sub, int scope, const std::string& where) {
+  const auto& table = *sub.DXILLibrary.impl()->desc;
+  if (sub.Exports.empty()) {
+    for (uint32_t i = 0; i < table.export_count; ++i) {
+      AddShader(table.exports[i], sub.DXILLibrary, scope, {});
+    }
+    return {};
+  }
+  for (const ExportDesc& wanted : sub.Exports) {
+    if (wanted.Name.empty()) {
+      return MakeError(Id::kExportUnnamed, where, ": an ExportDesc has an empty Name");
+    }
+    const std::string& source = wanted.ExportToRename.empty() ? wanted.Name : wanted.ExportToRename;
+    std::vector<const shader::ExportDesc*> found;
+    for (uint32_t i = 0; i < table.export_count; ++i) {
+      const auto& e = table.exports[i];
+      if (e.mangled_name && source == e.mangled_name) {
+        found = {&e};
+        break;
+      }
+      if (source == e.name) found.push_back(&e);
+    }
+    const bool renames = !wanted.ExportToRename.empty() && wanted.ExportToRename != wanted.Name;
+    if (found.size() > 1 && renames) {
+      return MakeError(Id::kExportAmbiguous, where, ": ", Quoted(source), " of ",
+                       Quoted(sub.DXILLibrary.name()), " has ", found.size(),
+                       " overloads; use the mangled name to rename one");
+    }
+    if (found.empty() && !IsSubobject(table, source)) {
+      return MakeError(Id::kExportNotFound, where, ": ", Quoted(sub.DXILLibrary.name()),
+                       " has no export ", Quoted(source), "; it has ", ListExports(table));
+    }
+    for (const auto* e : found) {
+      AddShader(*e, sub.DXILLibrary, scope, renames ? wanted.Name : std::string());
+    }
+  }
+  return {};
+}
+
+bool Gatherer::IsSubobject(const shader::LibraryDesc& table, const std::string& name) {
+  for (uint32_t i = 0; i < table.subobject_count; ++i) {
+    if (table.subobjects[i].name && name == table.subobjects[i].name) return true;
+  }
+  return false;
+}
+
+std::string Gatherer::ListExports(const shader::LibraryDesc& table) {
+  std::string list;
+  for (uint32_t i = 0; i < table.export_count && i < 12; ++i) {
+    list += Text(i ? ", " : "", Quoted(table.exports[i].name));
+  }
+  if (table.export_count > 12) list += ", ...";
+  return list.empty() ? "none" : list;
+}
+
+Status Gatherer::GatherLibrarySubobjects(const DxilLibraryDesc& sub, int scope) {
+  const auto& table = *sub.DXILLibrary.impl()->desc;
+  for (uint32_t i = 0; i < table.subobject_count; ++i) {
+    const auto& s = table.subobjects[i];
+    if (!IsListed(sub, s.name)) continue;
+    const std::string name = s.name ? s.name : "";
+    const std::string where = Text(Quoted(name), " of ", Quoted(sub.DXILLibrary.name()));
+    DefinitionPtr definition;
+    Status status;
+    switch (static_cast<StateSubobjectType>(s.type)) {
+      case StateSubobjectType::kGlobalRootSignature:
+        status = DefineFromText(s.strings[0], false, where, definition);
+        break;
+      case StateSubobjectType::kLocalRootSignature:
+        status = DefineFromText(s.strings[0], true, where, definition);
+        break;
+      case StateSubobjectType::kRaytracingShaderConfig:
+        status = DefineShaderConfig({s.values[0], s.values[1]}, where, definition);
+        break;
+      case StateSubobjectType::kRaytracingPipelineConfig:
+        status = DefinePipelineConfig({s.values[0], RaytracingPipelineFlags::kNone}, false, where,
+                                      definition);
+        break;
+      case StateSubobjectType::kRaytracingPipelineConfig1:
+        status =
+            DefinePipelineConfig({s.values[0], static_cast<RaytracingPipelineFlags>(s.values[1])},
+                                 true, where, definition);
+        break;
+      case StateSubobjectType::kHitGroup: {
+        auto text = [&s](int k) { return std::string(s.strings[k] ? s.strings[k] : ""); };
+        status =
+            AddHitGroup({name, static_cast<HitGroupType>(s.values[0]), text(0), text(1), text(2)},
+                        scope, where);
+        break;
+      }
+      case StateSubobjectType::kStateObjectConfig:
+        break;
+      case StateSubobjectType::kSubobjectToExportsAssociation:
+      case StateSubobjectType::kDxilSubobjectToExportsAssociation:
+        library_associations_.push_back(
+            {scope, s.strings[0] ? s.strings[0] : "", SplitNames(s.strings[1]), where});
+        break;
+      default:
+        status = MakeError(Id::kLibrarySubobject, where, ": type ", s.type,
+                           " cannot be declared in HLSL");
+    }
+    if (!status.ok()) return status;
+    if (definition) library_definitions_[static_cast<size_t>(scope)][name] = definition;
+  }
+  return {};
+}
+
+Status Gatherer::DefineFromText(const char* text, bool local, const std::string& where,
+                                DefinitionPtr& out) {
+  auto desc = ParseRootSignature(text ? text : "");
+  if (!desc.ok()) return MakeError(Id::kLibrarySubobject, where, ": ", desc.error().message);
+  // Like DXC, set the flag for LocalRootSignature subobjects, whatever the string says.
+  if (local) desc->Flags |= RootSignatureFlags::kLocalRootSignature;
+  auto signature = MakeRootSignature(parts_.device, *desc);
+  if (!signature.ok()) {
+    return MakeError(Id::kLibrarySubobject, where, ": ", signature.error().message);
+  }
+  return DefineRootSignature(*signature, local, where, out);
+}
+}  // namespace rtapi::detail

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/resources/acceleration_structure.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <rtapi/device.h>
+
+#include "runtime/structures/serialized_identifier.h"
+
+namespace rtapi {
+
+namespace detail {
+
+namespace {
+
+using BuildFlags = RaytracingAccelerationStructureBuildFlags;
+using StructureType = RaytracingAccelerationStructureType;
+
+struct VertexFormatInfo {
+  Format format;
+  uint32_t component_bytes;  // alignment of the address and of the stride
+  uint32_t read_bytes;       // what a build reads per vertex, without the A component
+  uint32_t stride;           // 0: any multiple of component_bytes
+  bool tier_1_1;
+};
+
+// [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
+constexpr VertexFormatInfo kVertexFormats[] = {
+    {Format::kR32G32Float, 4, 8, 0, false},     {Format::kR32G32B32Float, 4, 12, 0, false},
+    {Format::kR16G16Float, 2, 4, 0, false},     {Format::kR16G16B16A16Float, 2, 6, 0, false},
+    {Format::kR16G16Snorm, 2, 4, 0, false},     {Format::kR16G16B16A16Snorm, 2, 6, 0, false},
+    {Format::kR16G16Unorm, 2, 4, 0, true},      {Format::kR16G16B16A16Unorm, 2, 6, 0, true},
+    {Format::kR10G10B10A2Unorm, 4, 4, 4, true}, {Format::kR8G8Unorm, 1, 2, 0, true},
+    {Format::kR8G8B8A8Unorm, 1, 3, 0, true},    {Format::kR8G8Snorm, 1, 2, 0, true},
+    {Format::kR8G8B8A8Snorm, 1, 3, 0, true},
+};
+
+const VertexFormatInfo* FindVertexFormat(Format format) {
+  for (const auto& f : kVertexFormats) {
+    if (f.format == format) return &f;
+  }
+  return nullptr;
+}
+
+std::string GeometryText(size_t index) {
+  return Text("geometry ", index);
+}
+
+// What a description is checked for. Sizes depend on no address; at most on whether one is null.
+// [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
+enum class Purpose { kSize, kBuild };
+
+Status CheckAddresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_unit,
+                      const std::string& where) {
+  if (t.VertexBuffer.StartAddress % vertex_unit != 0) {
+    return MakeError(Id::kVertexBufferAlignment, where, ": vertices are at ",
+                     Hex(t.VertexBuffer.StartAddress),
+                     "; this format needs an address that is a multiple of ", vertex_unit);
+  }
+  const bool none = t.IndexFormat == Format::kUnknown;
+  if (!none && t.IndexBuffer == 0) {
+    return MakeError(Id::kIndexBuffer, where, ": IndexCount is ", t.IndexCount, " and the format ",
+                     static_cast<uint32_t>(t.IndexFormat),
+                     ", but there is no index buffer; without one the format must be kUnknown and "
+                     "the count 0");
+  }
+  const uint32_t index_bytes = t.IndexFormat == Format::kR16Uint ? 2 : 4;
+  if (!none && t.IndexBuffer % index_bytes != 0) {
+    return MakeError(Id::kIndexBuffer, where, ": indices at ", Hex(t.IndexBuffer),
+                     "; the address must be a multiple of ", index_bytes);
+  }
+  if (t.Transform3x4 % kRaytracingTransform3x4ByteAlignment != 0) {
+    return MakeError(Id::kTransformAlignment, where, ": Transform3x4 is at ", Hex(t.Transform3x4),
+                     "; its address must be a multiple of 16");
+  }
+  return {};
+}
+
+Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTrianglesDesc& t,
+                      size_t index, Purpose purpose) {
+  const std::string where = GeometryText(index);
+  const VertexFormatInfo* format = FindVertexFormat(t.VertexFormat);
+  if (!format || (format->tier_1_1 && device.desc.Tier < RaytracingTier::kTier1_1)) {
+    return MakeError(Id::kVertexFormat, where, ": vertex format ",
+                     static_cast<uint32_t>(t.VertexFormat),
+                     format ? " needs tier 1.1; this device was created with tier 1.0"
+                            : " is not one of DXR's vertex formats");
+  }
+  // Only the low 32 bits of the stride count. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
+  const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
+  const uint32_t unit = format->component_bytes;
+  if (stride % unit != 0 || (format->stride && t.VertexCount > 1 && stride != format->stride)) {
+    return MakeError(Id::kVertexBufferAlignment, where, ": vertices have stride ", stride,
+                     "; this format needs ",
+                     format->stride ? std::string("a stride of 4")
+                                    : Text("a stride that is a multiple of ", unit));
+  }
+  const bool none = t.IndexFormat == Format::kUnknown;
+  if (!none && t.IndexFormat != Format::kR16Uint && t.IndexFormat != Format::kR32Uint) {
+    return MakeError(Id::kIndexBuffer, where, ": index format ",
+                     static_cast<uint32_t>(t.IndexFormat),
+                     "; it must be kR16Uint, kR32Uint, or kUnknown without an index buffer");
+  }
+  if (none && (t.IndexBuffer != 0 || t.IndexCount != 0)) {
+    return MakeError(Id::kIndexBuffer, where, ": index format is kUnknown, but ",
+                     t.IndexBuffer ? std::string("an index buffer is given")
+                                   : Text("IndexCount is ", t.IndexCount));
+  }
+  return purpose == Purpose::kBuild ? CheckAddresses(t, unit, where) : Status();
+}
+
+Status CheckAabbs(const RaytracingGeometryAabbsDesc& a, size_t index, Purpose purpose) {
+  const uint64_t address = purpose == Purpose::kBuild ? a.AABBs.StartAddress : 0;
+  if (address % kRaytracingAabbByteAlignment == 0 &&
+      a.AABBs.StrideInBytes % kRaytracingAabbByteAlignment == 0) {
+    return {};
+  }
+  return MakeError(Id::kAabbAlignment, GeometryText(index), ": AABBs at ",
+                   Hex(a.AABBs.StartAddress), " with stride ", a.AABBs.StrideInBytes,
+                   "; both must be multiples of 8");
+}
+
+uint64_t PrimitiveCount(const RaytracingGeometryDesc& g) {
+  if (g.Type != RaytracingGeometryType::kTriangles) return g.AABBs.AABBCount;
+  const auto& t = g.Triangles;
+  return (t.IndexFormat == Format::kUnknown ? t.VertexCount : t.IndexCount) / 3;
+}
+
+const RaytracingGeometryDesc* GeometryAt(const BuildRaytracingAccelerationStructureInputs& inputs,
+                                         uint32_t i) {
+  return inputs.DescsLayout == ElementsLayout::kArray ? inputs.pGeometryDescs + i
+                                                      : inputs.ppGeometryDescs[i];
+}
+
+Status CheckGeometries(const DeviceImpl& device,
+                       const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
+  if (inputs.NumDescs > kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure) {
+    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " geometries; at most 2^24 are allowed");
+  }
+  if (inputs.NumDescs != 0 && inputs.pGeometryDescs == nullptr) {
+    return MakeError(Id::kGeometryDescsNull, "NumDescs is ", inputs.NumDescs,
+                     ", but the pointer to the geometry descs is null");
+  }
+  uint64_t primitives = 0;
+  RaytracingGeometryType type = RaytracingGeometryType::kTriangles;
+  for (uint32_t i = 0; i < inputs.NumDescs; ++i) {
+    const RaytracingGeometryDesc* g = GeometryAt(inputs, i);
+    if (!g) return MakeError(Id::kGeometryDescsNull, GeometryText(i), " is a null pointer");
+    if (g->Type > RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+      return MakeError(Id::kBuildInputs, GeometryText(i), " has type ",
+                       static_cast<uint32_t>(g->Type), "; it must be 0 or 1");
+    }
+    if (i == 0) type = g->Type;
+    if (g->Type != type) {
+      return MakeError(Id::kGeometryMixed, GeometryText(i), " holds ",
+                       type == RaytracingGeometryType::kTriangles
+                           ? "AABBs but geometry 0 holds triangles"
+                           : "triangles but geometry 0 holds AABBs",
+                       "; all geometries of a bottom level must be of one kind");
+    }
+    const auto known =
+        RaytracingGeometryFlags::kOpaque | RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
+    if ((g->Flags & ~known) != RaytracingGeometryFlags::kNone) {
+      return MakeError(Id::kBuildInputs, GeometryText(i), " has undefined flags ",
+                       Hex(static_cast<uint32_t>(g->Flags)));
+    }
+    Status s = type == RaytracingGeometryType::kTriangles
+                   ? CheckTriangles(device, g->Triangles, i, purpose)
+                   : CheckAabbs(g->AABBs, i, purpose);
+    if (!s.ok()) return s;
+    const uint64_t count = PrimitiveCount(*g);
+    primitives = std::min(primitives, UINT64_MAX - count) + count;
+  }
+  if (primitives > kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
+    return MakeError(Id::kGeometryLimits, primitives, " primitives; at most 2^29 are allowed");
+  }
+  return {};
+}
+
+// Checks that every byte of [address, address + bytes) lies in one live buffer.
+Status CheckLive(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                 const std::string& what) {
+  if (bytes == 0) return {};
+  const uint64_t available = device.addresses.bytes_from(address);
+  if (available == 0) {
+    return MakeError(Id::kBuildAddress, what, ": needs ", bytes, " bytes at ",
+                     device.DescribeAddress(address));
+  }
+  if (available < bytes) {
+    return MakeError(Id::kBuildMemoryTooSmall, what, ": needs ", bytes, " bytes from ",
+                     device.DescribeAddress(address), ", but the buffer has only ", available,
+                     " left there");
+  }
+  return {};
+}
+
+// Bytes from the start of the first element to the end of the last; UINT64_MAX on overflow.
+uint64_t Extent(uint64_t count, uint64_t stride, uint64_t element) {
+  if (count == 0) return 0;
+  if (stride != 0 && count - 1 > (UINT64_MAX - element) / stride) return UINT64_MAX;
+  return (count - 1) * stride + element;
+}
+
+Status CheckGeometryMemory(const DeviceImpl& device, const RaytracingGeometryDesc& g,
+                           size_t index) {
+  const std::string where = GeometryText(index);
+  if (g.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+    return CheckLive(device, g.AABBs.AABBs.StartAddress,
+                     Extent(g.AABBs.AABBCount, g.AABBs.AABBs.StrideInBytes, sizeof(RaytracingAabb)),
+                     where + " AABBs");
+  }
+  const auto& t = g.Triangles;
+  const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
+  Status s = CheckLive(device, t.VertexBuffer.StartAddress,
+                       Extent(t.VertexCount, stride, FindVertexFormat(t.VertexFormat)->read_bytes),
+                       where + " vertices");
+  if (!s.ok()) return s;
+  const uint64_t index_bytes = t.IndexFormat == Format::kR16Uint ? 2 : 4;
+  s = CheckLive(device, t.IndexBuffer, t.IndexCount * index_bytes, where + " indices");
+  if (!s.ok() || t.Transform3x4 == 0) return s;
+  return CheckLive(device, t.Transform3x4, 48, where + " Transform3x4");
+}
+
+Status CheckInstanceMemory(const DeviceImpl& device,
+                           const BuildRaytracingAccelerationStructureInputs& inputs) {
+  const bool array = inputs.DescsLayout == ElementsLayout::kArray;
+  const uint32_t alignment = array ? kRaytracingInstanceDescsByteAlignment : 8;
+  if (inputs.NumDescs != 0 && inputs.InstanceDescs % alignment != 0) {
+    return MakeError(Id::kInstanceDescs, array ? "instance descs" : "instance desc pointers",
+                     " at ", device.DescribeAddress(inputs.InstanceDescs),
+                     "; the address must be a multiple of ", alignment);
+  }
+  return CheckLive(device, inputs.InstanceDescs,
+                   uint64_t{inputs.NumDescs} * (array ? sizeof(RaytracingInstanceDesc) : 8),
+                   "instance descs");
+}
+
+Status CheckScratch(const DeviceImpl& device, const BuildRaytracingAccelerationStructureDesc& desc,
+                    uint64_t bytes) {
+  if (bytes == 0) return {};
+  const GpuVirtualAddress scratch = desc.ScratchAccelerationStructureData;
+  if (scratch % kRaytracingAccelerationStructureByteAlignment != 0) {
+    return MakeError(Id::kAccelerationStructureAlignment, "scratch is at ",
+                     device.DescribeAddress(scratch), "; its address must be a multiple of 256");
+  }
+  const auto allocation = device.addresses.find(scratch);
+  if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kAccelerationStructureMemory, "scratch is in ",
+                     Named("buffer", allocation->name),
+                     ", which was created without kAllowUnorderedAccess");
+  }
+  return CheckLive(device, scratch, bytes, "scratch");
+}
+
+Status CheckInputs(const DeviceImpl& device,
+                   const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
+  if (inputs.Type > StructureType::kBottomLevel) {
+    return MakeError(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
+                     "; it must be kTopLevel (0) or kBottomLevel (1)");
+  }
+  if (inputs.DescsLayout > ElementsLayout::kArrayOfPointers) {
+    return MakeError(Id::kBuildInputs, "DescsLayout is ", static_cast<uint32_t>(inputs.DescsLayout),
+                     "; it must be 0 or 1");
+  }
+  if (static_cast<uint32_t>(inputs.Flags) & ~0x3Fu) {
+    return MakeError(Id::kBuildInputs, "Flags are ", Hex(static_cast<uint32_t>(inputs.Flags)),
+                     "; only the bits of 0x3f are defined");
+  }
+  if (HasAny(inputs.Flags, BuildFlags::kPreferFastTrace) &&
+      HasAny(inputs.Flags, BuildFlags::kPreferFastBuild)) {
+    return MakeError(Id::kBuildFlagsExclusive,
+                     "kPreferFastTrace and kPreferFastBuild are both set");
+  }
+  if (inputs.Type == StructureType::kBottomLevel) return CheckGeometries(device, inputs, purpose);
+  if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
+    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
+  }
+  return {};
+}
+
+}  // namespace
+
+Status CheckBuildInputs(const DeviceImpl& device,
+                        const BuildRaytracingAccelerationStructureInputs& inputs) {
+  return CheckInputs(device, inputs, Purpose::kBuild);
+}
+
+std::vector<RaytracingGeometryDesc> CopyGeometryDescs(
+    const BuildRaytracingAccelerationStructureInputs& inputs) {
+  std::vector<RaytracingGeometryDesc> out;
+  if (inputs.Type != StructureType::kBottomLevel) return out;
+  out.reserve(inputs.NumDescs);
+  for (uint32_t i = 0; i < inputs.NumDescs; ++i) out.push_back(*GeometryAt(inputs, i));
+  return out;
+}
+
+Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address,
+                             std::string_view what) {
+  if (address == 0 || address % kRaytracingAccelerationStructureByteAlignment != 0) {
+    return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
+                     device.DescribeAddress(address),
+                     "; its address must be a multiple of 256 and not 0");
+  }
+  const auto allocation = device.addresses.find(address);
+  if (!allocation) {
+    return MakeError(Id::kBuildAddress, what, " is at ", device.DescribeAddress(address));
+  }
+  if (!allocation->acceleration_structure) {
+    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
+                     Named("buffer", allocation->name),
+                     "; create it with InitialState kRaytracingAccelerationStructure");
+  }
+  return {};
+}
+
+Status CheckBuildAddresses(const DeviceImpl& device,
+                           const BuildRaytracingAccelerationStructureDesc& desc,
+                           const std::vector<RaytracingGeometryDesc>& geometries) {
+  const auto& inputs = desc.Inputs;
+  const bool update = HasAny(inputs.Flags, BuildFlags::kPerformUpdate);
+  Status s = CheckStructureAddress(device, desc.DestAccelerationStructureData, "dest");
+  if (!s.ok()) return s;
+  if (!update && desc.SourceAccelerationStructureData != 0) {
+    return MakeError(Id::kBuildUpdate, "source is ",
+                     device.DescribeAddress(desc.SourceAccelerationStructureData),
+                     ", but it must be 0 without kPerformUpdate");
+  }
+  if (update) {
+    s = CheckStructureAddress(device, desc.SourceAccelerationStructureData, "source");
+    if (!s.ok()) return s;
+  }
+  const bool top = inputs.Type == StructureType::kTopLevel;
+  const auto sizes = device.backend->prebuild_info(inputs.Type, inputs.Flags, geometries,
+                                                   top ? inputs.NumDescs : 0);
+  // An update writes as much memory as its source holds. The source may have been compacted, so
+  // only the backend knows how much that is.
+  if (!update) {
+    s = CheckLive(device, desc.DestAccelerationStructureData, sizes.ResultDataMaxSizeInBytes,
+                  "dest");
+    if (!s.ok()) return s;
+  }
+  s = CheckScratch(device, desc,
+                   update ? sizes.UpdateScratchDataSizeInBytes : sizes.ScratchDataSizeInBytes);
+  if (!s.ok()) return s;
+  for (size_t i = 0; i < geometries.size(); ++i) {
+    if (s = CheckGeometryMemory(device, geometries[i], i); !s.ok()) return s;
+  }
+  return top ? CheckInstanceMemory(device, inputs) : Status();
+}
+
+Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                           bool written, std::string_view what) {
+  if (address % kRaytracingAccelerationStructureByteAlignment != 0) {
+    return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
+                     device.DescribeAddress(address), "; its address must be a multiple of 256");
+  }
+  const auto allocation = device.addresses.find(address);
+  if (allocation && allocation->acceleration_structure) {
+    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
+                     Named("buffer", allocation->name),
+                     ", which holds acceleration structures; serialized and decoded data need a "
+                     "plain buffer");
+  }
+  if (allocation && written && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
+                     Named("buffer", allocation->name),
+                     ", which was created without kAllowUnorderedAccess");
+  }
+  return CheckLive(device, address, bytes, std::string(what));
+}
+
+Status CheckPostbuildInfo(const DeviceImpl& device,
+                          const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
+                          size_t count) {
+  using Type = RaytracingAccelerationStructurePostbuildInfoType;
+  if (desc.InfoType > Type::kCurrentSize) {
+    return MakeError(Id::kPostbuildInfo, "InfoType is ", static_cast<uint32_t>(desc.InfoType),
+                     "; it must be 0 to 3");
+  }
+  if (desc.DestBuffer % 8 != 0) {
+    return MakeError(Id::kPostbuildInfo, "DestBuffer is at ",
+                     device.DescribeAddress(desc.DestBuffer),
+                     "; its address must be a multiple of 8");
+  }
+  const auto allocation = device.addresses.find(desc.DestBuffer);
+  if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kPostbuildInfo, "DestBuffer is in ", Named("buffer", allocation->name),
+                     ", which was created without kAllowUnorderedAccess");
+  }
+  return CheckLive(device, desc.DestBuffer,
+                   count * (desc.InfoType == Type::kSerialization ? 16 : 8), "postbuild info");
+}
+
+}  // namespace detail
+
+using namespace detail;
+
+DriverMatchingIdentifierStatus Device::CheckDriverMatchingIdentifier(
+    SerializedDataType type, const SerializedDataDriverMatchingIdentifier& identifier) const {
+  if (!impl_) return DriverMatchingIdentifierStatus::kUnrecognized;
+  return runtime::check_identifier(type, identifier);
+}
+
+Result<RaytracingAccelerationStructurePrebuildInfo>
+Device::GetRaytracingAccelerationStructurePrebuildInfo(
+    const BuildRaytracingAccelerationStructureInputs& inputs) const {
+  if (!impl_)
+    return MakeError(Id::kNullHandle,
+                     "GetRaytracingAccelerationStructurePrebuildInfo "
+                     "on an empty device handle");
+  if (Status s = CheckInputs(*impl_, inputs, Purpose::kSize); !s.ok()) return s.error();
+  const bool top = inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
+  return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, CopyGeometryDescs(inputs),
+                                       top ? inputs.NumDescs : 0);
+}
+
+}  // namespace rtapi

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/resource.h>
+
+#include <algorithm>
+
+#include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/resources/resource_impl.h"
+
+namespace rtapi {
+
+namespace detail {
+
+namespace {
+
+constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 40;
+
+Status CheckBuffer(const BufferDesc& desc) {
+  const std::string name = Named("buffer", desc.Name);
+  if (desc.SizeInBytes == 0 || desc.SizeInBytes > kMaxBufferBytes) {
+    return MakeError(Id::kBufferSize, name, " has ", desc.SizeInBytes,
+                     " bytes; it must have 1 to 2^40");
+  }
+  const bool known_heap = desc.Heap == HeapType::kDefault || desc.Heap == HeapType::kUpload ||
+                          desc.Heap == HeapType::kReadback;
+  if (!known_heap) {
+    return MakeError(Id::kBufferHeap, name, " has heap type ", static_cast<uint32_t>(desc.Heap),
+                     "; it must be kDefault, kUpload or kReadback");
+  }
+  const bool unordered = HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess);
+  if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
+    return MakeError(Id::kBufferHeap, name, " has undefined flags ",
+                     Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  const bool on_default = desc.Heap == HeapType::kDefault;
+  if (unordered && !on_default) {
+    return MakeError(Id::kBufferHeap, name,
+                     " has kAllowUnorderedAccess, which needs the default heap");
+  }
+  if (desc.InitialState == ResourceStates::kRaytracingAccelerationStructure) {
+    if (!on_default || !unordered) {
+      return MakeError(Id::kAccelerationStructureBuffer, name,
+                       " starts in state kRaytracingAccelerationStructure, which needs ",
+                       on_default ? "the flag kAllowUnorderedAccess" : "the default heap");
+    }
+  } else if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
+    return MakeError(Id::kAccelerationStructureBuffer, name,
+                     " combines kRaytracingAccelerationStructure with another state");
+  } else if (!on_default && desc.InitialState != ResourceStates::kCommon) {
+    const ResourceStates fixed =
+        desc.Heap == HeapType::kUpload ? ResourceStates::kGenericRead : ResourceStates::kCopyDest;
+    if (desc.InitialState != fixed) {
+      return MakeError(Id::kBufferHeap, name, " starts in state ",
+                       Hex(static_cast<uint32_t>(desc.InitialState)), "; its heap allows only ",
+                       Hex(static_cast<uint32_t>(fixed)));
+    }
+  }
+  return {};
+}
+
+uint32_t AxisLimit(const TextureDesc& desc) {
+  switch (desc.Dimension) {
+    case ResourceDimension::kTexture1D:
+      return kReqTexture1DUDimension;
+    case ResourceDimension::kTexture2D:
+      return kReqTexture2DUOrVDimension;
+    default:
+      return kReqTexture3DUVOrWDimension;
+  }
+}
+
+// [D3D12: D3D12_RESOURCE_FLAGS]
+Status CheckTextureFlags(const TextureDesc& desc, const std::string& name) {
+  using F = ResourceFlags;
+  constexpr F kKnown = F::kAllowRenderTarget | F::kAllowDepthStencil | F::kAllowUnorderedAccess |
+                       F::kDenyShaderResource;
+  const auto fail = [&](const auto&... text) {
+    return MakeError(Id::kTextureFormat, name, " has ", text...);
+  };
+  if ((desc.Flags & ~kKnown) != F::kNone) {
+    return fail("undefined flags ", Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  const bool depth = HasAny(desc.Flags, F::kAllowDepthStencil);
+  const bool color = HasAny(desc.Flags, F::kAllowRenderTarget);
+  if (depth && HasAny(desc.Flags, F::kAllowRenderTarget | F::kAllowUnorderedAccess)) {
+    return fail("kAllowDepthStencil, which does not go with render targets or unordered access");
+  }
+  if ((depth || color) && desc.Dimension != ResourceDimension::kTexture2D) {
+    return fail("a flag of targets, which must be 2-D textures");
+  }
+  if (HasAny(desc.Flags, F::kDenyShaderResource) && !depth) {
+    return fail("kDenyShaderResource without kAllowDepthStencil");
+  }
+  if (depth && GetDepthFormat(desc.Format) == Format::kUnknown) {
+    return fail("kAllowDepthStencil and DXGI format ", static_cast<uint32_t>(desc.Format),
+                "; it must be a depth format or typeless: R32, R16, R24G8 or R32G8X24");
+  }
+  if (!depth && IsDepthFormat(desc.Format)) {
+    return fail("depth format ", static_cast<uint32_t>(desc.Format),
+                ", which needs the flag kAllowDepthStencil");
+  }
+  return {};
+}
+
+// Whether draws can write to a texture as its flags say. Typeless formats are tried by their views.
+Status CheckTargetSupport(const DeviceImpl& device, const TextureDesc& desc) {
+  const bool depth = HasAny(desc.Flags, ResourceFlags::kAllowDepthStencil);
+  if (!depth && !HasAny(desc.Flags, ResourceFlags::kAllowRenderTarget)) return {};
+  const Format format = depth ? GetDepthFormat(desc.Format) : desc.Format;
+  if (GetFormatInfo(format).type == FormatClass::kTypeless) return {};
+  if (device.backend->supports_target(format, false)) return {};
+  return MakeError(Id::kTargetFormat, Named("texture", desc.Name), " has DXGI format ",
+                   static_cast<uint32_t>(desc.Format), ", which this backend cannot draw to");
+}
+
+// Sides need not be multiples of 4: as with UnalignedBlockTexturesSupported.
+Status CheckBlockTexture(const TextureDesc& desc, const std::string& name) {
+  if (GetFormatInfo(desc.Format).block_side == 1) return {};
+  if (HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kBlockAccess, name, " has block-compressed DXGI format ",
+                     static_cast<uint32_t>(desc.Format),
+                     " and kAllowUnorderedAccess; it must have no flags");
+  }
+  if (desc.Dimension == ResourceDimension::kTexture1D) {
+    return MakeError(Id::kBlockDimension, name,
+                     " is kTexture1D and has block-compressed DXGI format ",
+                     static_cast<uint32_t>(desc.Format), "; it must be kTexture2D or kTexture3D");
+  }
+  return {};
+}
+
+Status CheckTexture(const TextureDesc& desc) {
+  const std::string name = Named("texture", desc.Name);
+  const auto d = desc.Dimension;
+  if (d != ResourceDimension::kTexture1D && d != ResourceDimension::kTexture2D &&
+      d != ResourceDimension::kTexture3D) {
+    return MakeError(Id::kTextureSize, name, " has dimension ", static_cast<uint32_t>(d),
+                     "; it must be kTexture1D, kTexture2D or kTexture3D");
+  }
+  const uint32_t limit = AxisLimit(desc);
+  const uint32_t depth_limit = d == ResourceDimension::kTexture3D ? kReqTexture3DUVOrWDimension
+                                                                  : kReqTexture2DArrayAxisDimension;
+  const uint32_t height_limit = d == ResourceDimension::kTexture1D ? 1 : limit;
+  if (desc.Width == 0 || desc.Height == 0 || desc.DepthOrArraySize == 0 || desc.Width > limit ||
+      desc.Height > height_limit || desc.DepthOrArraySize > depth_limit) {
+    return MakeError(Id::kTextureSize, name, " is ", desc.Width, "x", desc.Height, "x",
+                     desc.DepthOrArraySize, "; it must be 1x1x1 to ", limit, "x", height_limit, "x",
+                     depth_limit);
+  }
+  if (desc.MipLevels > FullMipCount(desc)) {
+    return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels, but ",
+                     desc.Width, "x", desc.Height, " texels allow at most ", FullMipCount(desc));
+  }
+  if (GetFormatInfo(desc.Format).type == FormatClass::kUnsupported) {
+    return MakeError(Id::kTextureFormat, name, " has DXGI format ",
+                     static_cast<uint32_t>(desc.Format),
+                     "; only the colour formats of rtapi/format.h are supported");
+  }
+  if (Status s = CheckBlockTexture(desc, name); !s.ok()) return s;
+  if (Status s = CheckTextureFlags(desc, name); !s.ok()) return s;
+  if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
+    return MakeError(Id::kAccelerationStructureBuffer, name,
+                     " is a texture; only buffers hold acceleration structures");
+  }
+  return {};
+}
+
+}  // namespace
+
+MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip) {
+  auto at = [mip](uint32_t size) { return std::max(1u, mip < 32 ? size >> mip : 0u); };
+  const bool volume = desc.Dimension == ResourceDimension::kTexture3D;
+  return {at(desc.Width), at(desc.Height), volume ? at(desc.DepthOrArraySize) : 1};
+}
+
+MipExtent GetMipElements(const TextureDesc& desc, uint32_t mip) {
+  const uint32_t side = GetFormatInfo(desc.Format).block_side;
+  const MipExtent texels = GetMipExtent(desc, mip);
+  return {(texels.width + side - 1) / side, (texels.height + side - 1) / side, texels.depth};
+}
+
+uint32_t FullMipCount(const TextureDesc& desc) {
+  uint32_t size = std::max(desc.Width, desc.Height);
+  if (desc.Dimension == ResourceDimension::kTexture3D) {
+    size = std::max<uint32_t>(size, desc.DepthOrArraySize);
+  }
+  uint32_t count = 0;
+  for (; size > 0; size >>= 1) ++count;
+  return count;
+}
+
+uint32_t ArraySize(const TextureDesc& desc) {
+  return desc.Dimension == ResourceDimension::kTexture3D ? 1 : desc.DepthOrArraySize;
+}
+
+uint32_t FormatFamily(Format format) {
+  const auto f = static_cast<uint32_t>(format);
+  // First and last number of each DXGI format family, including its typeless member.
+  static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18}, {19, 22},
+                                              {23, 25}, {27, 32}, {33, 38}, {39, 43}, {44, 47},
+                                              {48, 52}, {53, 59}, {60, 64}, {70, 72}, {73, 75},
+                                              {76, 78}, {79, 81}, {82, 84}, {94, 96}, {97, 99}};
+  for (const auto& family : kFamilies) {
+    if (f >= family[0] && f <= family[1]) return family[0];
+  }
+  switch (format) {
+    case Format::kB8G8R8A8Typeless:
+    case Format::kB8G8R8A8Unorm:
+    case Format::kB8G8R8A8UnormSrgb:
+      return 90;
+    case Format::kB8G8R8X8Typeless:
+    case Format::kB8G8R8X8Unorm:
+    case Format::kB8G8R8X8UnormSrgb:
+      return 92;
+    default:
+      return f;
+  }
+}
+
+BufferImpl::~BufferImpl() {
+  if (memory) device->addresses.erase(memory->address());
+}
+
+}  // namespace detail
+
+using namespace detail;
+
+namespace {
+const BufferDesc kEmptyBuffer;
+const TextureDesc kEmptyTexture;
+}  // namespace
+
+const BufferDesc& Buffer::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyBuffer;
+}
+GpuVirtualAddress Buffer::GetGPUVirtualAddress() const {
+  return impl_ ? impl_->memory->address() : 0;
+}
+void Buffer::SetName(std::string name) {
+  if (!impl_) return;
+  impl_->device->addresses.rename(impl_->memory->address(), name);
+  impl_->desc.Name = std::move(name);
+}
+
+Result<std::span<std::byte>> Buffer::Map() const {
+  if (!impl_) return MakeError(Id::kNullHandle, "Map on an empty buffer handle");
+  if (impl_->desc.Heap == HeapType::kDefault) {
+    return MakeError(Id::kMapDefaultHeap, Named("buffer", impl_->desc.Name),
+                     " is on the default heap; copy through an upload or readback buffer");
+  }
+  return mapped_bytes();
+}
+
+std::span<std::byte> Buffer::mapped_bytes() const {
+  if (!impl_ || impl_->desc.Heap == HeapType::kDefault) return {};
+  return {reinterpret_cast<std::byte*>(impl_->memory->host()), impl_->desc.SizeInBytes};
+}
+
+const TextureDesc& Texture::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyTexture;
+}
+uint32_t Texture::subresource_count() const {
+  return impl_ ? impl_->desc.MipLevels * ArraySize(impl_->desc) : 0;
+}
+void Texture::SetName(std::string name) {
+  if (!impl_) return;
+  if (impl_->device->checks) impl_->device->checks->textures().rename(impl_->memory.get(), name);
+  impl_->desc.Name = std::move(name);
+}
+
+Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateBuffer on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  if (Status s = CheckBuffer(desc); !s.ok()) return s.error();
+  auto memory = impl_->backend->create_buffer(desc);
+  if (!memory.ok()) return memory.error();
+  auto buffer = std::make_shared<BufferImpl>();
+  buffer->device = impl_;
+  buffer->desc = desc;
+  buffer->memory = std::move(*memory);
+  impl_->addresses.insert({buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
+                           desc.InitialState == ResourceStates::kRaytracingAccelerationStructure,
+                           desc.Name, buffer->memory->host(), buffer});
+  return Buffer(std::move(buffer));
+}
+
+Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateTexture on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  if (Status s = CheckTexture(desc); !s.ok()) return s.error();
+  if (Status s = CheckTargetSupport(*impl_, desc); !s.ok()) return s.error();
+  TextureDesc resolved = desc;
+  if (resolved.MipLevels == 0) resolved.MipLevels = static_cast<uint16_t>(FullMipCount(desc));
+  auto memory = impl_->backend->create_texture(resolved);
+  if (!memory.ok()) return memory.error();
+  auto texture = std::make_shared<TextureImpl>();
+  texture->device = impl_;
+  texture->desc = std::move(resolved);
+  texture->memory = std::move(*memory);
+  if (impl_->checks) {
+    impl_->checks->textures().add(texture->memory, texture->desc);
+  }
+  return Texture(std::move(texture));
+}
+
+Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t first,
+                                               uint32_t count, uint64_t base_offset,
+                                               std::vector<PlacedSubresourceFootprint>* layouts,
+                                               std::vector<uint32_t>* row_counts,
+                                               std::vector<uint64_t>* row_bytes) const {
+  if (Status s = CheckTexture(desc); !s.ok()) return s.error();
+  const uint32_t mips = desc.MipLevels ? desc.MipLevels : FullMipCount(desc);
+  const uint64_t total = uint64_t{mips} * detail::ArraySize(desc);
+  if (uint64_t{first} + count > total) {
+    return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
+                     " do not exist in ", Named("texture", desc.Name), ", which has ", total);
+  }
+  const FormatInfo format = GetFormatInfo(desc.Format);
+  uint64_t offset = base_offset;
+  uint64_t end = base_offset;
+  for (uint32_t i = first; i < first + count; ++i) {
+    const MipExtent extent = GetMipElements(desc, i % mips);
+    const uint64_t row = uint64_t{extent.width} * format.bytes;
+    const uint64_t pitch = AlignUp(row, kTextureDataPitchAlignment);
+    offset = AlignUp(offset, kTextureDataPlacementAlignment);
+    if (layouts) {
+      layouts->push_back(
+          {offset,
+           {desc.Format, extent.width * format.block_side, extent.height * format.block_side,
+            extent.depth, static_cast<uint32_t>(pitch)}});
+    }
+    if (row_counts) row_counts->push_back(extent.height);
+    if (row_bytes) row_bytes->push_back(row);
+    // The last row needs no padding, as in D3D12.
+    end = offset + pitch * (uint64_t{extent.height} * extent.depth - 1) + row;
+    offset += pitch * extent.height * extent.depth;
+  }
+  return end - base_offset;
+}
+
+}  // namespace rtapi

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// The objects behind the handles of resource.h and descriptor.h.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <rtapi/descriptor.h>
+#include <rtapi/resource.h>
+
+#include "rtapi/src/device/device_impl.h"
+
+namespace rtapi::detail {
+
+struct BufferImpl {
+  std::shared_ptr<DeviceImpl> device;
+  BufferDesc desc;
+  std::shared_ptr<runtime::BackendBuffer> memory;
+  ~BufferImpl();
+};
+
+struct TextureImpl {
+  std::shared_ptr<DeviceImpl> device;
+  TextureDesc desc;
+  std::shared_ptr<runtime::BackendTexture> memory;
+};
+
+struct DescriptorHeapImpl {
+  std::shared_ptr<DeviceImpl> device;
+  DescriptorHeapDesc desc;
+  std::shared_ptr<runtime::BackendBuffer> memory;
+  std::vector<TargetSlot> targets;  // of RTVs and DSVs; their memory only gives them addresses
+  ~DescriptorHeapImpl();
+};
+
+// Size of a mip level in texels.
+struct MipExtent {
+  uint32_t width, height, depth;
+  bool operator==(const MipExtent&) const = default;
+};
+MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip);
+// The same in elements of the format: in whole blocks, if it is block-compressed.
+MipExtent GetMipElements(const TextureDesc& desc, uint32_t mip);
+uint32_t FullMipCount(const TextureDesc& desc);
+uint32_t ArraySize(const TextureDesc& desc);  // 1 for 3-D textures
+
+// Formats of one family share their texel layout; 0 for formats that belong to none.
+uint32_t FormatFamily(Format format);
+
+}  // namespace rtapi::detail

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <rtapi/descriptor.h>
+#include <rtapi/result.h>
+#include <rtapi/root_signature.h>
+
+#include "rtapi/src/errors/error_table.h"
+
+namespace rtapi::detail {
+
+// Checks that numbers are in range and not NaN; `id` and `what` go into the message.
+Status CheckSampler(const SamplerDesc& desc, Id id, std::string_view what);
+
+SamplerDesc ToSamplerDesc(const StaticSamplerDesc& desc);
+
+}  // namespace rtapi::detail

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/resources/target_view.h"
+
+#include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/resources/resource_impl.h"
+
+namespace rtapi {
+
+namespace detail {
+
+namespace {
+
+// What both kinds of views ask for, before "all the rest" is resolved.
+struct AskedTarget {
+  Format format;
+  bool whole;        // all elements of mip 0
+  bool one_element;  // element 0 of a mip
+  TargetSlices slices;
+};
+
+Status CheckTexture(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
+                    bool depth_stencil) {
+  if (Status s = CheckHandle(device, texture, "the viewed texture"); !s.ok()) return s;
+  const ResourceFlags needed =
+      depth_stencil ? ResourceFlags::kAllowDepthStencil : ResourceFlags::kAllowRenderTarget;
+  if (HasAny(texture.GetDesc().Flags, needed)) return {};
+  return MakeError(Id::kTargetView, Named("texture", texture.name()), " was created without ",
+                   depth_stencil ? "kAllowDepthStencil" : "kAllowRenderTarget",
+                   "; add the flag to its TextureDesc");
+}
+
+Status CheckFormat(const DeviceImpl& device, const Texture& texture, bool depth_stencil,
+                   Format format) {
+  const TextureDesc& desc = texture.GetDesc();
+  const FormatInfo info = GetFormatInfo(format);
+  // RGBA8 and its sRGB twin may stand for each other even in a typed texture.
+  // [RAS-118: test_srgb_unorm_mismatch_usage_aliasing]
+  const FormatInfo own = GetFormatInfo(desc.Format);
+  const bool twins = own.type == FormatClass::kUnorm && info.type == FormatClass::kUnorm;
+  const bool fits = format == desc.Format || ((own.type == FormatClass::kTypeless || twins) &&
+                                              FormatFamily(format) == FormatFamily(desc.Format));
+  const bool right_kind = depth_stencil
+                              ? IsDepthFormat(format)
+                              : !IsDepthFormat(format) && info.type != FormatClass::kTypeless &&
+                                    info.type != FormatClass::kUnsupported;
+  if (!fits || !right_kind) {
+    return MakeError(Id::kTargetView, "view format ", static_cast<uint32_t>(format), " of ",
+                     Named("texture", desc.Name), " with format ",
+                     static_cast<uint32_t>(desc.Format), "; it must be ",
+                     depth_stencil ? "the depth format" : "a typed format", " of that family");
+  }
+  if (device.backend->supports_target(format, false)) return {};
+  return MakeError(Id::kTargetFormat, "view format ", static_cast<uint32_t>(format), " of ",
+                   Named("texture", desc.Name), ", which this backend cannot draw to");
+}
+
+Result<runtime::TargetView> Resolve(const Texture& texture, const AskedTarget& asked) {
+  const TextureDesc& desc = texture.GetDesc();
+  TargetSlices slices = asked.whole ? TargetSlices() : asked.slices;
+  if (asked.one_element) {
+    slices.FirstArraySlice = 0;
+    slices.ArraySize = 1;
+  }
+  const std::string name = Named("texture", desc.Name);
+  if (slices.MipSlice >= desc.MipLevels) {
+    return MakeError(Id::kTargetView, "mip ", slices.MipSlice, " is outside ", name, ", which has ",
+                     desc.MipLevels, " mips");
+  }
+  const uint32_t total = detail::ArraySize(desc);
+  const uint32_t left = slices.FirstArraySlice < total ? total - slices.FirstArraySlice : 0;
+  if (slices.ArraySize == 0xFFFFFFFFu) slices.ArraySize = left;
+  if (slices.ArraySize == 0 || slices.ArraySize > left) {
+    return MakeError(Id::kTargetView, "array elements ", slices.FirstArraySlice, "..",
+                     uint64_t{slices.FirstArraySlice} + slices.ArraySize, " are outside ", name,
+                     ", which has ", total);
+  }
+  const MipExtent extent = GetMipExtent(desc, slices.MipSlice);
+  runtime::TargetView view;
+  view.format = asked.format;
+  view.mip = slices.MipSlice;
+  view.first_slice = slices.FirstArraySlice;
+  view.slice_count = slices.ArraySize;
+  view.width = extent.width;
+  view.height = extent.height;
+  return view;
+}
+
+Result<TargetSlot*> FindTarget(const DeviceImpl& device, CpuDescriptorHandle handle,
+                               bool depth_stencil, const std::string& where) {
+  const auto slot = device.FindSlot(handle);
+  const DescriptorHeapType type =
+      depth_stencil ? DescriptorHeapType::kDsv : DescriptorHeapType::kRtv;
+  if (slot && slot->type == type) return slot->target;
+  return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), DescribeHeap(slot),
+                   "; it must be in one of ", depth_stencil ? "kDsv" : "kRtv");
+}
+
+Status WriteTarget(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
+                   const AskedTarget& asked_as_given, bool depth_stencil, DsvFlags flags,
+                   CpuDescriptorHandle dest) {
+  const std::string call = depth_stencil ? "CreateDepthStencilView" : "CreateRenderTargetView";
+  if (!device) return MakeError(Id::kNullHandle, call, " on an empty device");
+  auto slot = FindTarget(*device, dest, depth_stencil, call);
+  if (!slot.ok()) return slot.error();
+  AskedTarget asked = asked_as_given;
+  TargetSlot value;
+  value.written = true;
+  if (!texture) {
+    value.is_null = true;
+    value.view.format = asked.format;
+    **slot = std::move(value);
+    return {};
+  }
+  if (Status s = CheckTexture(device, texture, depth_stencil); !s.ok()) return s;
+  const Format own = texture.GetDesc().Format;
+  if (asked.format == Format::kUnknown) asked.format = depth_stencil ? GetDepthFormat(own) : own;
+  if (Status s = CheckFormat(*device, texture, depth_stencil, asked.format); !s.ok()) return s;
+  auto view = Resolve(texture, asked);
+  if (!view.ok()) return view.error();
+  value.view = *view;
+  value.view.read_only_depth = HasAny(flags, DsvFlags::kReadOnlyDepth);
+  value.view.read_only_stencil = HasAny(flags, DsvFlags::kReadOnlyStencil);
+  value.texture = texture.impl();
+  value.texture_name = texture.name();
+  **slot = std::move(value);
+  return {};
+}
+
+}  // namespace
+
+Result<ReadTarget> ReadTargetSlot(const DeviceImpl& device, CpuDescriptorHandle handle,
+                                  bool depth_stencil, const std::string& where) {
+  auto found = FindTarget(device, handle, depth_stencil, where);
+  if (!found.ok()) return found.error();
+  const TargetSlot& slot = **found;
+  if (!slot.written) {
+    return MakeError(Id::kTargetHandle, where, ": no view was made at handle ", Hex(handle.ptr));
+  }
+  ReadTarget out{slot.view, slot.texture, slot.texture_name};
+  if (slot.is_null) return out;
+  const auto texture = slot.texture.lock();
+  if (!texture) {
+    return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), " is a view of ",
+                     Named("texture", slot.texture_name), ", which was freed");
+  }
+  out.view.texture = texture->memory;
+  return out;
+}
+
+}  // namespace detail
+
+using namespace detail;
+
+Status Device::CreateRenderTargetView(const Texture& texture, const RenderTargetViewDesc& desc,
+                                      CpuDescriptorHandle dest) const {
+  if (desc.ViewDimension > RtvDimension::kTexture2DArray ||
+      (desc.ViewDimension != RtvDimension::kUnknown &&
+       desc.ViewDimension < RtvDimension::kTexture2D)) {
+    return MakeError(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
+                     "; it must be kUnknown, kTexture2D or kTexture2DArray");
+  }
+  const AskedTarget asked = {desc.Format, desc.ViewDimension == RtvDimension::kUnknown,
+                             desc.ViewDimension == RtvDimension::kTexture2D, desc.Texture2DArray};
+  return WriteTarget(impl_, texture, asked, false, DsvFlags::kNone, dest);
+}
+
+Status Device::CreateRenderTargetView(const Texture& texture, CpuDescriptorHandle dest) const {
+  return CreateRenderTargetView(texture, RenderTargetViewDesc(), dest);
+}
+
+Status Device::CreateDepthStencilView(const Texture& texture, const DepthStencilViewDesc& desc,
+                                      CpuDescriptorHandle dest) const {
+  if (desc.ViewDimension > DsvDimension::kTexture2DArray ||
+      (desc.ViewDimension != DsvDimension::kUnknown &&
+       desc.ViewDimension < DsvDimension::kTexture2D)) {
+    return MakeError(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
+                     "; it must be kUnknown, kTexture2D or kTexture2DArray");
+  }
+  constexpr DsvFlags kKnown = DsvFlags::kReadOnlyDepth | DsvFlags::kReadOnlyStencil;
+  if ((desc.Flags & ~kKnown) != DsvFlags::kNone) {
+    return MakeError(Id::kTargetView, "undefined flags ", Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  const AskedTarget asked = {desc.Format, desc.ViewDimension == DsvDimension::kUnknown,
+                             desc.ViewDimension == DsvDimension::kTexture2D, desc.Texture2DArray};
+  return WriteTarget(impl_, texture, asked, true, desc.Flags, dest);
+}
+
+Status Device::CreateDepthStencilView(const Texture& texture, CpuDescriptorHandle dest) const {
+  return CreateDepthStencilView(texture, DepthStencilViewDesc(), dest);
+}
+
+}  // namespace rtapi

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/resources/texture_view.h"
+
+#include "rtapi/src/resources/resource_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+bool FitsDimension(SrvDimension view, ResourceDimension resource) {
+  switch (view) {
+    case SrvDimension::kTexture1D:
+    case SrvDimension::kTexture1DArray:
+      return resource == ResourceDimension::kTexture1D;
+    case SrvDimension::kTexture2D:
+    case SrvDimension::kTexture2DArray:
+    case SrvDimension::kTextureCube:
+    case SrvDimension::kTextureCubeArray:
+      return resource == ResourceDimension::kTexture2D;
+    case SrvDimension::kTexture3D:
+      return resource == ResourceDimension::kTexture3D;
+    default:
+      return false;
+  }
+}
+
+Status CheckViewFormat(const DeviceImpl& device, const Texture& texture, const TextureView& view) {
+  const Format own = texture.GetDesc().Format;
+  const FormatInfo info = GetFormatInfo(view.format);
+  const bool castable = view.format == own || (GetFormatInfo(own).type == FormatClass::kTypeless &&
+                                               FormatFamily(own) == FormatFamily(view.format));
+  if (IsDepthFormat(view.format)) {
+    return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
+                     Named("texture", texture.name()),
+                     " is a depth format, which shaders cannot read; create the texture with the "
+                     "typeless format of the family, and view it as R32_FLOAT, R16_UNORM, "
+                     "R24_UNORM_X8_TYPELESS or R32_FLOAT_X8X24_TYPELESS");
+  }
+  if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless || !castable) {
+    return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
+                     Named("texture", texture.name()), " with format ", static_cast<uint32_t>(own),
+                     "; it must be the same, or a typed member of a typeless format's family");
+  }
+  if (!device.backend->supports_format(view.format, view.uav)) {
+    return MakeError(Id::kViewFormat, "the backend does not support ",
+                     view.uav ? "unordered access" : "shader resource", " views of format ",
+                     static_cast<uint32_t>(view.format));
+  }
+  return {};
+}
+
+Status CheckSubresources(const Texture& texture, TextureView& view) {
+  const TextureDesc& desc = texture.GetDesc();
+  const std::string name = Named("texture", desc.Name);
+  if (view.first_mip >= desc.MipLevels) {
+    return MakeError(Id::kViewSubresources, "mip ", view.first_mip, " is outside ", name,
+                     ", which has ", desc.MipLevels, " mips");
+  }
+  if (view.mips == 0xFFFFFFFFu) view.mips = desc.MipLevels - view.first_mip;
+  if (view.mips == 0 || view.mips > desc.MipLevels - view.first_mip) {
+    return MakeError(Id::kViewSubresources, view.mips, " mips from mip ", view.first_mip,
+                     " on are outside ", name, ", which has ", desc.MipLevels, " mips");
+  }
+  const bool volume = view.dimension == SrvDimension::kTexture3D;
+  const uint32_t total =
+      volume ? GetMipExtent(desc, view.first_mip).depth : detail::ArraySize(desc);
+  const bool cube = view.dimension == SrvDimension::kTextureCube ||
+                    view.dimension == SrvDimension::kTextureCubeArray;
+  if (view.slices == 0xFFFFFFFFu && view.first_slice < total) {
+    view.slices = total - view.first_slice;
+    if (cube) view.slices -= view.slices % 6;
+  }
+  if (view.first_slice >= total || view.slices == 0 || view.slices > total - view.first_slice) {
+    return MakeError(Id::kViewSubresources, volume ? "w slices " : "array elements ",
+                     view.first_slice, "..", uint64_t{view.first_slice} + view.slices,
+                     " are outside ", name, ", which has ", total);
+  }
+  if (cube && (view.slices % 6 != 0 || desc.Width != desc.Height)) {
+    return MakeError(Id::kViewSubresources, "a cube view needs 6 square faces, but this has ",
+                     view.slices, " faces of ", desc.Width, "x", desc.Height);
+  }
+  return {};
+}
+
+// As shader::texture_shape() counts.
+uint32_t NumberClass(Format format) {
+  switch (GetFormatInfo(format).type) {
+    case FormatClass::kSint:
+      return 1;
+    case FormatClass::kUint:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+Result<shader::Descriptor> MakeTextureDescriptor(const std::shared_ptr<DeviceImpl>& device,
+                                                 const Texture& texture, TextureView view,
+                                                 uint32_t mapping) {
+  if (Status s = CheckHandle(device, texture, "the viewed texture"); !s.ok()) return s.error();
+  const TextureDesc& desc = texture.GetDesc();
+  if (!FitsDimension(view.dimension, desc.Dimension)) {
+    return MakeError(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
+                     " does not fit ", Named("texture", desc.Name), ", whose dimension is ",
+                     static_cast<uint32_t>(desc.Dimension));
+  }
+  if (view.uav && GetFormatInfo(desc.Format).block_side != 1) {
+    return MakeError(Id::kBlockAccess, Named("texture", desc.Name), " has DXGI format ",
+                     static_cast<uint32_t>(desc.Format), "; only shader resource views read it");
+  }
+  if (view.uav && !HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kViewAccess, Named("texture", desc.Name),
+                     " was created without kAllowUnorderedAccess; add the flag to its TextureDesc");
+  }
+  if (!view.uav && HasAny(desc.Flags, ResourceFlags::kDenyShaderResource)) {
+    return MakeError(Id::kViewAccess, Named("texture", desc.Name),
+                     " was created with kDenyShaderResource; shaders cannot read it");
+  }
+  if (view.format == Format::kUnknown) view.format = desc.Format;
+  if (Status s = CheckViewFormat(*device, texture, view); !s.ok()) return s.error();
+  if (Status s = CheckSubresources(texture, view); !s.ok()) return s.error();
+  runtime::TextureViewDesc resolved;
+  resolved.format = view.format;
+  resolved.dimension = view.dimension;
+  resolved.unordered_access = view.uav;
+  resolved.first_mip = view.first_mip;
+  resolved.mip_count = view.mips;
+  resolved.first_slice = view.first_slice;
+  resolved.slice_count = view.slices;
+  resolved.min_lod = view.min_lod;
+  for (int i = 0; i < 4; ++i) {
+    resolved.swizzle[i] = static_cast<uint8_t>((mapping >> (3 * i)) & 7);
+    if (resolved.swizzle[i] > 5) {
+      return MakeError(Id::kViewFormat, "Shader4ComponentMapping ", Hex(mapping), " of ",
+                       Named("texture", desc.Name), " selects component ", int{resolved.swizzle[i]},
+                       "; it must be 0 to 5");
+    }
+  }
+  auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);
+  if (!object.ok()) return object.error();
+  device->views.AddView(*object, {desc.Name, desc, resolved, texture.impl()->memory});
+  const uint64_t key = kaamos::shader::view_key(*object, view.uav);
+  device->addresses.insert_view(key, texture.impl()->memory);
+  if (device->checks) {
+    device->checks->textures().add_view(key, texture.impl()->memory,
+                                        {view.first_mip, view.mips, view.first_slice, view.slices});
+  }
+  shader::Descriptor descriptor;
+  descriptor.kind = shader::DescriptorKind::kTexture;
+  descriptor.access = view.uav ? shader::DescriptorAccess::kUnorderedAccess
+                               : shader::DescriptorAccess::kShaderResource;
+  descriptor.stride_bytes = kaamos::shader::texture_shape(static_cast<uint32_t>(view.dimension),
+                                                          NumberClass(view.format));
+  descriptor.address = *object;
+  descriptor.format = static_cast<uint32_t>(view.format);
+  return descriptor;
+}
+
+TextureView FromSrv(const ShaderResourceViewDesc& d) {
+  TextureView v;
+  v.format = d.Format;
+  v.dimension = d.ViewDimension;
+  auto take = [&v](uint32_t mip, uint32_t mips, uint32_t slice, uint32_t slices, float lod) {
+    v.first_mip = mip;
+    v.mips = mips;
+    v.first_slice = slice;
+    v.slices = slices;
+    v.min_lod = lod;
+  };
+  switch (d.ViewDimension) {
+    case SrvDimension::kTexture1D: {
+      const auto& t = d.Texture1D;
+      take(t.MostDetailedMip, t.MipLevels, 0, 1, t.ResourceMinLODClamp);
+      break;
+    }
+    case SrvDimension::kTexture1DArray: {
+      const auto& t = d.Texture1DArray;
+      take(t.MostDetailedMip, t.MipLevels, t.FirstArraySlice, t.ArraySize, t.ResourceMinLODClamp);
+      break;
+    }
+    case SrvDimension::kTexture2D: {
+      const auto& t = d.Texture2D;
+      take(t.MostDetailedMip, t.MipLevels, 0, 1, t.ResourceMinLODClamp);
+      break;
+    }
+    case SrvDimension::kTexture2DArray: {
+      const auto& t = d.Texture2DArray;
+      take(t.MostDetailedMip, t.MipLevels, t.FirstArraySlice, t.ArraySize, t.ResourceMinLODClamp);
+      break;
+    }
+    case SrvDimension::kTexture3D: {
+      const auto& t = d.Texture3D;
+      take(t.MostDetailedMip, t.MipLevels, 0, 0xFFFFFFFFu, t.ResourceMinLODClamp);
+      break;
+    }
+    case SrvDimension::kTextureCube: {
+      const auto& t = d.TextureCube;
+      take(t.MostDetailedMip, t.MipLevels, 0, 6, t.ResourceMinLODClamp);
+      break;
+    }
+    case SrvDimension::kTextureCubeArray: {
+      const auto& t = d.TextureCubeArray;
+      const uint32_t faces = t.NumCubes > 0xFFFFu ? 0xFFFFFFFFu : t.NumCubes * 6;
+      take(t.MostDetailedMip, t.MipLevels, t.First2DArrayFace, faces, t.ResourceMinLODClamp);
+      break;
+    }
+    default:
+      break;
+  }
+  return v;
+}
+
+TextureView FromUav(const UnorderedAccessViewDesc& d) {
+  TextureView v;
+  v.format = d.Format;
+  v.dimension = static_cast<SrvDimension>(d.ViewDimension);  // the numbers agree
+  v.uav = true;
+  switch (d.ViewDimension) {
+    case UavDimension::kTexture1D:
+      v.first_mip = d.Texture1D.MipSlice;
+      break;
+    case UavDimension::kTexture1DArray:
+      v.first_mip = d.Texture1DArray.MipSlice;
+      v.first_slice = d.Texture1DArray.FirstArraySlice;
+      v.slices = d.Texture1DArray.ArraySize;
+      break;
+    case UavDimension::kTexture2D:
+      v.first_mip = d.Texture2D.MipSlice;
+      break;
+    case UavDimension::kTexture2DArray:
+      v.first_mip = d.Texture2DArray.MipSlice;
+      v.first_slice = d.Texture2DArray.FirstArraySlice;
+      v.slices = d.Texture2DArray.ArraySize;
+      break;
+    case UavDimension::kTexture3D:
+      v.first_mip = d.Texture3D.MipSlice;
+      v.first_slice = d.Texture3D.FirstWSlice;
+      v.slices = d.Texture3D.WSize;
+      break;
+    default:
+      break;
+  }
+  return v;
+}
+
+SrvDimension WholeDimension(const TextureDesc& desc) {
+  switch (desc.Dimension) {
+    case ResourceDimension::kTexture1D:
+      return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture1DArray : SrvDimension::kTexture1D;
+    case ResourceDimension::kTexture3D:
+      return SrvDimension::kTexture3D;
+    default:
+      return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture2DArray : SrvDimension::kTexture2D;
+  }
+}
+
+}  // namespace rtapi::detail

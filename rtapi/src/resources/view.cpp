@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+//
+// Shader resource, unordered access and constant buffer views: checks, then 32 bytes in a heap
+// slot. What concerns textures is in texture_view.cpp.
+#include <cstring>
+
+#include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/resources/resource_impl.h"
+#include "rtapi/src/resources/texture_view.h"
+
+namespace rtapi {
+
+using namespace detail;
+
+namespace {
+
+using shader::Descriptor;
+using shader::DescriptorAccess;
+using shader::DescriptorKind;
+
+// What the SRVs and UAVs of buffers have in common.
+struct BufferView {
+  Format format;
+  uint64_t first;
+  uint64_t count;  // 0: all the rest
+  uint32_t stride;
+  bool raw;
+  DescriptorAccess access;
+  const Buffer* counter = nullptr;
+  uint64_t counter_offset = 0;
+};
+
+Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descriptor& value) {
+  const auto slot = device.FindSlot(dest);
+  if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
+    return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr), DescribeHeap(slot),
+                     "; it must be in one of kCbvSrvUav");
+  }
+  std::memcpy(slot->slot, &value, sizeof value);
+  return {};
+}
+
+// Determines element size and kind by the rules of format and stride. [D3D12: D3D12_BUFFER_SRV]
+Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
+                              const std::string& name, Descriptor& out) {
+  const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
+  if (view.raw) {
+    if (view.format != Format::kR32Typeless || view.stride != 0) {
+      return MakeError(Id::kViewFormat, "raw view of ", name, " has format ",
+                       static_cast<uint32_t>(view.format), " and stride ", view.stride,
+                       "; it must have format kR32Typeless and no stride");
+    }
+    if (view.first * 4 % kRawUavSrvByteAlignment != 0) {
+      return MakeError(Id::kViewStride, "raw view of ", name, " starts at byte ", view.first * 4,
+                       "; it must be a multiple of 16");
+    }
+    out.kind = DescriptorKind::kRawBuffer;
+    return 4u;
+  }
+  if (view.stride != 0) {
+    if (view.format != Format::kUnknown) {
+      return MakeError(Id::kViewFormat, "structured view of ", name, " has format ",
+                       static_cast<uint32_t>(view.format), "; it must be kUnknown");
+    }
+    // Elements of 16-bit types have strides such as 2, 6 and 10.
+    if (view.stride % 2 != 0 || view.stride > 2048) {
+      return MakeError(Id::kViewStride, "structured view of ", name, " has a stride of ",
+                       view.stride, " bytes; it must be a multiple of 2, at most 2048");
+    }
+    out.kind = DescriptorKind::kStructuredBuffer;
+    out.stride_bytes = view.stride;
+    return view.stride;
+  }
+  const FormatInfo info = GetFormatInfo(view.format);
+  // Formats of textures with depth, or depth and stencil, are none of buffers.
+  const uint32_t family = FormatFamily(view.format);
+  const bool of_depth = IsDepthFormat(view.format) ||
+                        family == static_cast<uint32_t>(Format::kR32G8X24Typeless) ||
+                        family == static_cast<uint32_t>(Format::kR24G8Typeless);
+  const bool typed = info.type != FormatClass::kUnsupported &&
+                     info.type != FormatClass::kTypeless && info.block_side == 1 && !of_depth;
+  if (!typed || !device.backend->supports_format(view.format, uav)) {
+    return MakeError(Id::kViewFormat, "typed view of ", name, " has format ",
+                     static_cast<uint32_t>(view.format),
+                     view.format == Format::kUnknown
+                         ? "; a structured view needs StructureByteStride, a raw one the raw flag"
+                         : "; it must be a typed format that buffers support");
+  }
+  out.kind = DescriptorKind::kTypedBuffer;
+  out.format = static_cast<uint32_t>(view.format);
+  out.stride_bytes = info.bytes;
+  return uint32_t{info.bytes};
+}
+
+constexpr uint64_t kCounterAlignment = 4096;  // D3D12_UAV_COUNTER_PLACEMENT_ALIGNMENT
+
+Status WriteCounter(const std::shared_ptr<DeviceImpl>& device, const BufferView& view,
+                    Descriptor& descriptor) {
+  const uint64_t offset = view.counter_offset;
+  if (view.counter == nullptr) {
+    if (offset == 0) return {};
+    return MakeError(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
+                     ", but no buffer for a counter is given; it must be 0 then");
+  }
+  const Buffer& counter = *view.counter;
+  if (Status s = CheckHandle(device, counter, "the counter's buffer"); !s.ok()) return s;
+  const std::string name = Named("buffer", counter.name());
+  if (descriptor.kind != DescriptorKind::kStructuredBuffer) {
+    return MakeError(Id::kViewCounter, "a counter in ", name,
+                     " is given for a view that is not structured");
+  }
+  if (!HasAny(counter.GetDesc().Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kViewCounter, name,
+                     ", which holds the counter, was created without kAllowUnorderedAccess");
+  }
+  if (offset % kCounterAlignment != 0 || counter.size() < 4 || offset > counter.size() - 4) {
+    return MakeError(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
+                     "; it must be a multiple of 4096, with 4 bytes from there on in ", name,
+                     ", which has ", counter.size(), " bytes");
+  }
+  set_counter(descriptor, counter.GetGPUVirtualAddress() + offset);
+  return {};
+}
+
+Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer,
+                       const BufferView& view, CpuDescriptorHandle dest) {
+  if (Status s = CheckHandle(device, buffer, "the viewed buffer"); !s.ok()) return s;
+  const std::string name = Named("buffer", buffer.name());
+  const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
+  if (uav && !HasAny(buffer.GetDesc().Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kViewAccess, name,
+                     " was created without kAllowUnorderedAccess; add the flag to its BufferDesc");
+  }
+  Descriptor descriptor;
+  const auto element = CheckElement(*device, view, name, descriptor);
+  if (!element.ok()) return element.error();
+  // Compare counts first, so that the products below cannot overflow.
+  const uint64_t total = buffer.size() / *element;
+  const uint64_t count = view.count ? view.count : (view.first < total ? total - view.first : 0);
+  if (view.first > total || count > total - view.first) {
+    return MakeError(Id::kViewRange, "elements ", view.first, "..", view.first + count,
+                     " are outside ", name, ", which has ", total, " elements of ", *element,
+                     " bytes");
+  }
+  descriptor.access = view.access;
+  descriptor.address = buffer.GetGPUVirtualAddress() + view.first * *element;
+  descriptor.size_bytes = count * *element;
+  if (Status s = WriteCounter(device, view, descriptor); !s.ok()) return s;
+  return WriteSlot(*device, dest, descriptor);
+}
+
+Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
+                        const TextureView& view, uint32_t mapping, CpuDescriptorHandle dest) {
+  auto descriptor = MakeTextureDescriptor(device, texture, view, mapping);
+  if (!descriptor.ok()) return descriptor.error();
+  return WriteSlot(*device, dest, *descriptor);
+}
+
+Status WriteAccelerationStructureView(const DeviceImpl& device, const Resource& resource,
+                                      GpuVirtualAddress location, CpuDescriptorHandle dest) {
+  if (!std::holds_alternative<std::monostate>(resource)) {
+    return MakeError(Id::kAccelerationStructureView,
+                     "the resource must be empty: the view's Location names the structure");
+  }
+  if (location % kRaytracingAccelerationStructureByteAlignment != 0) {
+    return MakeError(Id::kAccelerationStructureView, "Location is ",
+                     device.DescribeAddress(location), "; it must be a multiple of 256");
+  }
+  Descriptor descriptor;
+  if (location != 0) {
+    if (!device.addresses.find(location)) {
+      return MakeError(Id::kAccelerationStructureView, "Location is ",
+                       device.DescribeAddress(location));
+    }
+    descriptor.kind = DescriptorKind::kAccelerationStructure;
+    descriptor.address = location;
+  }
+  return WriteSlot(device, dest, descriptor);
+}
+
+const char* KindName(const Resource& resource) {
+  return std::holds_alternative<Buffer>(resource) ? "a buffer" : "a texture";
+}
+
+}  // namespace
+
+Status Device::CreateShaderResourceView(const Resource& resource,
+                                        const ShaderResourceViewDesc& desc,
+                                        CpuDescriptorHandle dest) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateShaderResourceView on an empty device");
+  if (desc.ViewDimension == SrvDimension::kRaytracingAccelerationStructure) {
+    return WriteAccelerationStructureView(*impl_, resource,
+                                          desc.RaytracingAccelerationStructure.Location, dest);
+  }
+  if (std::holds_alternative<std::monostate>(resource)) return WriteSlot(*impl_, dest, {});
+  const bool wants_buffer = desc.ViewDimension == SrvDimension::kBuffer;
+  if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
+    return MakeError(Id::kViewResource, "view dimension ",
+                     static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
+                     KindName(resource));
+  }
+  if (wants_buffer) {
+    const BufferSrv& b = desc.Buffer;
+    return WriteBufferView(
+        impl_, std::get<Buffer>(resource),
+        {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
+         HasAny(b.Flags, BufferSrvFlags::kRaw), DescriptorAccess::kShaderResource},
+        dest);
+  }
+  return WriteTextureView(impl_, std::get<Texture>(resource), FromSrv(desc),
+                          desc.Shader4ComponentMapping, dest);
+}
+
+Status Device::CreateShaderResourceView(const Texture& texture, CpuDescriptorHandle dest) const {
+  ShaderResourceViewDesc desc;
+  desc.ViewDimension = WholeDimension(texture.GetDesc());
+  return CreateShaderResourceView(Resource(texture), desc, dest);
+}
+
+Status Device::CreateUnorderedAccessView(const Resource& resource,
+                                         const UnorderedAccessViewDesc& desc,
+                                         CpuDescriptorHandle dest) const {
+  return CreateUnorderedAccessView(resource, Buffer(), desc, dest);
+}
+
+Status Device::CreateUnorderedAccessView(const Resource& resource, const Buffer& counter,
+                                         const UnorderedAccessViewDesc& desc,
+                                         CpuDescriptorHandle dest) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateUnorderedAccessView on an empty device");
+  if (std::holds_alternative<std::monostate>(resource)) return WriteSlot(*impl_, dest, {});
+  const bool wants_buffer = desc.ViewDimension == UavDimension::kBuffer;
+  if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
+    return MakeError(Id::kViewResource, "view dimension ",
+                     static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
+                     KindName(resource));
+  }
+  if (wants_buffer) {
+    const BufferUav& b = desc.Buffer;
+    return WriteBufferView(
+        impl_, std::get<Buffer>(resource),
+        {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
+         HasAny(b.Flags, BufferUavFlags::kRaw), DescriptorAccess::kUnorderedAccess,
+         counter ? &counter : nullptr, b.CounterOffsetInBytes},
+        dest);
+  }
+  if (counter) {
+    return MakeError(Id::kViewCounter, "a counter in ", Named("buffer", counter.name()),
+                     " is given for a view of a texture");
+  }
+  return WriteTextureView(impl_, std::get<Texture>(resource), FromUav(desc),
+                          kDefaultShader4ComponentMapping, dest);
+}
+
+Status Device::CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHandle dest) const {
+  UnorderedAccessViewDesc desc;
+  desc.ViewDimension = static_cast<UavDimension>(WholeDimension(texture.GetDesc()));
+  return CreateUnorderedAccessView(Resource(texture), desc, dest);
+}
+
+Status Device::CreateConstantBufferView(const ConstantBufferViewDesc& desc,
+                                        CpuDescriptorHandle dest) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateConstantBufferView on an empty device");
+  Descriptor descriptor;
+  descriptor.access = DescriptorAccess::kOther;
+  if (desc.BufferLocation != 0) {
+    if (desc.BufferLocation % 256 != 0 || desc.SizeInBytes % 256 != 0 || desc.SizeInBytes == 0 ||
+        desc.SizeInBytes > 65536) {
+      return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
+                       impl_->DescribeAddress(desc.BufferLocation),
+                       "; address and size must be multiples of 256, the size at most 65536");
+    }
+    if (!impl_->addresses.contains(desc.BufferLocation, desc.SizeInBytes)) {
+      return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
+                       impl_->DescribeAddress(desc.BufferLocation),
+                       " are not inside one live buffer");
+    }
+    descriptor.kind = DescriptorKind::kConstantBuffer;
+    descriptor.address = desc.BufferLocation;
+    descriptor.size_bytes = desc.SizeInBytes;
+  }
+  return WriteSlot(*impl_, dest, descriptor);
+}
+
+}  // namespace rtapi

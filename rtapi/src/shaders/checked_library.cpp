@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "rtapi/src/shaders/checked_library.h"
+#include "rtapi/src/shaders/module_library.h"
+#include "rtapi/src/shaders/shader_library_impl.h"
+#include "runtime/hlsl/driver/embedded_source.h"
+
+namespace rtapi::detail {
+namespace {
+
+namespace hlsl = kaamos::hlsl;
+namespace shader = kaamos::shader;
+
+// The IR of the library's source with checks; null and `error` on failure.
+std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc& library,
+                                                       std::string& error) {
+  if (library.source == nullptr) {
+    error = "it carries no source (-no-source)";
+    return nullptr;
+  }
+  auto source = hlsl::read_embedded_source({library.source, library.source_bytes});
+  if (!source) {
+    error = "its source cannot be read; was it made by another version of kaamos-hlsl?";
+    return nullptr;
+  }
+  source->options.check_access = true;
+  hlsl::SourceManager sources(source->files);
+  hlsl::DiagnosticEngine diagnostics({.strict = source->options.strict});
+  std::shared_ptr<const hlsl::ir::Module> module =
+      hlsl::compile_to_ir(source->options, sources, diagnostics);
+  if (!module) error = "its source does not compile:\n" + render_all(diagnostics, sources);
+  return module;
+}
+
+CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
+  const shader::LibraryDesc& desc = *library.impl()->desc;
+  std::string error;
+  const auto module = checked_module(desc, error);
+  if (module == nullptr) {
+    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
+  }
+  CheckedLibrary out;
+  out.checked = true;
+  ModuleLibrary built = library_of(module, desc.flags, spirv);
+  out.library = std::move(built.library);
+  if (!built.slow.empty()) {
+    out.note =
+        "\"" + library.name() + "\" is interpreted, about a hundred times slower: " + built.slow;
+  }
+  error = std::move(built.error);
+  if (!out.library) {
+    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
+  }
+  return out;
+}
+
+// Programs load the same library again and again, and each time it would have to be compiled up to
+// the point where the disk cache's key is known. That many variants are kept even when unused.
+constexpr size_t kMostKept = 32;
+
+struct Known {
+  std::weak_ptr<const ShaderLibraryImpl> variant;
+  std::string note;
+};
+struct KnownVariants {
+  std::mutex mutex;
+  std::map<std::tuple<size_t, size_t, uint32_t, bool>, Known> by_source;
+  std::deque<ShaderLibrary> kept;
+};
+
+}  // namespace
+
+CheckedLibrary checked_variant(const ShaderLibrary& library, bool spirv) {
+  const shader::LibraryDesc& desc = *library.impl()->desc;
+  if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
+  // Never destroyed: at exit, other threads may still be running what it holds.
+  static KnownVariants& known = *new KnownVariants;
+  const std::lock_guard lock(known.mutex);
+  const std::string_view source(reinterpret_cast<const char*>(desc.source),
+                                desc.source == nullptr ? 0 : desc.source_bytes);
+  Known& entry =
+      known.by_source[{std::hash<std::string_view>()(source), source.size(), desc.flags, spirv}];
+  if (auto variant = entry.variant.lock()) {
+    return {ShaderLibrary(std::move(variant)), entry.note, true};
+  }
+  CheckedLibrary out = make(library, spirv);
+  if (!out.checked) return out;
+  entry = {out.library.impl(), out.note};
+  known.kept.push_back(out.library);
+  if (known.kept.size() > kMostKept) known.kept.pop_front();
+  return out;
+}
+
+}  // namespace rtapi::detail
