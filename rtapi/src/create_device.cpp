@@ -16,7 +16,7 @@ namespace {
 
 std::atomic<uint32_t> g_device_count{0};
 
-Status CheckDesc(const DeviceDesc& desc) {
+Status check_desc(const DeviceDesc& desc) {
   using detail::Id;
   if (desc.Precision > TraversalPrecision::kExact) {
     return detail::MakeError(Id::kDeviceDesc, "Precision is ",
@@ -51,7 +51,7 @@ std::vector<DeviceInfo> EnumerateDevices() {
 
 Result<Device> CreateDevice(const DeviceDesc& desc) {
   using namespace detail;
-  if (Status s = CheckDesc(desc); !s.ok()) return s.error();
+  if (Status s = check_desc(desc); !s.ok()) return s.error();
   const auto known = detail::backends();
   if (known.empty()) {
     return MakeError(Id::kNoBackend,
@@ -75,7 +75,7 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   if (desc.Checked) {
     impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);
     bool (*same_root_signature)(const RootSignature&, const RootSignature&) =
-        &detail::SameDefinition;
+        &detail::same_definition;
     impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter,
                                                            same_root_signature);
     impl->context.reporter = impl->reporter.get();

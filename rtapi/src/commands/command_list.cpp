@@ -18,21 +18,21 @@ namespace rtapi {
 
 namespace detail {
 
-bool CommandListImpl::CheckOpen(const char* call) {
+bool CommandListImpl::check_open(const char* call) {
   if (open) return true;
-  Fail(MakeError(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
+  fail(MakeError(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
   return false;
 }
 
-void CommandListImpl::Use(const char* call, GpuVirtualAddress address, std::string role) {
-  MemoryUse use = UseOf(*device, address, std::move(role));
+void CommandListImpl::use(const char* call, GpuVirtualAddress address, std::string role) {
+  MemoryUse use = use_of(*device, address, std::move(role));
   if (use.address == 0) return;
   use.call = call;
   use.command = commands->size();
   uses->push_back(std::move(use));
 }
 
-runtime::RootBindings CommandListImpl::Snapshot(const char* call, const RootState& root) {
+runtime::RootBindings CommandListImpl::snapshot(const char* call, const RootState& root) {
   for (const auto& [parameter, view] : root.views) {
     MemoryUse& use = uses->emplace_back(view);
     use.call = call;
@@ -51,9 +51,9 @@ runtime::RootBindings CommandListImpl::Snapshot(const char* call, const RootStat
   return state;
 }
 
-const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
+const StateObjectImpl* CommandListImpl::rays_pipeline(const char* call) {
   if (!raytracing_pipeline) {
-    Fail(MakeError(Id::kPipelineNotSet, call,
+    fail(MakeError(Id::kPipelineNotSet, call,
                    " without a ray tracing pipeline; call SetPipelineState1 first"));
     return nullptr;
   }
@@ -63,10 +63,10 @@ const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
   const auto& globals = pipeline.global_root_signatures;
   const bool fits =
       globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
-        return !g || SameDefinition(g, compute.signature);
+        return !g || same_definition(g, compute.signature);
       });
   if (fits) return &pipeline;
-  Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
+  fail(MakeError(Id::kPipelineRootSignature, call, ": ",
                  compute.signature
                      ? "the compute root signature does not match any ray generation shader of the "
                        "pipeline"
@@ -78,17 +78,17 @@ const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
 namespace {
 
 // Returns the pipeline that is set if it is of the kind and has the root signature; else null.
-const PipelineStateImpl* FitPipeline(CommandListImpl& list, const char* call, bool graphics) {
+const PipelineStateImpl* fit_pipeline(CommandListImpl& list, const char* call, bool graphics) {
   const char* const kind = graphics ? "graphics" : "compute";
   const PipelineStateImpl* pipeline = list.pipeline_state.impl().get();
   if (!pipeline || (pipeline->graphics != nullptr) != graphics) {
-    list.Fail(MakeError(Id::kPipelineNotSet, call, " without a ", kind,
+    list.fail(MakeError(Id::kPipelineNotSet, call, " without a ", kind,
                         " pipeline; call SetPipelineState first"));
     return nullptr;
   }
   const RootSignature& set = graphics ? list.graphics.signature : list.compute.signature;
-  if (SameDefinition(pipeline->root_signature, set)) return pipeline;
-  list.Fail(
+  if (same_definition(pipeline->root_signature, set)) return pipeline;
+  list.fail(
       MakeError(Id::kPipelineRootSignature, call, ": ",
                 set ? Text("the ", kind, " root signature is not that of pipeline ")
                     : Text("no ", kind, " root signature is set, but one is needed by pipeline "),
@@ -98,17 +98,17 @@ const PipelineStateImpl* FitPipeline(CommandListImpl& list, const char* call, bo
 
 }  // namespace
 
-const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
-  return FitPipeline(*this, call, false);
+const PipelineStateImpl* CommandListImpl::compute_pipeline(const char* call) {
+  return fit_pipeline(*this, call, false);
 }
-const PipelineStateImpl* CommandListImpl::GraphicsPipeline(const char* call) {
-  return FitPipeline(*this, call, true);
+const PipelineStateImpl* CommandListImpl::graphics_pipeline(const char* call) {
+  return fit_pipeline(*this, call, true);
 }
 
 namespace {
 
 // Turns a rule that the host's arguments break into its error.
-Status CheckRules(const runtime::DispatchProblem& problem) {
+Status check_rules(const runtime::DispatchProblem& problem) {
   switch (problem.fault) {
     case runtime::DispatchFault::kNone:
       return {};
@@ -145,7 +145,7 @@ Status CommandList::Close() {
   if (!impl_) return MakeError(Id::kNullHandle, "Close on an empty command list handle");
   if (!impl_->open) return MakeError(Id::kListNotOpen, "Close on a closed command list");
   if (impl_->open_events > 0) {
-    impl_->Fail(
+    impl_->fail(
         MakeError(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
   }
   impl_->open = false;
@@ -161,20 +161,20 @@ bool CommandList::is_open() const {
 }
 
 void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
-  if (!impl_ || !impl_->CheckOpen("SetDescriptorHeaps")) return;
+  if (!impl_ || !impl_->check_open("SetDescriptorHeaps")) return;
   DescriptorHeap views, samplers;
   for (const DescriptorHeap& heap : heaps) {
     if (Status s = CheckHandle(impl_->device, heap, "SetDescriptorHeaps: a heap"); !s.ok()) {
-      return impl_->Fail(s.error());
+      return impl_->fail(s.error());
     }
     const DescriptorHeapDesc& desc = heap.GetDesc();
     if (!HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible)) {
-      return impl_->Fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
+      return impl_->fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
                                    " was created without kShaderVisible"));
     }
     DescriptorHeap& slot = desc.Type == DescriptorHeapType::kSampler ? samplers : views;
     if (slot) {
-      return impl_->Fail(
+      return impl_->fail(
           MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
                     " is the second heap of its type; only one of each type can be set"));
     }
@@ -185,22 +185,22 @@ void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
 }
 
 void CommandList::SetPipelineState(const PipelineState& pipeline) {
-  if (!impl_ || !impl_->CheckOpen("SetPipelineState")) return;
+  if (!impl_ || !impl_->check_open("SetPipelineState")) return;
   if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState: the pipeline"); !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   impl_->pipeline_state = pipeline;
   impl_->raytracing_pipeline = {};
 }
 
 void CommandList::SetPipelineState1(const StateObject& pipeline) {
-  if (!impl_ || !impl_->CheckOpen("SetPipelineState1")) return;
+  if (!impl_ || !impl_->check_open("SetPipelineState1")) return;
   if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState1: the state object");
       !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   if (pipeline.GetType() != StateObjectType::kRaytracingPipeline) {
-    return impl_->Fail(MakeError(Id::kPipelineNotSet,
+    return impl_->fail(MakeError(Id::kPipelineNotSet,
                                  "SetPipelineState1 takes a ray tracing pipeline, but this is a "
                                  "collection"));
   }
@@ -209,12 +209,12 @@ void CommandList::SetPipelineState1(const StateObject& pipeline) {
 }
 
 void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
-  if (!impl_ || !impl_->CheckOpen("DispatchRays")) return;
-  const StateObjectImpl* pipeline = impl_->RaysPipeline("DispatchRays");
+  if (!impl_ || !impl_->check_open("DispatchRays")) return;
+  const StateObjectImpl* pipeline = impl_->rays_pipeline("DispatchRays");
   if (!pipeline) return;
-  if (Status s = CheckRules(runtime::check_dispatch_rays(impl_->device->addresses, desc));
+  if (Status s = check_rules(runtime::check_dispatch_rays(impl_->device->addresses, desc));
       !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   const std::pair<const char*, GpuVirtualAddressRangeAndStride> tables[] = {
       {"RayGenerationShaderRecord",
@@ -224,43 +224,43 @@ void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
       {"HitGroupTable", desc.HitGroupTable},
       {"CallableShaderTable", desc.CallableShaderTable}};
   for (const auto& [name, table] : tables) {
-    if (table.SizeInBytes != 0) impl_->Use("DispatchRays", table.StartAddress, name);
+    if (table.SizeInBytes != 0) impl_->use("DispatchRays", table.StartAddress, name);
   }
-  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline,
-                                             impl_->Snapshot("DispatchRays", impl_->compute), desc,
+  impl_->record(runtime::DispatchRaysCommand{pipeline->pipeline,
+                                             impl_->snapshot("DispatchRays", impl_->compute), desc,
                                              pipeline->stack_bytes.load(), pipeline->linked});
 }
 
 void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
-  if (!impl_ || !impl_->CheckOpen("Dispatch")) return;
-  const PipelineStateImpl* pipeline = impl_->ComputePipeline("Dispatch");
+  if (!impl_ || !impl_->check_open("Dispatch")) return;
+  const PipelineStateImpl* pipeline = impl_->compute_pipeline("Dispatch");
   if (!pipeline) return;
   runtime::DispatchCommand command;
   command.groups[0] = x;
   command.groups[1] = y;
   command.groups[2] = z;
-  if (Status s = CheckRules(runtime::check_dispatch(command.groups)); !s.ok()) {
-    return impl_->Fail(s.error());
+  if (Status s = check_rules(runtime::check_dispatch(command.groups)); !s.ok()) {
+    return impl_->fail(s.error());
   }
   command.pipeline = pipeline->pipeline;
   command.linked = pipeline->linked;
-  command.state = impl_->Snapshot("Dispatch", impl_->compute);
-  impl_->Record(std::move(command));
+  command.state = impl_->snapshot("Dispatch", impl_->compute);
+  impl_->record(std::move(command));
 }
 
 void CommandList::BeginEvent(std::string name) {
-  if (!impl_ || !impl_->CheckOpen("BeginEvent")) return;
+  if (!impl_ || !impl_->check_open("BeginEvent")) return;
   ++impl_->open_events;
-  impl_->Record(runtime::EventCommand{true, std::move(name)});
+  impl_->record(runtime::EventCommand{true, std::move(name)});
 }
 
 void CommandList::EndEvent() {
-  if (!impl_ || !impl_->CheckOpen("EndEvent")) return;
+  if (!impl_ || !impl_->check_open("EndEvent")) return;
   if (impl_->open_events == 0) {
-    return impl_->Fail(MakeError(Id::kEvents, "EndEvent without BeginEvent"));
+    return impl_->fail(MakeError(Id::kEvents, "EndEvent without BeginEvent"));
   }
   --impl_->open_events;
-  impl_->Record(runtime::EventCommand{false, {}});
+  impl_->record(runtime::EventCommand{false, {}});
 }
 
 Result<CommandList> Device::CreateCommandList() const {

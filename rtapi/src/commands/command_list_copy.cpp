@@ -13,25 +13,25 @@ using namespace detail;
 namespace {
 
 template <class T>
-bool Is(const Resource& r) {
+bool is(const Resource& r) {
   return std::holds_alternative<T>(r);
 }
 
-Status CheckResource(const std::shared_ptr<DeviceImpl>& device, const Resource& resource,
-                     std::string_view what) {
+Status check_resource(const std::shared_ptr<DeviceImpl>& device, const Resource& resource,
+                      std::string_view what) {
   if (const auto* b = std::get_if<Buffer>(&resource)) return CheckHandle(device, *b, what);
   if (const auto* t = std::get_if<Texture>(&resource)) return CheckHandle(device, *t, what);
   return MakeError(Id::kNullHandle, what, " is empty");
 }
 
-std::string Name(const Resource& resource) {
+std::string name_of(const Resource& resource) {
   if (const auto* b = std::get_if<Buffer>(&resource)) return Named("buffer", b->name());
   if (const auto* t = std::get_if<Texture>(&resource)) return Named("texture", t->name());
   return "no resource";
 }
 
-Status CheckTransition(const ResourceBarrier& barrier) {
-  const std::string name = Name(barrier.Resource);
+Status check_transition(const ResourceBarrier& barrier) {
+  const std::string name = name_of(barrier.Resource);
   if (barrier.StateBefore == barrier.StateAfter) {
     return MakeError(Id::kBarrier, name, ": transition from state ",
                      Hex(static_cast<uint32_t>(barrier.StateBefore)), " to itself");
@@ -68,7 +68,7 @@ struct CopySide {
   uint32_t elements(int axis) const { return (size[axis] + step(axis) - 1) / step(axis); }
 };
 
-Result<CopySide> ResolveTextureSide(const TextureCopyLocation& location, const char* which) {
+Result<CopySide> resolve_texture_side(const TextureCopyLocation& location, const char* which) {
   const Texture& texture = std::get<Texture>(location.pResource);
   const TextureDesc& desc = texture.GetDesc();
   CopySide side;
@@ -80,7 +80,7 @@ Result<CopySide> ResolveTextureSide(const TextureCopyLocation& location, const c
   side.place.texture = texture.impl()->memory;
   side.place.mip = location.SubresourceIndex % desc.MipLevels;
   side.place.array_element = location.SubresourceIndex / desc.MipLevels;
-  const MipExtent extent = GetMipExtent(desc, side.place.mip);
+  const MipExtent extent = get_mip_extent(desc, side.place.mip);
   side.size[0] = extent.width;
   side.size[1] = extent.height;
   side.size[2] = extent.depth;
@@ -88,7 +88,7 @@ Result<CopySide> ResolveTextureSide(const TextureCopyLocation& location, const c
   return side;
 }
 
-Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const char* which) {
+Result<CopySide> resolve_buffer_side(const TextureCopyLocation& location, const char* which) {
   const Buffer& buffer = std::get<Buffer>(location.pResource);
   const SubresourceFootprint& f = location.PlacedFootprint.Footprint;
   CopySide side;
@@ -137,21 +137,21 @@ Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const ch
   return side;
 }
 
-Result<CopySide> ResolveSide(const std::shared_ptr<DeviceImpl>& device,
-                             const TextureCopyLocation& location, const char* which) {
-  if (Status s = CheckResource(device, location.pResource, which); !s.ok()) return s.error();
-  const bool texture = Is<Texture>(location.pResource);
+Result<CopySide> resolve_side(const std::shared_ptr<DeviceImpl>& device,
+                              const TextureCopyLocation& location, const char* which) {
+  if (Status s = check_resource(device, location.pResource, which); !s.ok()) return s.error();
+  const bool texture = is<Texture>(location.pResource);
   if (texture != (location.Type == TextureCopyType::kSubresourceIndex)) {
     return MakeError(Id::kCopyFormat, which, " is ", texture ? "a texture" : "a buffer",
                      ", its Type says otherwise");
   }
-  return texture ? ResolveTextureSide(location, which) : ResolveBufferSide(location, which);
+  return texture ? resolve_texture_side(location, which) : resolve_buffer_side(location, which);
 }
 
 // Formats of one family; or one of blocks and one of integers with as many bytes in an element.
 // [D3D11.3 5.6: format conversion by copies]
-bool CanCopy(Format a, Format b) {
-  if (FormatFamily(a) == FormatFamily(b)) return true;
+bool can_copy(Format a, Format b) {
+  if (format_family(a) == format_family(b)) return true;
   const FormatInfo one = GetFormatInfo(a), other = GetFormatInfo(b);
   if (one.bytes != other.bytes || (one.block_side == 1) == (other.block_side == 1)) return false;
   const FormatClass plain = one.block_side == 1 ? one.type : other.type;
@@ -159,8 +159,8 @@ bool CanCopy(Format a, Format b) {
          plain == FormatClass::kTypeless;
 }
 
-Status CheckCopyFormats(const CopySide& to, const CopySide& from) {
-  if (CanCopy(to.format, from.format)) return {};
+Status check_copy_formats(const CopySide& to, const CopySide& from) {
+  if (can_copy(to.format, from.format)) return {};
   const FormatInfo a = GetFormatInfo(to.format), b = GetFormatInfo(from.format);
   return MakeError(
       Id::kCopyFormat, "CopyTextureRegion: ", from.name, " has format ",
@@ -171,7 +171,7 @@ Status CheckCopyFormats(const CopySide& to, const CopySide& from) {
 
 // Whether an edge of a box, or the place that it goes to, lies between blocks. The far edge may
 // also be that of the subresource.
-Status CheckBlockEdges(const CopySide& side, int axis, uint32_t first, uint32_t last) {
+Status check_block_edges(const CopySide& side, int axis, uint32_t first, uint32_t last) {
   const uint32_t step = side.step(axis);
   if (first % step == 0 && (last % step == 0 || last == side.size[axis])) return {};
   return MakeError(Id::kCopyBlocks, "CopyTextureRegion: on axis ", axis, ", texels ", first, "..",
@@ -180,7 +180,7 @@ Status CheckBlockEdges(const CopySide& side, int axis, uint32_t first, uint32_t 
                    step, ", or the second the size");
 }
 
-Status CheckCopyHeaps(const Buffer& dest, const Buffer& source) {
+Status check_copy_heaps(const Buffer& dest, const Buffer& source) {
   if (dest.GetDesc().Heap == HeapType::kUpload) {
     return MakeError(Id::kCopyHeap, "dest ", Named("buffer", dest.name()),
                      " is on the upload heap, which commands cannot write");
@@ -202,21 +202,21 @@ Status CheckCopyHeaps(const Buffer& dest, const Buffer& source) {
 }  // namespace
 
 void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barriers) {
-  if (!impl_ || !impl_->CheckOpen("ResourceBarrier")) return;
+  if (!impl_ || !impl_->check_open("ResourceBarrier")) return;
   for (const auto& barrier : barriers) {
     const bool uav = barrier.Type == ResourceBarrierType::kUav;
     if (!uav && barrier.Type != ResourceBarrierType::kTransition) {
-      impl_->Fail(MakeError(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
+      impl_->fail(MakeError(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
                             "; it must be kTransition or kUav"));
       continue;
     }
     Status s;
-    if (!(uav && Is<std::monostate>(barrier.Resource))) {
-      s = CheckResource(impl_->device, barrier.Resource, "ResourceBarrier: the resource");
+    if (!(uav && is<std::monostate>(barrier.Resource))) {
+      s = check_resource(impl_->device, barrier.Resource, "ResourceBarrier: the resource");
     }
-    if (s.ok() && !uav) s = CheckTransition(barrier);
+    if (s.ok() && !uav) s = check_transition(barrier);
     if (!s.ok()) {
-      impl_->Fail(s.error());
+      impl_->fail(s.error());
       continue;
     }
     runtime::BarrierCommand command;
@@ -229,27 +229,27 @@ void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barrie
     }
     command.before = barrier.StateBefore;
     command.after = barrier.StateAfter;
-    impl_->Record(std::move(command));
+    impl_->record(std::move(command));
   }
 }
 
 void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, const Buffer& source,
                                    uint64_t source_offset, uint64_t size) {
-  if (!impl_ || !impl_->CheckOpen("CopyBufferRegion")) return;
+  if (!impl_ || !impl_->check_open("CopyBufferRegion")) return;
   if (Status s = CheckHandle(impl_->device, dest, "CopyBufferRegion: dest"); !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   if (Status s = CheckHandle(impl_->device, source, "CopyBufferRegion: source"); !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
-  if (Status s = CheckCopyHeaps(dest, source); !s.ok()) return impl_->Fail(s.error());
+  if (Status s = check_copy_heaps(dest, source); !s.ok()) return impl_->fail(s.error());
   auto outside = [size](const Buffer& b, uint64_t offset) {
     return offset > b.size() || size > b.size() - offset;
   };
   if (outside(dest, dest_offset) || outside(source, source_offset)) {
     const bool at_dest = outside(dest, dest_offset);
     const Buffer& b = at_dest ? dest : source;
-    return impl_->Fail(MakeError(Id::kCopyRange, "CopyBufferRegion: ", size, " bytes from byte ",
+    return impl_->fail(MakeError(Id::kCopyRange, "CopyBufferRegion: ", size, " bytes from byte ",
                                  at_dest ? dest_offset : source_offset, " on do not fit in ",
                                  at_dest ? "dest " : "source ", Named("buffer", b.name()),
                                  ", which has ", b.size(), " bytes"));
@@ -257,28 +257,28 @@ void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, con
   const bool overlap =
       dest == source && dest_offset < source_offset + size && source_offset < dest_offset + size;
   if (overlap && size != 0) {
-    return impl_->Fail(MakeError(Id::kCopyOverlap, "CopyBufferRegion: ", size, " bytes from byte ",
+    return impl_->fail(MakeError(Id::kCopyOverlap, "CopyBufferRegion: ", size, " bytes from byte ",
                                  source_offset, " to byte ", dest_offset, " of ",
                                  Named("buffer", dest.name())));
   }
   if (size == 0) return;
-  impl_->Record(runtime::CopyBufferCommand{dest.impl()->memory, dest_offset, source.impl()->memory,
+  impl_->record(runtime::CopyBufferCommand{dest.impl()->memory, dest_offset, source.impl()->memory,
                                            source_offset, size});
 }
 
 void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x, uint32_t y,
                                     uint32_t z, const TextureCopyLocation& source, const Box* box) {
-  if (!impl_ || !impl_->CheckOpen("CopyTextureRegion")) return;
-  auto to = ResolveSide(impl_->device, dest, "dest");
-  if (!to.ok()) return impl_->Fail(to.error());
-  auto from = ResolveSide(impl_->device, source, "source");
-  if (!from.ok()) return impl_->Fail(from.error());
+  if (!impl_ || !impl_->check_open("CopyTextureRegion")) return;
+  auto to = resolve_side(impl_->device, dest, "dest");
+  if (!to.ok()) return impl_->fail(to.error());
+  auto from = resolve_side(impl_->device, source, "source");
+  if (!from.ok()) return impl_->fail(from.error());
   if (!to->place.texture && !from->place.texture) {
-    return impl_->Fail(MakeError(Id::kCopyFormat,
+    return impl_->fail(MakeError(Id::kCopyFormat,
                                  "CopyTextureRegion: both sides are buffers; use "
                                  "CopyBufferRegion"));
   }
-  if (Status s = CheckCopyFormats(*to, *from); !s.ok()) return impl_->Fail(s.error());
+  if (Status s = check_copy_formats(*to, *from); !s.ok()) return impl_->fail(s.error());
   const Box whole = {0, 0, 0, from->size[0], from->size[1], from->size[2]};
   const Box& b = box ? *box : whole;
   const uint32_t first[3] = {b.left, b.top, b.front};
@@ -287,11 +287,11 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
   runtime::CopyTextureCommand command;
   for (int i = 0; i < 3; ++i) {
     if (last[i] <= first[i]) return;  // empty boxes copy nothing [D3D12: CopyTextureRegion]
-    if (Status s = CheckBlockEdges(*from, i, first[i], last[i]); !s.ok()) {
-      return impl_->Fail(s.error());
+    if (Status s = check_block_edges(*from, i, first[i], last[i]); !s.ok()) {
+      return impl_->fail(s.error());
     }
-    if (Status s = CheckBlockEdges(*to, i, target[i], to->size[i]); !s.ok()) {
-      return impl_->Fail(s.error());
+    if (Status s = check_block_edges(*to, i, target[i], to->size[i]); !s.ok()) {
+      return impl_->fail(s.error());
     }
     // From here on in elements.
     const uint32_t end = (last[i] - 1) / from->step(i) + 1;
@@ -300,7 +300,7 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
     command.extent[i] = end - from->place.origin[i];
     if (end > from->elements(i) || to->place.origin[i] > to->elements(i) ||
         command.extent[i] > to->elements(i) - to->place.origin[i]) {
-      return impl_->Fail(MakeError(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
+      return impl_->fail(MakeError(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
                                    first[i], "..", last[i], " of ", from->name, " (size ",
                                    from->size[i], ") do not fit at ", target[i], " of ", to->name,
                                    " (size ", to->size[i], ")"));
@@ -308,35 +308,36 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
   }
   if (to->place.texture && to->place.texture == from->place.texture &&
       to->place.mip == from->place.mip && to->place.array_element == from->place.array_element) {
-    return impl_->Fail(MakeError(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
+    return impl_->fail(MakeError(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
                                  ": source and dest are the same subresource"));
   }
   command.dest = std::move(to->place);
   command.source = std::move(from->place);
-  impl_->Record(std::move(command));
+  impl_->record(std::move(command));
 }
 
 void CommandList::CopyResource(const Resource& dest, const Resource& source) {
-  if (!impl_ || !impl_->CheckOpen("CopyResource")) return;
+  if (!impl_ || !impl_->check_open("CopyResource")) return;
   for (const Resource* r : {&dest, &source}) {
-    if (Status s = CheckResource(impl_->device, *r,
-                                 r == &dest ? "CopyResource: dest" : "CopyResource: source");
+    if (Status s = check_resource(impl_->device, *r,
+                                  r == &dest ? "CopyResource: dest" : "CopyResource: source");
         !s.ok()) {
-      return impl_->Fail(s.error());
+      return impl_->fail(s.error());
     }
   }
-  if (Is<Buffer>(dest) && Is<Buffer>(source)) {
+  if (is<Buffer>(dest) && is<Buffer>(source)) {
     const Buffer& to = std::get<Buffer>(dest);
     const Buffer& from = std::get<Buffer>(source);
     if (to.size() != from.size()) {
-      return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " has ",
-                                   to.size(), " bytes, but ", Name(source), " has ", from.size()));
+      return impl_->fail(MakeError(Id::kCopyFormat, "CopyResource: ", name_of(dest), " has ",
+                                   to.size(), " bytes, but ", name_of(source), " has ",
+                                   from.size()));
     }
     return CopyBufferRegion(to, 0, from, 0, to.size());
   }
-  if (!Is<Texture>(dest) || !Is<Texture>(source)) {
-    return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " and ",
-                                 Name(source), " must both be buffers or both be textures"));
+  if (!is<Texture>(dest) || !is<Texture>(source)) {
+    return impl_->fail(MakeError(Id::kCopyFormat, "CopyResource: ", name_of(dest), " and ",
+                                 name_of(source), " must both be buffers or both be textures"));
   }
   const TextureDesc& a = std::get<Texture>(dest).GetDesc();
   const TextureDesc& b = std::get<Texture>(source).GetDesc();
@@ -344,12 +345,12 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
   // Blocks may go to texels: the other texture then has a quarter of the size.
   const bool same_blocks = GetFormatInfo(a.Format).block_side == GetFormatInfo(b.Format).block_side;
   for (uint32_t mip = 0; same_size && mip < a.MipLevels; ++mip) {
-    same_size = same_blocks ? GetMipExtent(a, mip) == GetMipExtent(b, mip)
-                            : GetMipElements(a, mip) == GetMipElements(b, mip);
+    same_size = same_blocks ? get_mip_extent(a, mip) == get_mip_extent(b, mip)
+                            : get_mip_elements(a, mip) == get_mip_elements(b, mip);
   }
   if (a.Dimension != b.Dimension || !same_size) {
-    return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " and ",
-                                 Name(source), " differ in dimension, size or mip levels"));
+    return impl_->fail(MakeError(Id::kCopyFormat, "CopyResource: ", name_of(dest), " and ",
+                                 name_of(source), " differ in dimension, size or mip levels"));
   }
   const uint32_t count = std::get<Texture>(dest).subresource_count();
   for (uint32_t i = 0; i < count; ++i) {
@@ -360,9 +361,9 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
 namespace {
 
 // Finds the view that both handles name, and checks that it fits the resource.
-Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescriptorHandle gpu,
-                                              CpuDescriptorHandle cpu, const Resource& resource) {
-  const auto slot = list.device->FindSlot(cpu);
+Result<runtime::ClearUavCommand> resolve_clear(CommandListImpl& list, GpuDescriptorHandle gpu,
+                                               CpuDescriptorHandle cpu, const Resource& resource) {
+  const auto slot = list.device->find_slot(cpu);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
     return MakeError(Id::kClearView, "the CPU handle ", Hex(cpu.ptr),
                      " is not in a live CBV/SRV/UAV heap");
@@ -380,18 +381,19 @@ Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescript
   if (command.view.access != shader::DescriptorAccess::kUnorderedAccess) {
     return MakeError(Id::kClearView, "the descriptor is not an unordered access view");
   }
-  if (Status s = CheckResource(list.device, resource, "the cleared resource"); !s.ok()) {
+  if (Status s = check_resource(list.device, resource, "the cleared resource"); !s.ok()) {
     return s.error();
   }
   const bool texture_view = command.view.kind == shader::DescriptorKind::kTexture;
-  if (texture_view != Is<Texture>(resource)) {
+  if (texture_view != is<Texture>(resource)) {
     return MakeError(Id::kClearView, "the descriptor is a view of a ",
-                     texture_view ? "texture" : "buffer", ", but the resource is ", Name(resource));
+                     texture_view ? "texture" : "buffer", ", but the resource is ",
+                     name_of(resource));
   }
   if (const auto* buffer = std::get_if<Buffer>(&resource)) {
     const uint64_t offset = command.view.address - buffer->GetGPUVirtualAddress();
     if (offset > buffer->size() || command.view.size_bytes > buffer->size() - offset) {
-      return MakeError(Id::kClearView, "the view is not of ", Name(resource));
+      return MakeError(Id::kClearView, "the view is not of ", name_of(resource));
     }
     command.resource = buffer->impl()->memory;
   } else {
@@ -404,23 +406,23 @@ Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescript
 
 void CommandList::ClearUnorderedAccessViewUint(GpuDescriptorHandle gpu, CpuDescriptorHandle cpu,
                                                const Resource& resource, const uint32_t values[4]) {
-  if (!impl_ || !impl_->CheckOpen("ClearUnorderedAccessViewUint")) return;
-  auto command = ResolveClear(*impl_, gpu, cpu, resource);
-  if (!command.ok()) return impl_->Fail(command.error());
-  if (!values) return impl_->Fail(MakeError(Id::kClearView, "values is a null pointer"));
+  if (!impl_ || !impl_->check_open("ClearUnorderedAccessViewUint")) return;
+  auto command = resolve_clear(*impl_, gpu, cpu, resource);
+  if (!command.ok()) return impl_->fail(command.error());
+  if (!values) return impl_->fail(MakeError(Id::kClearView, "values is a null pointer"));
   std::memcpy(command->values, values, sizeof command->values);
-  impl_->Record(std::move(*command));
+  impl_->record(std::move(*command));
 }
 
 void CommandList::ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu, CpuDescriptorHandle cpu,
                                                 const Resource& resource, const float values[4]) {
-  if (!impl_ || !impl_->CheckOpen("ClearUnorderedAccessViewFloat")) return;
-  auto command = ResolveClear(*impl_, gpu, cpu, resource);
-  if (!command.ok()) return impl_->Fail(command.error());
-  if (!values) return impl_->Fail(MakeError(Id::kClearView, "values is a null pointer"));
+  if (!impl_ || !impl_->check_open("ClearUnorderedAccessViewFloat")) return;
+  auto command = resolve_clear(*impl_, gpu, cpu, resource);
+  if (!command.ok()) return impl_->fail(command.error());
+  if (!values) return impl_->fail(MakeError(Id::kClearView, "values is a null pointer"));
   command->is_float = true;
   std::memcpy(command->values, values, sizeof command->values);
-  impl_->Record(std::move(*command));
+  impl_->record(std::move(*command));
 }
 
 }  // namespace rtapi

@@ -15,7 +15,7 @@ namespace rtapi {
 
 namespace detail {
 
-runtime::DrawState& CommandListImpl::WritableDrawState() {
+runtime::DrawState& CommandListImpl::writable_draw_state() {
   if (draw_state.use_count() > 1) {
     draw_state = std::make_shared<runtime::DrawState>(*draw_state);
   }
@@ -30,22 +30,22 @@ constexpr float kViewportMin = -32768;
 constexpr float kViewportMax = 32767;
 
 // Remembers what the next draw with this buffer uses.
-void NoteInput(CommandListImpl& list, uint32_t slot, GpuVirtualAddress address, std::string role) {
+void note_input(CommandListImpl& list, uint32_t slot, GpuVirtualAddress address, std::string role) {
   list.input_uses.erase(slot);
-  if (address != 0) list.input_uses[slot] = UseOf(*list.device, address, std::move(role));
+  if (address != 0) list.input_uses[slot] = use_of(*list.device, address, std::move(role));
 }
 
-bool IsFinite(const Viewport& v) {
+bool is_finite(const Viewport& v) {
   return std::isfinite(v.TopLeftX) && std::isfinite(v.TopLeftY) && std::isfinite(v.Width) &&
          std::isfinite(v.Height) && std::isfinite(v.MinDepth) && std::isfinite(v.MaxDepth);
 }
 
-Status CheckViewport(const Viewport& v, size_t index) {
+Status check_viewport(const Viewport& v, size_t index) {
   const bool inside = v.TopLeftX >= kViewportMin && v.TopLeftX + v.Width <= kViewportMax &&
                       std::min(v.TopLeftY, v.TopLeftY + v.Height) >= kViewportMin &&
                       std::max(v.TopLeftY, v.TopLeftY + v.Height) <= kViewportMax;
   const bool depth = v.MinDepth >= 0 && v.MinDepth <= 1 && v.MaxDepth >= 0 && v.MaxDepth <= 1;
-  if (IsFinite(v) && inside && depth) return {};
+  if (is_finite(v) && inside && depth) return {};
   return MakeError(Id::kDrawRectangles, "RSSetViewports: viewport ", index, " is (", v.TopLeftX,
                    ", ", v.TopLeftY, ") + (", v.Width, ", ", v.Height, "), depth ", v.MinDepth,
                    " to ", v.MaxDepth,
@@ -53,7 +53,7 @@ Status CheckViewport(const Viewport& v, size_t index) {
 }
 
 // Cuts rectangles to a view, and drops those that are empty then. [RAS-134]
-std::vector<Rect> CutTo(const runtime::TargetView& view, std::span<const Rect> rects) {
+std::vector<Rect> cut_to(const runtime::TargetView& view, std::span<const Rect> rects) {
   std::vector<Rect> out;
   for (Rect r : rects) {
     r.left = std::max(r.left, 0);
@@ -66,8 +66,8 @@ std::vector<Rect> CutTo(const runtime::TargetView& view, std::span<const Rect> r
 }
 
 // The target will be used by the next command.
-void UseTarget(CommandListImpl& list, const char* call, const ReadTarget& target,
-               std::string role) {
+void use_target(CommandListImpl& list, const char* call, const ReadTarget& target,
+                std::string role) {
   if (target.view.texture == nullptr) return;
   MemoryUse use;
   use.owner = target.owner;
@@ -79,41 +79,41 @@ void UseTarget(CommandListImpl& list, const char* call, const ReadTarget& target
 }
 
 // Records a clear of a view whose values are set. The pointers were checked.
-void RecordClear(CommandListImpl& list, const char* call, CpuDescriptorHandle handle,
-                 std::span<const Rect> rects, runtime::ClearTargetCommand command) {
-  auto target = ReadTargetSlot(*list.device, handle, command.depth_stencil, call);
-  if (!target.ok()) return list.Fail(target.error());
+void record_clear(CommandListImpl& list, const char* call, CpuDescriptorHandle handle,
+                  std::span<const Rect> rects, runtime::ClearTargetCommand command) {
+  auto target = read_target_slot(*list.device, handle, command.depth_stencil, call);
+  if (!target.ok()) return list.fail(target.error());
   if (target->view.texture == nullptr) return;
-  UseTarget(list, call, *target, "the view");
+  use_target(list, call, *target, "the view");
   command.view = target->view;
   command.whole = rects.empty();
-  command.rects = CutTo(target->view, rects);
-  if (command.whole || !command.rects.empty()) list.Record(std::move(command));
+  command.rects = cut_to(target->view, rects);
+  if (command.whole || !command.rects.empty()) list.record(std::move(command));
 }
 
-void RecordDraw(CommandListImpl& list, const char* call, bool indexed,
-                const DrawIndexedArguments& arguments) {
-  if (!list.CheckOpen(call)) return;
+void record_draw(CommandListImpl& list, const char* call, bool indexed,
+                 const DrawIndexedArguments& arguments) {
+  if (!list.check_open(call)) return;
   if (arguments.IndexCountPerInstance == 0 || arguments.InstanceCount == 0) return;
-  const PipelineStateImpl* pipeline = list.DrawPipeline(call, indexed);
+  const PipelineStateImpl* pipeline = list.draw_pipeline(call, indexed);
   if (!pipeline) return;
   runtime::DrawCommand command;
   command.pipeline = pipeline->pipeline;
   command.linked = pipeline->graphics;
-  command.bindings = list.Snapshot(call, list.graphics);
+  command.bindings = list.snapshot(call, list.graphics);
   command.state = list.draw_state;
   command.indexed = indexed;
   command.arguments = arguments;
-  list.Record(std::move(command));
+  list.record(std::move(command));
 }
 
 }  // namespace
 
-const PipelineStateImpl* CommandListImpl::DrawPipeline(const char* call, bool indexed) {
-  const PipelineStateImpl* set = GraphicsPipeline(call);
+const PipelineStateImpl* CommandListImpl::draw_pipeline(const char* call, bool indexed) {
+  const PipelineStateImpl* set = graphics_pipeline(call);
   if (!set) return nullptr;
   if (draw_state->topology == PrimitiveTopology::kUndefined) {
-    Fail(MakeError(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
+    fail(MakeError(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
     return nullptr;
   }
   const auto note = [&](MemoryUse use) {
@@ -135,64 +135,64 @@ const PipelineStateImpl* CommandListImpl::DrawPipeline(const char* call, bool in
 using namespace detail;
 
 void CommandList::IASetPrimitiveTopology(PrimitiveTopology topology) {
-  if (!impl_ || !impl_->CheckOpen("IASetPrimitiveTopology")) return;
+  if (!impl_ || !impl_->check_open("IASetPrimitiveTopology")) return;
   const auto number = static_cast<uint32_t>(topology);
   const bool lines_or_points = (number >= 1 && number <= 3) || (number >= 10 && number <= 13) ||
                                (number >= 33 && number <= 64);
   if (lines_or_points) {
-    return impl_->Fail(MakeError(Id::kGraphicsUnsupported, "IASetPrimitiveTopology: topology ",
+    return impl_->fail(MakeError(Id::kGraphicsUnsupported, "IASetPrimitiveTopology: topology ",
                                  number,
                                  " is not triangles; only kTriangleList (4) and "
                                  "kTriangleStrip (5) are drawn"));
   }
   if (topology != PrimitiveTopology::kUndefined && topology != PrimitiveTopology::kTriangleList &&
       topology != PrimitiveTopology::kTriangleStrip) {
-    return impl_->Fail(MakeError(Id::kDrawState, "IASetPrimitiveTopology: ", number,
+    return impl_->fail(MakeError(Id::kDrawState, "IASetPrimitiveTopology: ", number,
                                  " is no topology; use kTriangleList (4) or kTriangleStrip (5)"));
   }
-  impl_->WritableDrawState().topology = topology;
+  impl_->writable_draw_state().topology = topology;
 }
 
 void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const VertexBufferView> views) {
-  if (!impl_ || !impl_->CheckOpen("IASetVertexBuffers")) return;
+  if (!impl_ || !impl_->check_open("IASetVertexBuffers")) return;
   if (start_slot > kIAVertexInputResourceSlotCount ||
       views.size() > kIAVertexInputResourceSlotCount - start_slot) {
-    return impl_->Fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slots ", start_slot, "..",
+    return impl_->fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slots ", start_slot, "..",
                                  start_slot + views.size(), "; there are 32"));
   }
   for (size_t i = 0; i < views.size(); ++i) {
     const VertexBufferView& view = views[i];
     if (view.StrideInBytes > kMaxVertexStride) {
-      return impl_->Fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
+      return impl_->fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
                                    " has a stride of ", view.StrideInBytes,
                                    " bytes; it may be 0 to 2048"));
     }
     if (view.BufferLocation != 0 &&
         !impl_->device->addresses.contains(view.BufferLocation,
                                            std::max<uint64_t>(view.SizeInBytes, 1))) {
-      return impl_->Fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
+      return impl_->fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
                                    ": ", view.SizeInBytes, " bytes at ",
-                                   impl_->device->DescribeAddress(view.BufferLocation),
+                                   impl_->device->describe_address(view.BufferLocation),
                                    " are not inside one live buffer"));
     }
   }
   std::copy(views.begin(), views.end(),
-            impl_->WritableDrawState().vertex_buffers.begin() + start_slot);
+            impl_->writable_draw_state().vertex_buffers.begin() + start_slot);
   for (size_t i = 0; i < views.size(); ++i) {
     const auto slot = static_cast<uint32_t>(start_slot + i);
-    NoteInput(*impl_, slot, views[i].BufferLocation, Text("vertex buffer ", slot));
+    note_input(*impl_, slot, views[i].BufferLocation, Text("vertex buffer ", slot));
   }
 }
 
 void CommandList::IASetIndexBuffer(const IndexBufferView* view) {
-  if (!impl_ || !impl_->CheckOpen("IASetIndexBuffer")) return;
+  if (!impl_ || !impl_->check_open("IASetIndexBuffer")) return;
   if (!view || view->BufferLocation == 0) {
-    impl_->WritableDrawState().index_buffer = {};
+    impl_->writable_draw_state().index_buffer = {};
     impl_->input_uses.erase(kIndexBufferSlot);
     return;
   }
   if (view->Format != Format::kR16Uint && view->Format != Format::kR32Uint) {
-    return impl_->Fail(MakeError(Id::kDrawBuffers, "IASetIndexBuffer: format ",
+    return impl_->fail(MakeError(Id::kDrawBuffers, "IASetIndexBuffer: format ",
                                  static_cast<uint32_t>(view->Format),
                                  "; it must be kR16Uint or kR32Uint"));
   }
@@ -200,37 +200,37 @@ void CommandList::IASetIndexBuffer(const IndexBufferView* view) {
   if (view->BufferLocation % bytes != 0 ||
       !impl_->device->addresses.contains(view->BufferLocation,
                                          std::max<uint64_t>(view->SizeInBytes, 1))) {
-    return impl_->Fail(MakeError(Id::kDrawBuffers, "IASetIndexBuffer: ", view->SizeInBytes,
-                                 " bytes at ", impl_->device->DescribeAddress(view->BufferLocation),
-                                 "; they must be inside one live buffer, at a multiple of ",
-                                 bytes));
+    return impl_->fail(
+        MakeError(Id::kDrawBuffers, "IASetIndexBuffer: ", view->SizeInBytes, " bytes at ",
+                  impl_->device->describe_address(view->BufferLocation),
+                  "; they must be inside one live buffer, at a multiple of ", bytes));
   }
-  impl_->WritableDrawState().index_buffer = *view;
-  NoteInput(*impl_, kIndexBufferSlot, view->BufferLocation, "index buffer");
+  impl_->writable_draw_state().index_buffer = *view;
+  note_input(*impl_, kIndexBufferSlot, view->BufferLocation, "index buffer");
 }
 
 void CommandList::RSSetViewports(std::span<const Viewport> viewports) {
-  if (!impl_ || !impl_->CheckOpen("RSSetViewports")) return;
+  if (!impl_ || !impl_->check_open("RSSetViewports")) return;
   if (viewports.size() > kViewportAndScissorRectCount) {
-    return impl_->Fail(MakeError(Id::kDrawRectangles, "RSSetViewports: ", viewports.size(),
+    return impl_->fail(MakeError(Id::kDrawRectangles, "RSSetViewports: ", viewports.size(),
                                  " viewports; there are 16"));
   }
   for (size_t i = 0; i < viewports.size(); ++i) {
-    if (Status s = CheckViewport(viewports[i], i); !s.ok()) return impl_->Fail(s.error());
+    if (Status s = check_viewport(viewports[i], i); !s.ok()) return impl_->fail(s.error());
   }
-  runtime::DrawState& state = impl_->WritableDrawState();
+  runtime::DrawState& state = impl_->writable_draw_state();
   state.viewports = {};
   std::copy(viewports.begin(), viewports.end(), state.viewports.begin());
   state.viewport_count = static_cast<uint32_t>(viewports.size());
 }
 
 void CommandList::RSSetScissorRects(std::span<const Rect> rects) {
-  if (!impl_ || !impl_->CheckOpen("RSSetScissorRects")) return;
+  if (!impl_ || !impl_->check_open("RSSetScissorRects")) return;
   if (rects.size() > kViewportAndScissorRectCount) {
-    return impl_->Fail(MakeError(Id::kDrawRectangles, "RSSetScissorRects: ", rects.size(),
+    return impl_->fail(MakeError(Id::kDrawRectangles, "RSSetScissorRects: ", rects.size(),
                                  " rectangles; there are 16"));
   }
-  runtime::DrawState& state = impl_->WritableDrawState();
+  runtime::DrawState& state = impl_->writable_draw_state();
   state.scissors = {};
   std::copy(rects.begin(), rects.end(), state.scissors.begin());
   state.scissor_count = static_cast<uint32_t>(rects.size());
@@ -239,9 +239,9 @@ void CommandList::RSSetScissorRects(std::span<const Rect> rects) {
 void CommandList::OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* render_targets,
                                      bool single_handle_to_descriptor_range,
                                      const CpuDescriptorHandle* depth_stencil) {
-  if (!impl_ || !impl_->CheckOpen("OMSetRenderTargets")) return;
+  if (!impl_ || !impl_->check_open("OMSetRenderTargets")) return;
   if (count > kSimultaneousRenderTargetCount || (count != 0 && !render_targets)) {
-    return impl_->Fail(MakeError(Id::kDrawRectangles, "OMSetRenderTargets: ", count,
+    return impl_->fail(MakeError(Id::kDrawRectangles, "OMSetRenderTargets: ", count,
                                  count > kSimultaneousRenderTargetCount
                                      ? " render targets; there are 8"
                                      : " render targets at a null pointer"));
@@ -250,9 +250,10 @@ void CommandList::OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* 
   std::vector<MemoryUse> uses;
   const auto read = [&](CpuDescriptorHandle handle, bool depth, std::string role,
                         runtime::TargetView& view) {
-    auto target = ReadTargetSlot(*impl_->device, handle, depth, Text("OMSetRenderTargets: ", role));
+    auto target =
+        read_target_slot(*impl_->device, handle, depth, Text("OMSetRenderTargets: ", role));
     if (!target.ok()) {
-      impl_->Fail(target.error());
+      impl_->fail(target.error());
       return false;
     }
     view = target->view;
@@ -270,34 +271,34 @@ void CommandList::OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* 
   }
   targets.color_count = count;
   if (depth_stencil && !read(*depth_stencil, true, "depth-stencil view", targets.depth)) return;
-  impl_->WritableDrawState().targets = std::move(targets);
+  impl_->writable_draw_state().targets = std::move(targets);
   impl_->target_uses = std::move(uses);
 }
 
 void CommandList::OMSetBlendFactor(const float factor[4]) {
-  if (!impl_ || !impl_->CheckOpen("OMSetBlendFactor")) return;
-  float* const to = impl_->WritableDrawState().blend_factor;
+  if (!impl_ || !impl_->check_open("OMSetBlendFactor")) return;
+  float* const to = impl_->writable_draw_state().blend_factor;
   for (int i = 0; i < 4; ++i) to[i] = factor ? factor[i] : 1.0f;
 }
 
 void CommandList::ClearRenderTargetView(CpuDescriptorHandle view, const float color[4],
                                         std::span<const Rect> rects) {
-  if (!impl_ || !impl_->CheckOpen("ClearRenderTargetView")) return;
+  if (!impl_ || !impl_->check_open("ClearRenderTargetView")) return;
   if (!color) {
-    return impl_->Fail(
+    return impl_->fail(
         MakeError(Id::kClearTarget, "ClearRenderTargetView: the pointer to the colour is null"));
   }
   runtime::ClearTargetCommand command;
   std::copy(color, color + 4, command.color);
-  RecordClear(*impl_, "ClearRenderTargetView", view, rects, std::move(command));
+  record_clear(*impl_, "ClearRenderTargetView", view, rects, std::move(command));
 }
 
 void CommandList::ClearDepthStencilView(CpuDescriptorHandle view, ClearFlags flags, float depth,
                                         uint8_t stencil, std::span<const Rect> rects) {
-  if (!impl_ || !impl_->CheckOpen("ClearDepthStencilView")) return;
+  if (!impl_ || !impl_->check_open("ClearDepthStencilView")) return;
   const auto bits = static_cast<uint32_t>(flags);
   if (bits == 0 || bits > 3) {
-    return impl_->Fail(MakeError(Id::kClearTarget, "ClearDepthStencilView: flags ", bits,
+    return impl_->fail(MakeError(Id::kClearTarget, "ClearDepthStencilView: flags ", bits,
                                  "; they must be kDepth (1), kStencil (2) or both"));
   }
   runtime::ClearTargetCommand command;
@@ -305,26 +306,26 @@ void CommandList::ClearDepthStencilView(CpuDescriptorHandle view, ClearFlags fla
   command.clear_depth = HasAny(flags, ClearFlags::kDepth);
   command.clear_stencil = HasAny(flags, ClearFlags::kStencil);
   if (command.clear_depth && !(depth >= 0 && depth <= 1)) {
-    return impl_->Fail(
+    return impl_->fail(
         MakeError(Id::kClearTarget, "ClearDepthStencilView: depth ", depth, "; it must be 0 to 1"));
   }
   command.depth = depth;
   command.stencil = stencil;
-  RecordClear(*impl_, "ClearDepthStencilView", view, rects, std::move(command));
+  record_clear(*impl_, "ClearDepthStencilView", view, rects, std::move(command));
 }
 
 void CommandList::DrawInstanced(uint32_t vertices, uint32_t instances, uint32_t start_vertex,
                                 uint32_t start_instance) {
   if (!impl_) return;
-  RecordDraw(*impl_, "DrawInstanced", false,
-             {vertices, instances, start_vertex, 0, start_instance});
+  record_draw(*impl_, "DrawInstanced", false,
+              {vertices, instances, start_vertex, 0, start_instance});
 }
 
 void CommandList::DrawIndexedInstanced(uint32_t indices, uint32_t instances, uint32_t start_index,
                                        int32_t base_vertex, uint32_t start_instance) {
   if (!impl_) return;
-  RecordDraw(*impl_, "DrawIndexedInstanced", true,
-             {indices, instances, start_index, base_vertex, start_instance});
+  record_draw(*impl_, "DrawIndexedInstanced", true,
+              {indices, instances, start_index, base_vertex, start_instance});
 }
 
 }  // namespace rtapi

@@ -48,26 +48,26 @@ struct CommandListImpl {
   uint32_t open_events = 0;
 
   // Keeps the error: as in D3D12, Close() reports it.
-  void Fail(Error error) { errors.push_back(std::move(error)); }
+  void fail(Error error) { errors.push_back(std::move(error)); }
   // Returns whether recording is possible; if not, keeps an error.
-  bool CheckOpen(const char* call);
+  bool check_open(const char* call);
   // For the next command that is recorded, and what it uses of memory.
-  runtime::RootBindings Snapshot(const char* call, const RootState& root);
+  runtime::RootBindings snapshot(const char* call, const RootState& root);
   // Returns state that no recorded draw shares, so that it can be written.
-  runtime::DrawState& WritableDrawState();
+  runtime::DrawState& writable_draw_state();
   // The next command uses the memory at an address; one that is in no live buffer is ignored.
-  void Use(const char* call, GpuVirtualAddress address, std::string role);
+  void use(const char* call, GpuVirtualAddress address, std::string role);
   // Returns the pipeline if one is set and fits the root signature; else null, with an error kept.
-  const StateObjectImpl* RaysPipeline(const char* call);
-  const PipelineStateImpl* ComputePipeline(const char* call);
-  const PipelineStateImpl* GraphicsPipeline(const char* call);
+  const StateObjectImpl* rays_pipeline(const char* call);
+  const PipelineStateImpl* compute_pipeline(const char* call);
+  const PipelineStateImpl* graphics_pipeline(const char* call);
   // The same for a draw, which needs a topology, too, and uses buffers and targets.
-  const PipelineStateImpl* DrawPipeline(const char* call, bool indexed);
+  const PipelineStateImpl* draw_pipeline(const char* call, bool indexed);
 
   // Built in place, because gcc 12 at -O3 warns that members of a temporary variant are
   // uninitialised.
   template <class T>
-  void Record(T command) {
+  void record(T command) {
     commands->emplace_back(std::in_place_type<T>, std::move(command));
   }
 };

@@ -15,8 +15,8 @@ using namespace detail;
 namespace {
 
 // Checks that `offset` is a multiple of 4 and that `bytes` from there lie in the buffer.
-Status CheckRange(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer, uint64_t offset,
-                  uint64_t bytes, const char* what) {
+Status check_range(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer, uint64_t offset,
+                   uint64_t bytes, const char* what) {
   if (Status s = CheckHandle(device, buffer, Text("ExecuteIndirect: the ", what)); !s.ok()) {
     return s;
   }
@@ -33,28 +33,28 @@ Status CheckRange(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffe
   return {};
 }
 
-Status CheckBuffers(const CommandListImpl& list, const CommandSignatureImpl& signature,
-                    uint32_t max_count, const Buffer& arguments, uint64_t arguments_offset,
-                    const Buffer& count, uint64_t count_offset) {
+Status check_buffers(const CommandListImpl& list, const CommandSignatureImpl& signature,
+                     uint32_t max_count, const Buffer& arguments, uint64_t arguments_offset,
+                     const Buffer& count, uint64_t count_offset) {
   // The buffer may end right after the last command's arguments; its stride needs no padding.
   const uint64_t bytes = max_count == 0 ? 0
                                         : uint64_t{max_count - 1} * signature.layout->stride_bytes +
                                               signature.layout->packed_bytes;
-  if (Status s = CheckRange(list.device, arguments, arguments_offset, bytes, "argument buffer");
+  if (Status s = check_range(list.device, arguments, arguments_offset, bytes, "argument buffer");
       !s.ok()) {
     return s;
   }
   if (!count) return {};
-  return CheckRange(list.device, count, count_offset, sizeof(uint32_t), "count buffer");
+  return check_range(list.device, count, count_offset, sizeof(uint32_t), "count buffer");
 }
 
 // Sets what the list has for this kind of work. Returns whether that is enough; if not, an error is
 // kept.
-bool TakePipeline(CommandListImpl& list, runtime::IndirectWork work,
-                  runtime::ExecuteIndirectCommand& command) {
+bool take_pipeline(CommandListImpl& list, runtime::IndirectWork work,
+                   runtime::ExecuteIndirectCommand& command) {
   constexpr const char* kCall = "ExecuteIndirect";
   if (work == runtime::IndirectWork::kDispatchRays) {
-    const StateObjectImpl* pipeline = list.RaysPipeline(kCall);
+    const StateObjectImpl* pipeline = list.rays_pipeline(kCall);
     if (!pipeline) return false;
     command.pipeline = pipeline->pipeline;
     command.linked = pipeline->linked;
@@ -62,14 +62,14 @@ bool TakePipeline(CommandListImpl& list, runtime::IndirectWork work,
     return true;
   }
   if (work == runtime::IndirectWork::kDispatch) {
-    const PipelineStateImpl* pipeline = list.ComputePipeline(kCall);
+    const PipelineStateImpl* pipeline = list.compute_pipeline(kCall);
     if (!pipeline) return false;
     command.pipeline = pipeline->pipeline;
     command.linked_compute = pipeline->linked;
     return true;
   }
   const PipelineStateImpl* pipeline =
-      list.DrawPipeline(kCall, work == runtime::IndirectWork::kDrawIndexed);
+      list.draw_pipeline(kCall, work == runtime::IndirectWork::kDrawIndexed);
   if (!pipeline) return false;
   command.pipeline = pipeline->pipeline;
   command.linked_graphics = pipeline->graphics;
@@ -82,18 +82,18 @@ bool TakePipeline(CommandListImpl& list, runtime::IndirectWork work,
 void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t max_count,
                                   const Buffer& arguments, uint64_t arguments_offset,
                                   const Buffer& count, uint64_t count_offset) {
-  if (!impl_ || !impl_->CheckOpen("ExecuteIndirect")) return;
+  if (!impl_ || !impl_->check_open("ExecuteIndirect")) return;
   if (Status s = CheckHandle(impl_->device, signature, "ExecuteIndirect: the command signature");
       !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   const CommandSignatureImpl& given = *signature.impl();
   const runtime::IndirectWork work = given.layout->work;
   const bool draws =
       work == runtime::IndirectWork::kDraw || work == runtime::IndirectWork::kDrawIndexed;
   RootState& root = draws ? impl_->graphics : impl_->compute;
-  if (given.root_signature && !SameDefinition(given.root_signature, root.signature)) {
-    return impl_->Fail(
+  if (given.root_signature && !same_definition(given.root_signature, root.signature)) {
+    return impl_->fail(
         MakeError(Id::kIndirectArguments, Named("command signature", given.desc.Name),
                   " was made for another root signature than the one that is set on the list"));
   }
@@ -102,11 +102,11 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
     impl_->input_uses.erase(view.of_indices ? kIndexBufferSlot : view.slot);
   }
   runtime::ExecuteIndirectCommand command;
-  if (!TakePipeline(*impl_, work, command)) return;
+  if (!take_pipeline(*impl_, work, command)) return;
   if (Status s =
-          CheckBuffers(*impl_, given, max_count, arguments, arguments_offset, count, count_offset);
+          check_buffers(*impl_, given, max_count, arguments, arguments_offset, count, count_offset);
       !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   command.layout = given.layout;
   command.max_count = max_count;
@@ -118,15 +118,15 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
     root.views.erase(argument.root_parameter);
   }
-  command.state = impl_->Snapshot("ExecuteIndirect", root);
-  impl_->Record(std::move(command));
+  command.state = impl_->snapshot("ExecuteIndirect", root);
+  impl_->record(std::move(command));
   // After ExecuteIndirect, everything that the signature sets is zero or null. [D3D12: Indirect
   // drawing]
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
-    root.Clear(argument.dest_offset, argument.size_bytes);
+    root.clear(argument.dest_offset, argument.size_bytes);
   }
   for (const runtime::IndirectBufferView& view : given.layout->buffer_views) {
-    runtime::DrawState& state = impl_->WritableDrawState();
+    runtime::DrawState& state = impl_->writable_draw_state();
     if (view.of_indices) {
       state.index_buffer = {};
     } else {

@@ -10,12 +10,12 @@ using namespace detail;
 
 namespace {
 
-void UseInputs(CommandListImpl& list, const char* call,
-               const std::vector<RaytracingGeometryDesc>& geometries) {
+void use_inputs(CommandListImpl& list, const char* call,
+                const std::vector<RaytracingGeometryDesc>& geometries) {
   for (size_t i = 0; i < geometries.size(); ++i) {
     const RaytracingGeometryDesc& geometry = geometries[i];
     const auto use = [&](uint64_t count, GpuVirtualAddress address, const char* what) {
-      if (count != 0) list.Use(call, address, Text("geometry ", i, " ", what));
+      if (count != 0) list.use(call, address, Text("geometry ", i, " ", what));
     };
     if (geometry.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
       use(geometry.AABBs.AABBCount, geometry.AABBs.AABBs.StartAddress, "AABBs");
@@ -34,20 +34,20 @@ void CommandList::BuildRaytracingAccelerationStructure(
     const BuildRaytracingAccelerationStructureDesc& desc,
     std::span<const RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos) {
   static constexpr char kCall[] = "BuildRaytracingAccelerationStructure";
-  if (!impl_ || !impl_->CheckOpen(kCall)) return;
+  if (!impl_ || !impl_->check_open(kCall)) return;
   const DeviceImpl& device = *impl_->device;
-  if (Status s = CheckBuildInputs(device, desc.Inputs); !s.ok()) return impl_->Fail(s.error());
+  if (Status s = check_build_inputs(device, desc.Inputs); !s.ok()) return impl_->fail(s.error());
   runtime::BuildCommand command;
-  command.geometries = CopyGeometryDescs(desc.Inputs);
-  if (Status s = CheckBuildAddresses(device, desc, command.geometries); !s.ok()) {
-    return impl_->Fail(s.error());
+  command.geometries = copy_geometry_descs(desc.Inputs);
+  if (Status s = check_build_addresses(device, desc, command.geometries); !s.ok()) {
+    return impl_->fail(s.error());
   }
   uint32_t seen = 0;
   for (const auto& info : postbuild_infos) {
-    if (Status s = CheckPostbuildInfo(device, info, 1); !s.ok()) return impl_->Fail(s.error());
+    if (Status s = check_postbuild_info(device, info, 1); !s.ok()) return impl_->fail(s.error());
     const uint32_t bit = 1u << static_cast<uint32_t>(info.InfoType);
     if (seen & bit) {
-      return impl_->Fail(MakeError(Id::kPostbuildInfo, kCall, ": InfoType ",
+      return impl_->fail(MakeError(Id::kPostbuildInfo, kCall, ": InfoType ",
                                    static_cast<uint32_t>(info.InfoType),
                                    " is requested twice; each may be requested once per build"));
     }
@@ -65,32 +65,32 @@ void CommandList::BuildRaytracingAccelerationStructure(
     command.instance_descs = desc.Inputs.InstanceDescs;
   }
   command.postbuild_infos.assign(postbuild_infos.begin(), postbuild_infos.end());
-  impl_->Use(kCall, command.dest, "dest");
-  impl_->Use(kCall, command.source, "source");
-  impl_->Use(kCall, command.scratch, "scratch");
-  UseInputs(*impl_, kCall, command.geometries);
-  if (command.instance_count != 0) impl_->Use(kCall, command.instance_descs, "instance descs");
-  for (const auto& info : postbuild_infos) impl_->Use(kCall, info.DestBuffer, "postbuild info");
-  impl_->Record(std::move(command));
+  impl_->use(kCall, command.dest, "dest");
+  impl_->use(kCall, command.source, "source");
+  impl_->use(kCall, command.scratch, "scratch");
+  use_inputs(*impl_, kCall, command.geometries);
+  if (command.instance_count != 0) impl_->use(kCall, command.instance_descs, "instance descs");
+  for (const auto& info : postbuild_infos) impl_->use(kCall, info.DestBuffer, "postbuild info");
+  impl_->record(std::move(command));
 }
 
 void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
     const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
     std::span<const GpuVirtualAddress> sources) {
   static constexpr char kCall[] = "EmitRaytracingAccelerationStructurePostbuildInfo";
-  if (!impl_ || !impl_->CheckOpen(kCall)) return;
+  if (!impl_ || !impl_->check_open(kCall)) return;
   const DeviceImpl& device = *impl_->device;
-  if (Status s = CheckPostbuildInfo(device, desc, sources.size()); !s.ok()) {
-    return impl_->Fail(s.error());
+  if (Status s = check_postbuild_info(device, desc, sources.size()); !s.ok()) {
+    return impl_->fail(s.error());
   }
   for (size_t i = 0; i < sources.size(); ++i) {
-    if (Status s = CheckStructureAddress(device, sources[i], Text("source ", i)); !s.ok()) {
-      return impl_->Fail(s.error());
+    if (Status s = check_structure_address(device, sources[i], Text("source ", i)); !s.ok()) {
+      return impl_->fail(s.error());
     }
   }
-  impl_->Use(kCall, desc.DestBuffer, "postbuild info");
-  for (size_t i = 0; i < sources.size(); ++i) impl_->Use(kCall, sources[i], Text("source ", i));
-  impl_->Record(runtime::EmitPostbuildInfoCommand{desc, {sources.begin(), sources.end()}});
+  impl_->use(kCall, desc.DestBuffer, "postbuild info");
+  for (size_t i = 0; i < sources.size(); ++i) impl_->use(kCall, sources[i], Text("source ", i));
+  impl_->record(runtime::EmitPostbuildInfoCommand{desc, {sources.begin(), sources.end()}});
 }
 
 void CommandList::CopyRaytracingAccelerationStructure(
@@ -98,31 +98,31 @@ void CommandList::CopyRaytracingAccelerationStructure(
     RaytracingAccelerationStructureCopyMode mode) {
   using Mode = RaytracingAccelerationStructureCopyMode;
   static constexpr char kCall[] = "CopyRaytracingAccelerationStructure";
-  if (!impl_ || !impl_->CheckOpen(kCall)) return;
+  if (!impl_ || !impl_->check_open(kCall)) return;
   const DeviceImpl& device = *impl_->device;
   if (mode > Mode::kDeserialize) {
-    return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "mode ",
+    return impl_->fail(MakeError(Id::kAccelerationStructureCopy, "mode ",
                                  static_cast<uint32_t>(mode), " is undefined; it must be 0 to 4"));
   }
   const bool writes_bytes = mode == Mode::kSerialize || mode == Mode::kVisualizationDecodeForTools;
   Status s = mode == Mode::kDeserialize
-                 ? CheckStructureBytes(device, source,
-                                       sizeof(SerializedRaytracingAccelerationStructureHeader),
-                                       false, "source")
-                 : CheckStructureAddress(device, source, "source");
+                 ? check_structure_bytes(device, source,
+                                         sizeof(SerializedRaytracingAccelerationStructureHeader),
+                                         false, "source")
+                 : check_structure_address(device, source, "source");
   if (s.ok()) {
-    s = writes_bytes ? CheckStructureBytes(device, dest, 8, true, "dest")
-                     : CheckStructureAddress(device, dest, "dest");
+    s = writes_bytes ? check_structure_bytes(device, dest, 8, true, "dest")
+                     : check_structure_address(device, dest, "dest");
   }
-  if (!s.ok()) return impl_->Fail(s.error());
+  if (!s.ok()) return impl_->fail(s.error());
   if (source == dest) {
-    return impl_->Fail(MakeError(Id::kAccelerationStructureCopy,
+    return impl_->fail(MakeError(Id::kAccelerationStructureCopy,
                                  "source and dest are the same address (",
-                                 device.DescribeAddress(dest), "); they must not overlap"));
+                                 device.describe_address(dest), "); they must not overlap"));
   }
-  impl_->Use(kCall, dest, "dest");
-  impl_->Use(kCall, source, "source");
-  impl_->Record(runtime::CopyAccelerationStructureCommand{dest, source, mode});
+  impl_->use(kCall, dest, "dest");
+  impl_->use(kCall, source, "source");
+  impl_->record(runtime::CopyAccelerationStructureCommand{dest, source, mode});
 }
 
 }  // namespace rtapi

@@ -22,15 +22,15 @@ class LayoutMaker {
               const RootSignature& root_signature)
       : device_(device), desc_(desc), root_signature_(root_signature) {}
 
-  Result<runtime::IndirectLayout> Run();
+  Result<runtime::IndirectLayout> run();
 
  private:
-  Status Add(const IndirectArgumentDesc& argument, size_t index);
-  Status AddRoot(const std::string& where, uint32_t parameter, RootParameterType type,
-                 uint32_t first_value, uint32_t values);
-  Status AddWork(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
-                 size_t index);
-  Status AddBufferView(const std::string& where, bool of_indices, uint32_t slot);
+  Status add(const IndirectArgumentDesc& argument, size_t index);
+  Status add_root(const std::string& where, uint32_t parameter, RootParameterType type,
+                  uint32_t first_value, uint32_t values);
+  Status add_work(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
+                  size_t index);
+  Status add_buffer_view(const std::string& where, bool of_indices, uint32_t slot);
 
   const DeviceImpl& device_;
   const CommandSignatureDesc& desc_;
@@ -40,8 +40,8 @@ class LayoutMaker {
   uint64_t next_root_ = 0;  // the lowest (parameter, value) that may be set next
 };
 
-Status LayoutMaker::AddWork(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
-                            size_t index) {
+Status LayoutMaker::add_work(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
+                             size_t index) {
   if (index + 1 != desc_.ArgumentDescs.size()) {
     return MakeError(Id::kCommandSignature, where, " is a draw or dispatch, but ",
                      desc_.ArgumentDescs.size() - 1 - index,
@@ -66,7 +66,7 @@ Status LayoutMaker::AddWork(const std::string& where, runtime::IndirectWork work
   return {};
 }
 
-Status LayoutMaker::AddBufferView(const std::string& where, bool of_indices, uint32_t slot) {
+Status LayoutMaker::add_buffer_view(const std::string& where, bool of_indices, uint32_t slot) {
   if (slot >= kIAVertexInputResourceSlotCount) {
     return MakeError(Id::kCommandSignature, where, " sets vertex buffer ", slot,
                      "; there are 0 to 31");
@@ -82,8 +82,8 @@ Status LayoutMaker::AddBufferView(const std::string& where, bool of_indices, uin
   return {};
 }
 
-Status LayoutMaker::AddRoot(const std::string& where, uint32_t parameter, RootParameterType type,
-                            uint32_t first_value, uint32_t values) {
+Status LayoutMaker::add_root(const std::string& where, uint32_t parameter, RootParameterType type,
+                             uint32_t first_value, uint32_t values) {
   if (!root_signature_) {
     return MakeError(Id::kCommandSignature, where,
                      " sets a root argument; pass the root signature to CreateCommandSignature");
@@ -127,35 +127,35 @@ Status LayoutMaker::AddRoot(const std::string& where, uint32_t parameter, RootPa
   return {};
 }
 
-Status LayoutMaker::Add(const IndirectArgumentDesc& argument, size_t index) {
+Status LayoutMaker::add(const IndirectArgumentDesc& argument, size_t index) {
   const std::string where = Text("argument ", index);
   switch (argument.Type) {
     case Type::kDispatch:
-      return AddWork(where, runtime::IndirectWork::kDispatch, sizeof(DispatchArguments), index);
+      return add_work(where, runtime::IndirectWork::kDispatch, sizeof(DispatchArguments), index);
     case Type::kDispatchRays:
-      return AddWork(where, runtime::IndirectWork::kDispatchRays, sizeof(DispatchRaysDesc), index);
+      return add_work(where, runtime::IndirectWork::kDispatchRays, sizeof(DispatchRaysDesc), index);
     case Type::kDraw:
-      return AddWork(where, runtime::IndirectWork::kDraw, sizeof(DrawArguments), index);
+      return add_work(where, runtime::IndirectWork::kDraw, sizeof(DrawArguments), index);
     case Type::kDrawIndexed:
-      return AddWork(where, runtime::IndirectWork::kDrawIndexed, sizeof(DrawIndexedArguments),
-                     index);
+      return add_work(where, runtime::IndirectWork::kDrawIndexed, sizeof(DrawIndexedArguments),
+                      index);
     case Type::kVertexBufferView:
-      return AddBufferView(where, false, argument.VertexBuffer.Slot);
+      return add_buffer_view(where, false, argument.VertexBuffer.Slot);
     case Type::kIndexBufferView:
-      return AddBufferView(where, true, 0);
+      return add_buffer_view(where, true, 0);
     case Type::kConstant:
-      return AddRoot(where, argument.Constant.RootParameterIndex,
-                     RootParameterType::k32BitConstants, argument.Constant.DestOffsetIn32BitValues,
-                     argument.Constant.Num32BitValuesToSet);
+      return add_root(where, argument.Constant.RootParameterIndex,
+                      RootParameterType::k32BitConstants, argument.Constant.DestOffsetIn32BitValues,
+                      argument.Constant.Num32BitValuesToSet);
     case Type::kConstantBufferView:
-      return AddRoot(where, argument.ConstantBufferView.RootParameterIndex, RootParameterType::kCbv,
-                     0, 1);
+      return add_root(where, argument.ConstantBufferView.RootParameterIndex,
+                      RootParameterType::kCbv, 0, 1);
     case Type::kShaderResourceView:
-      return AddRoot(where, argument.ShaderResourceView.RootParameterIndex, RootParameterType::kSrv,
-                     0, 1);
+      return add_root(where, argument.ShaderResourceView.RootParameterIndex,
+                      RootParameterType::kSrv, 0, 1);
     case Type::kUnorderedAccessView:
-      return AddRoot(where, argument.UnorderedAccessView.RootParameterIndex,
-                     RootParameterType::kUav, 0, 1);
+      return add_root(where, argument.UnorderedAccessView.RootParameterIndex,
+                      RootParameterType::kUav, 0, 1);
     default:
       return MakeError(Id::kCommandSignature, where, " has type ",
                        static_cast<uint32_t>(argument.Type),
@@ -163,13 +163,13 @@ Status LayoutMaker::Add(const IndirectArgumentDesc& argument, size_t index) {
   }
 }
 
-Result<runtime::IndirectLayout> LayoutMaker::Run() {
+Result<runtime::IndirectLayout> LayoutMaker::run() {
   if (desc_.ArgumentDescs.empty()) {
     return MakeError(Id::kCommandSignature,
                      "no arguments; the last one must be a draw or dispatch");
   }
   for (size_t i = 0; i < desc_.ArgumentDescs.size(); ++i) {
-    if (Status s = Add(desc_.ArgumentDescs[i], i); !s.ok()) return s.error();
+    if (Status s = add(desc_.ArgumentDescs[i], i); !s.ok()) return s.error();
   }
   if (!complete_) {
     return MakeError(Id::kCommandSignature, "the last argument is not a draw or dispatch");
@@ -208,7 +208,7 @@ Result<CommandSignature> Device::CreateCommandSignature(const CommandSignatureDe
                        "local; local arguments belong in shader records");
     }
   }
-  auto layout = LayoutMaker(*impl_, desc, root_signature).Run();
+  auto layout = LayoutMaker(*impl_, desc, root_signature).run();
   if (!layout.ok()) return layout.error();
   auto impl = std::make_shared<CommandSignatureImpl>();
   impl->device = impl_;

@@ -5,7 +5,7 @@
 
 namespace rtapi::detail {
 
-MemoryUse UseOf(const DeviceImpl& device, GpuVirtualAddress address, std::string role) {
+MemoryUse use_of(const DeviceImpl& device, GpuVirtualAddress address, std::string role) {
   MemoryUse use;
   const auto allocation = device.addresses.find(address);
   if (!allocation) return use;

@@ -27,7 +27,7 @@ struct MemoryUse {
 using MemoryUses = std::vector<MemoryUse>;
 
 // Empty if the address is in no live buffer.
-MemoryUse UseOf(const DeviceImpl& device, GpuVirtualAddress address, std::string role);
+MemoryUse use_of(const DeviceImpl& device, GpuVirtualAddress address, std::string role);
 
 // Takes a reference to all of them, or returns KA0856 for the first one that was freed.
 Result<std::vector<std::shared_ptr<const void>>> HoldAll(const MemoryUses& uses);

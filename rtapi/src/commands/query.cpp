@@ -31,8 +31,8 @@ constexpr uint64_t kResolveAlignment = 8;  // [D3D12: ResolveQueryData]
 const QueryHeapDesc kEmptyHeap;
 
 // Checks queries `first` to `first + count` of a heap.
-Status CheckQueries(const CommandListImpl& list, const char* call, const QueryHeap& heap,
-                    QueryType type, uint32_t first, uint32_t count) {
+Status check_queries(const CommandListImpl& list, const char* call, const QueryHeap& heap,
+                     QueryType type, uint32_t first, uint32_t count) {
   if (Status s = CheckHandle(list.device, heap, Text(call, ": heap")); !s.ok()) return s;
   const std::string where = Text(call, ": ", Named("query heap", heap.GetDesc().Name));
   if (type != QueryType::kTimestamp) {
@@ -47,8 +47,8 @@ Status CheckQueries(const CommandListImpl& list, const char* call, const QueryHe
   return {};
 }
 
-Status CheckDestination(const CommandListImpl& list, const Buffer& buffer, uint64_t offset,
-                        uint64_t bytes) {
+Status check_destination(const CommandListImpl& list, const Buffer& buffer, uint64_t offset,
+                         uint64_t bytes) {
   if (Status s = CheckHandle(list.device, buffer, "ResolveQueryData: destination"); !s.ok()) {
     return s;
   }
@@ -92,27 +92,27 @@ Result<QueryHeap> Device::CreateQueryHeap(const QueryHeapDesc& desc) const {
 }
 
 void CommandList::EndQuery(const QueryHeap& heap, QueryType type, uint32_t index) {
-  if (!impl_ || !impl_->CheckOpen("EndQuery")) return;
-  if (Status s = CheckQueries(*impl_, "EndQuery", heap, type, index, 1); !s.ok()) {
-    return impl_->Fail(s.error());
+  if (!impl_ || !impl_->check_open("EndQuery")) return;
+  if (Status s = check_queries(*impl_, "EndQuery", heap, type, index, 1); !s.ok()) {
+    return impl_->fail(s.error());
   }
-  impl_->Record(runtime::TimestampCommand{heap.impl()->queries, index});
+  impl_->record(runtime::TimestampCommand{heap.impl()->queries, index});
 }
 
 void CommandList::ResolveQueryData(const QueryHeap& heap, QueryType type, uint32_t start_index,
                                    uint32_t count, const Buffer& destination,
                                    uint64_t destination_offset_bytes) {
-  if (!impl_ || !impl_->CheckOpen("ResolveQueryData")) return;
-  if (Status s = CheckQueries(*impl_, "ResolveQueryData", heap, type, start_index, count);
+  if (!impl_ || !impl_->check_open("ResolveQueryData")) return;
+  if (Status s = check_queries(*impl_, "ResolveQueryData", heap, type, start_index, count);
       !s.ok()) {
-    return impl_->Fail(s.error());
+    return impl_->fail(s.error());
   }
   const uint64_t bytes = uint64_t{count} * sizeof(uint64_t);
-  if (Status s = CheckDestination(*impl_, destination, destination_offset_bytes, bytes); !s.ok()) {
-    return impl_->Fail(s.error());
+  if (Status s = check_destination(*impl_, destination, destination_offset_bytes, bytes); !s.ok()) {
+    return impl_->fail(s.error());
   }
   if (count == 0) return;
-  impl_->Record(runtime::ResolveTimestampsCommand{heap.impl()->queries, start_index, count,
+  impl_->record(runtime::ResolveTimestampsCommand{heap.impl()->queries, start_index, count,
                                                   destination.impl()->memory,
                                                   destination_offset_bytes});
 }

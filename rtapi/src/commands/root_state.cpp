@@ -10,21 +10,21 @@ namespace rtapi {
 
 namespace detail {
 
-void RootState::Write(uint32_t offset, const void* value, size_t bytes) {
+void RootState::write(uint32_t offset, const void* value, size_t bytes) {
   if (offset + bytes > runtime::kRootArgumentBytes) return;  // 64 DWORDs always fit
   if (arguments.use_count() > 1) arguments = std::make_shared<runtime::RootArguments>(*arguments);
   std::memcpy(arguments->bytes.data() + offset, value, bytes);
 }
 
-void RootState::Clear(uint32_t offset, uint32_t bytes) {
+void RootState::clear(uint32_t offset, uint32_t bytes) {
   static constexpr uint8_t kZeros[runtime::kRootArgumentBytes] = {};
-  if (bytes <= sizeof kZeros) Write(offset, kZeros, bytes);
+  if (bytes <= sizeof kZeros) write(offset, kZeros, bytes);
 }
 
-const RootParameter* RootSetter::Find(uint32_t index, RootParameterType type) {
-  if (!list.CheckOpen(call)) return nullptr;
+const RootParameter* RootSetter::find(uint32_t index, RootParameterType type) {
+  if (!list.check_open(call)) return nullptr;
   if (!root.signature) {
-    list.Fail(
+    list.fail(
         MakeError(Id::kRootSignatureNotSet, call, ": call ",
                   &root == &list.graphics ? "SetGraphicsRootSignature" : "SetComputeRootSignature",
                   " first"));
@@ -32,13 +32,13 @@ const RootParameter* RootSetter::Find(uint32_t index, RootParameterType type) {
   }
   const auto& parameters = root.signature.GetDesc().Parameters;
   if (index >= parameters.size()) {
-    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index,
+    list.fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index,
                         " does not exist; the root signature has ", parameters.size(),
                         " parameters"));
     return nullptr;
   }
   if (parameters[index].ParameterType != type) {
-    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
+    list.fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
                         static_cast<uint32_t>(parameters[index].ParameterType),
                         ", but this call sets one of type ", static_cast<uint32_t>(type)));
     return nullptr;
@@ -46,62 +46,62 @@ const RootParameter* RootSetter::Find(uint32_t index, RootParameterType type) {
   return &parameters[index];
 }
 
-void RootSetter::SetSignature(const RootSignature& signature) {
-  if (!list.CheckOpen(call)) return;
+void RootSetter::set_signature(const RootSignature& signature) {
+  if (!list.check_open(call)) return;
   if (Status s = CheckHandle(list.device, signature, Text(call, ": the signature")); !s.ok()) {
-    return list.Fail(s.error());
+    return list.fail(s.error());
   }
   if (signature.is_local()) {
-    return list.Fail(MakeError(Id::kRootSignatureKind, call,
+    return list.fail(MakeError(Id::kRootSignatureKind, call,
                                " takes a global root signature, but this one is local; local "
                                "arguments belong in shader records"));
   }
-  if (root.signature && SameDefinition(root.signature, signature)) return;
+  if (root.signature && same_definition(root.signature, signature)) return;
   const uint64_t forgotten = root.set_parameters | root.forgotten_parameters;
   root = RootState();
   root.signature = signature;
   root.forgotten_parameters = forgotten;
 }
 
-void RootSetter::SetConstants(uint32_t parameter, uint32_t count, const void* values,
-                              uint32_t dest_offset) {
-  const auto* p = Find(parameter, RootParameterType::k32BitConstants);
+void RootSetter::set_constants(uint32_t parameter, uint32_t count, const void* values,
+                               uint32_t dest_offset) {
+  const auto* p = find(parameter, RootParameterType::k32BitConstants);
   if (!p) return;
   const uint32_t total = p->Constants.Num32BitValues;
   if (dest_offset > total || count > total - dest_offset) {
-    return list.Fail(MakeError(Id::kRootConstantsRange, call, ": values ", dest_offset, "..",
+    return list.fail(MakeError(Id::kRootConstantsRange, call, ": values ", dest_offset, "..",
                                uint64_t{dest_offset} + count, " of parameter ", parameter,
                                ", which has only ", total));
   }
   if (count != 0 && !values) {
-    return list.Fail(MakeError(Id::kRootConstantsRange, call,
+    return list.fail(MakeError(Id::kRootConstantsRange, call,
                                ": the pointer to the values of parameter ", parameter, " is null"));
   }
   if (count == 0) return;
-  root.NoteSet(parameter);
-  root.Write(root.signature.GetArgumentOffset(parameter) + dest_offset * 4, values,
+  root.note_set(parameter);
+  root.write(root.signature.GetArgumentOffset(parameter) + dest_offset * 4, values,
              size_t{count} * 4);
 }
 
-void RootSetter::SetView(uint32_t index, RootParameterType type, GpuVirtualAddress address) {
-  if (!Find(index, type)) return;
+void RootSetter::set_view(uint32_t index, RootParameterType type, GpuVirtualAddress address) {
+  if (!find(index, type)) return;
   const uint32_t alignment = type == RootParameterType::kCbv ? 256 : 4;
   // Address 0 is a null descriptor: an acceleration structure that every ray misses.
   if (address % alignment != 0 || (address != 0 && !list.device->addresses.find(address))) {
-    return list.Fail(MakeError(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
-                               list.device->DescribeAddress(address),
+    return list.fail(MakeError(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
+                               list.device->describe_address(address),
                                "; it must lie in a live buffer, at a multiple of ", alignment));
   }
-  root.NoteSet(index);
-  root.Write(root.signature.GetArgumentOffset(index), &address, sizeof address);
+  root.note_set(index);
+  root.write(root.signature.GetArgumentOffset(index), &address, sizeof address);
   root.views.erase(index);
   if (address != 0) {
-    root.views[index] = UseOf(*list.device, address, Text("root parameter ", index));
+    root.views[index] = use_of(*list.device, address, Text("root parameter ", index));
   }
 }
 
-void RootSetter::SetTable(uint32_t parameter, GpuDescriptorHandle base) {
-  const auto* p = Find(parameter, RootParameterType::kDescriptorTable);
+void RootSetter::set_table(uint32_t parameter, GpuDescriptorHandle base) {
+  const auto* p = find(parameter, RootParameterType::kDescriptorTable);
   if (!p) return;
   const bool samplers =
       p->DescriptorTable.Ranges.front().RangeType == DescriptorRangeType::kSampler;
@@ -111,13 +111,13 @@ void RootSetter::SetTable(uint32_t parameter, GpuDescriptorHandle base) {
   const bool inside = heap && base.ptr >= start && offset % kDescriptorHandleIncrementSize == 0 &&
                       offset / kDescriptorHandleIncrementSize < heap.GetDesc().NumDescriptors;
   if (!inside) {
-    return list.Fail(MakeError(Id::kDescriptorTableHandle, call, ": handle ", Hex(base.ptr),
+    return list.fail(MakeError(Id::kDescriptorTableHandle, call, ": handle ", Hex(base.ptr),
                                " for parameter ", parameter, " is not in the ",
                                samplers ? "sampler" : "CBV/SRV/UAV", " heap that is set",
                                heap ? "" : "; call SetDescriptorHeaps first"));
   }
-  root.NoteSet(parameter);
-  root.Write(root.signature.GetArgumentOffset(parameter), &base.ptr, sizeof base.ptr);
+  root.note_set(parameter);
+  root.write(root.signature.GetArgumentOffset(parameter), &base.ptr, sizeof base.ptr);
 }
 
 }  // namespace detail
@@ -126,7 +126,7 @@ using namespace detail;
 
 void CommandList::SetComputeRootSignature(const RootSignature& signature) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->compute, "SetComputeRootSignature"}.SetSignature(signature);
+  RootSetter{*impl_, impl_->compute, "SetComputeRootSignature"}.set_signature(signature);
 }
 void CommandList::SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value,
                                               uint32_t dest_offset) {
@@ -135,32 +135,32 @@ void CommandList::SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value
 void CommandList::SetComputeRoot32BitConstants(uint32_t parameter, uint32_t count,
                                                const void* values, uint32_t dest_offset) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->compute, "SetComputeRoot32BitConstants"}.SetConstants(
+  RootSetter{*impl_, impl_->compute, "SetComputeRoot32BitConstants"}.set_constants(
       parameter, count, values, dest_offset);
 }
 void CommandList::SetComputeRootConstantBufferView(uint32_t parameter, GpuVirtualAddress address) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->compute, "SetComputeRootConstantBufferView"}.SetView(
+  RootSetter{*impl_, impl_->compute, "SetComputeRootConstantBufferView"}.set_view(
       parameter, RootParameterType::kCbv, address);
 }
 void CommandList::SetComputeRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->compute, "SetComputeRootShaderResourceView"}.SetView(
+  RootSetter{*impl_, impl_->compute, "SetComputeRootShaderResourceView"}.set_view(
       parameter, RootParameterType::kSrv, address);
 }
 void CommandList::SetComputeRootUnorderedAccessView(uint32_t parameter, GpuVirtualAddress address) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->compute, "SetComputeRootUnorderedAccessView"}.SetView(
+  RootSetter{*impl_, impl_->compute, "SetComputeRootUnorderedAccessView"}.set_view(
       parameter, RootParameterType::kUav, address);
 }
 void CommandList::SetComputeRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->compute, "SetComputeRootDescriptorTable"}.SetTable(parameter, base);
+  RootSetter{*impl_, impl_->compute, "SetComputeRootDescriptorTable"}.set_table(parameter, base);
 }
 
 void CommandList::SetGraphicsRootSignature(const RootSignature& signature) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootSignature"}.SetSignature(signature);
+  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootSignature"}.set_signature(signature);
 }
 void CommandList::SetGraphicsRoot32BitConstant(uint32_t parameter, uint32_t value,
                                                uint32_t dest_offset) {
@@ -169,28 +169,28 @@ void CommandList::SetGraphicsRoot32BitConstant(uint32_t parameter, uint32_t valu
 void CommandList::SetGraphicsRoot32BitConstants(uint32_t parameter, uint32_t count,
                                                 const void* values, uint32_t dest_offset) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->graphics, "SetGraphicsRoot32BitConstants"}.SetConstants(
+  RootSetter{*impl_, impl_->graphics, "SetGraphicsRoot32BitConstants"}.set_constants(
       parameter, count, values, dest_offset);
 }
 void CommandList::SetGraphicsRootConstantBufferView(uint32_t parameter, GpuVirtualAddress address) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootConstantBufferView"}.SetView(
+  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootConstantBufferView"}.set_view(
       parameter, RootParameterType::kCbv, address);
 }
 void CommandList::SetGraphicsRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootShaderResourceView"}.SetView(
+  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootShaderResourceView"}.set_view(
       parameter, RootParameterType::kSrv, address);
 }
 void CommandList::SetGraphicsRootUnorderedAccessView(uint32_t parameter,
                                                      GpuVirtualAddress address) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootUnorderedAccessView"}.SetView(
+  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootUnorderedAccessView"}.set_view(
       parameter, RootParameterType::kUav, address);
 }
 void CommandList::SetGraphicsRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base) {
   if (!impl_) return;
-  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootDescriptorTable"}.SetTable(parameter, base);
+  RootSetter{*impl_, impl_->graphics, "SetGraphicsRootDescriptorTable"}.set_table(parameter, base);
 }
 
 }  // namespace rtapi

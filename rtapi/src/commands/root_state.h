@@ -25,9 +25,9 @@ struct RootState {
   uint64_t set_parameters = 0;
   uint64_t forgotten_parameters = 0;
 
-  void Write(uint32_t offset_bytes, const void* value, size_t bytes);
-  void Clear(uint32_t offset_bytes, uint32_t size_bytes);
-  void NoteSet(uint32_t parameter) {
+  void write(uint32_t offset_bytes, const void* value, size_t bytes);
+  void clear(uint32_t offset_bytes, uint32_t size_bytes);
+  void note_set(uint32_t parameter) {
     if (parameter < 64) set_parameters |= uint64_t{1} << parameter;
   }
 };
@@ -39,14 +39,14 @@ struct RootSetter {
   RootState& root;
   const char* call;
 
-  void SetSignature(const RootSignature& signature);
-  void SetConstants(uint32_t parameter, uint32_t count, const void* values, uint32_t dest_offset);
-  void SetView(uint32_t parameter, RootParameterType type, GpuVirtualAddress address);
-  void SetTable(uint32_t parameter, GpuDescriptorHandle base);
+  void set_signature(const RootSignature& signature);
+  void set_constants(uint32_t parameter, uint32_t count, const void* values, uint32_t dest_offset);
+  void set_view(uint32_t parameter, RootParameterType type, GpuVirtualAddress address);
+  void set_table(uint32_t parameter, GpuDescriptorHandle base);
 
  private:
   // Returns the parameter if it exists and has the type that the call sets, else null.
-  const RootParameter* Find(uint32_t index, RootParameterType type);
+  const RootParameter* find(uint32_t index, RootParameterType type);
 };
 
 }  // namespace rtapi::detail

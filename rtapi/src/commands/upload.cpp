@@ -20,8 +20,8 @@ struct Staging {
   uint64_t row_bytes = 0;
 };
 
-Result<Staging> MakeStaging(const Device& device, const Texture& texture, uint32_t subresource,
-                            HeapType heap) {
+Result<Staging> make_staging(const Device& device, const Texture& texture, uint32_t subresource,
+                             HeapType heap) {
   if (!texture) return MakeError(Id::kNullHandle, "the texture is an empty handle");
   std::vector<PlacedSubresourceFootprint> layouts;
   std::vector<uint32_t> rows;
@@ -36,7 +36,7 @@ Result<Staging> MakeStaging(const Device& device, const Texture& texture, uint32
                  uint64_t{rows.front()} * layouts.front().Footprint.Depth, row_bytes.front()};
 }
 
-Status CheckQueue(const Device& device, const CommandQueue& queue) {
+Status check_queue(const Device& device, const CommandQueue& queue) {
   if (!device || !queue) {
     return MakeError(Id::kNullHandle, device ? "the queue" : "the device", " is an empty handle");
   }
@@ -44,7 +44,7 @@ Status CheckQueue(const Device& device, const CommandQueue& queue) {
 }
 
 // The texture helpers accept textures in any state.
-void MarkAsHelper(const CommandList& list) {
+void mark_as_helper(const CommandList& list) {
   for (runtime::Command& command : *list.impl()->commands) {
     if (auto* copy = std::get_if<runtime::CopyTextureCommand>(&command)) copy->any_state = true;
   }
@@ -63,7 +63,7 @@ Result<Buffer> CreateUploadBuffer(const Device& device, std::span<const std::byt
 Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
                                    std::span<const std::byte> bytes, ResourceFlags flags,
                                    std::string name) {
-  if (Status s = CheckQueue(device, queue); !s.ok()) return s.error();
+  if (Status s = check_queue(device, queue); !s.ok()) return s.error();
   auto staging = CreateUploadBuffer(device, bytes, name + " staging");
   if (!staging.ok()) return staging.error();
   auto buffer =
@@ -78,7 +78,7 @@ Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
 
 Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue& queue,
                                               const Buffer& buffer) {
-  if (Status s = CheckQueue(device, queue); !s.ok()) return s.error();
+  if (Status s = check_queue(device, queue); !s.ok()) return s.error();
   if (!buffer) return MakeError(Id::kNullHandle, "ReadbackBuffer on an empty buffer handle");
   Buffer readable = buffer;
   if (buffer.GetDesc().Heap == HeapType::kDefault) {
@@ -98,8 +98,8 @@ Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue
 
 Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& texture,
                      uint32_t subresource, std::span<const std::byte> texels, uint32_t row_pitch) {
-  if (Status s = CheckQueue(device, queue); !s.ok()) return s;
-  auto staging = MakeStaging(device, texture, subresource, HeapType::kUpload);
+  if (Status s = check_queue(device, queue); !s.ok()) return s;
+  auto staging = make_staging(device, texture, subresource, HeapType::kUpload);
   if (!staging.ok()) return staging.error();
   const uint64_t pitch = row_pitch ? row_pitch : staging->row_bytes;
   const uint64_t needed = (staging->rows - 1) * pitch + staging->row_bytes;
@@ -116,19 +116,19 @@ Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& t
   auto list = device.CreateCommandList();
   if (!list.ok()) return list.error();
   list->CopyTextureRegion({texture, subresource}, 0, 0, 0, {staging->buffer, staging->layout});
-  MarkAsHelper(*list);
+  mark_as_helper(*list);
   return queue.ExecuteAndWait(*list);
 }
 
 Result<std::vector<std::byte>> ReadbackTexture(const Device& device, CommandQueue& queue,
                                                const Texture& texture, uint32_t subresource) {
-  if (Status s = CheckQueue(device, queue); !s.ok()) return s.error();
-  auto staging = MakeStaging(device, texture, subresource, HeapType::kReadback);
+  if (Status s = check_queue(device, queue); !s.ok()) return s.error();
+  auto staging = make_staging(device, texture, subresource, HeapType::kReadback);
   if (!staging.ok()) return staging.error();
   auto list = device.CreateCommandList();
   if (!list.ok()) return list.error();
   list->CopyTextureRegion({staging->buffer, staging->layout}, 0, 0, 0, {texture, subresource});
-  MarkAsHelper(*list);
+  mark_as_helper(*list);
   if (Status s = queue.ExecuteAndWait(*list); !s.ok()) return s.error();
   std::vector<std::byte> texels(staging->rows * staging->row_bytes);
   const std::byte* in = staging->buffer.data<std::byte>().data();

@@ -14,7 +14,7 @@ namespace detail {
 
 namespace {
 
-uint64_t Mix(uint64_t x) {  // splitmix64's finisher
+uint64_t mix(uint64_t x) {  // splitmix64's finisher
   x += 0x9E3779B97F4A7C15ull;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
   x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
@@ -31,7 +31,7 @@ void DeviceImpl::Remove(const Error& reason) {
     error.code = ErrorCode::kDeviceRemoved;
     removed_ = error;
   }
-  Report(MessageSeverity::kError, reason);
+  report(MessageSeverity::kError, reason);
 }
 
 Status DeviceImpl::removed() const {
@@ -39,12 +39,12 @@ Status DeviceImpl::removed() const {
   return removed_;
 }
 
-void DeviceImpl::Report(MessageSeverity severity, const Error& error) const {
+void DeviceImpl::report(MessageSeverity severity, const Error& error) const {
   if (desc.OnMessage) desc.OnMessage({severity, error.id, error.message});
 }
 
-void DeviceImpl::RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
-                              TargetSlot* targets) {
+void DeviceImpl::register_heap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
+                               TargetSlot* targets) {
   std::lock_guard lock(heaps_mutex_);
   heaps_[reinterpret_cast<uintptr_t>(host)] = {
       heap.Type,           HasAny(heap.Flags, DescriptorHeapFlags::kShaderVisible),
@@ -52,12 +52,12 @@ void DeviceImpl::RegisterHeap(uint8_t* host, uint64_t address, const DescriptorH
       heap.Name,           targets};
 }
 
-void DeviceImpl::UnregisterHeap(uint8_t* host) {
+void DeviceImpl::unregister_heap(uint8_t* host) {
   std::lock_guard lock(heaps_mutex_);
   heaps_.erase(reinterpret_cast<uintptr_t>(host));
 }
 
-std::optional<HeapSlot> DeviceImpl::FindSlot(CpuDescriptorHandle handle) const {
+std::optional<HeapSlot> DeviceImpl::find_slot(CpuDescriptorHandle handle) const {
   std::lock_guard lock(heaps_mutex_);
   auto it = heaps_.upper_bound(handle.ptr);
   if (it == heaps_.begin()) return std::nullopt;
@@ -74,7 +74,7 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(CpuDescriptorHandle handle) const {
                   heap.name};
 }
 
-std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
+std::optional<HeapSlot> DeviceImpl::find_slot(GpuDescriptorHandle handle) const {
   uintptr_t host = 0;
   {
     std::lock_guard lock(heaps_mutex_);
@@ -84,10 +84,10 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
       host = start + (handle.ptr - heap.address);
     }
   }
-  return host == 0 ? std::nullopt : FindSlot(CpuDescriptorHandle{host});
+  return host == 0 ? std::nullopt : find_slot(CpuDescriptorHandle{host});
 }
 
-std::string DescribeHeap(const std::optional<HeapSlot>& slot) {
+std::string describe_heap(const std::optional<HeapSlot>& slot) {
   if (!slot) return " is not in a live descriptor heap";
   switch (slot->type) {
     case DescriptorHeapType::kCbvSrvUav:
@@ -102,7 +102,7 @@ std::string DescribeHeap(const std::optional<HeapSlot>& slot) {
   return " is in a heap of unknown type";
 }
 
-ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
+ShaderLibrary DeviceImpl::library_to_run(const ShaderLibrary& library) const {
   if (!reporter) return library;
   CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");
   if (!found.note.empty()) {
@@ -113,18 +113,18 @@ ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
   return found.library;
 }
 
-ShaderIdentifier DeviceImpl::MakeIdentifier(std::string_view name) {
+ShaderIdentifier DeviceImpl::make_identifier(std::string_view name) {
   const uint32_t index = next_identifier_++;
-  uint64_t hash = Mix((uint64_t{tag} << 32) | index);
-  for (char c : name) hash = Mix(hash ^ static_cast<unsigned char>(c));
-  const uint64_t words[4] = {uint64_t{index} | (uint64_t{tag} << 32), hash, Mix(hash),
-                             Mix(Mix(hash))};
+  uint64_t hash = mix((uint64_t{tag} << 32) | index);
+  for (char c : name) hash = mix(hash ^ static_cast<unsigned char>(c));
+  const uint64_t words[4] = {uint64_t{index} | (uint64_t{tag} << 32), hash, mix(hash),
+                             mix(mix(hash))};
   ShaderIdentifier identifier;
   std::memcpy(identifier.data(), words, sizeof words);
   return identifier;
 }
 
-std::string DeviceImpl::DescribeAddress(GpuVirtualAddress address) const {
+std::string DeviceImpl::describe_address(GpuVirtualAddress address) const {
   return runtime::describe_address(addresses, address);
 }
 

@@ -39,23 +39,23 @@ struct DeviceImpl {
 
   void Remove(const Error& reason);
   Status removed() const;
-  void Report(MessageSeverity severity, const Error& error) const;
+  void report(MessageSeverity severity, const Error& error) const;
 
   // Finds the slot of a handle. Handles carry no type, so heaps are registered by host address.
-  void RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
-                    TargetSlot* targets);
-  void UnregisterHeap(uint8_t* host);
-  std::optional<HeapSlot> FindSlot(CpuDescriptorHandle handle) const;
+  void register_heap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
+                     TargetSlot* targets);
+  void unregister_heap(uint8_t* host);
+  std::optional<HeapSlot> find_slot(CpuDescriptorHandle handle) const;
   // The same by GPU handle, for shader-visible heaps only.
-  std::optional<HeapSlot> FindSlot(GpuDescriptorHandle handle) const;
+  std::optional<HeapSlot> find_slot(GpuDescriptorHandle handle) const;
 
   // Returns the library's checked variant on a checked device, else the library itself.
-  ShaderLibrary LibraryToRun(const ShaderLibrary& library) const;
+  ShaderLibrary library_to_run(const ShaderLibrary& library) const;
 
-  ShaderIdentifier MakeIdentifier(std::string_view name);
+  ShaderIdentifier make_identifier(std::string_view name);
 
   // Returns "buffer \"x\" (416 bytes)" for a live address, else "no live buffer".
-  std::string DescribeAddress(GpuVirtualAddress address) const;
+  std::string describe_address(GpuVirtualAddress address) const;
 
  private:
   struct HeapRange {
@@ -90,7 +90,7 @@ Status CheckHandle(const std::shared_ptr<DeviceImpl>& device, const Handle& hand
   return {};
 }
 
-inline uint64_t AlignUp(uint64_t value, uint64_t alignment) {
+inline uint64_t align_up(uint64_t value, uint64_t alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
 

@@ -40,6 +40,6 @@ struct HeapSlot {
 };
 
 // Returns " is in a sampler heap", or that it is in no live heap: the middle of an error's text.
-std::string DescribeHeap(const std::optional<HeapSlot>& slot);
+std::string describe_heap(const std::optional<HeapSlot>& slot);
 
 }  // namespace rtapi::detail

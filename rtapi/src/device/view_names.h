@@ -26,21 +26,21 @@ struct NamedView {
 
 class ViewNames {
  public:
-  void AddView(uint64_t address, NamedView view) {
+  void add_view(uint64_t address, NamedView view) {
     const std::lock_guard lock(mutex_);
     views_[{address, view.desc.unordered_access}] = std::move(view);
   }
-  std::optional<NamedView> Find(uint64_t address, bool unordered_access) const {
+  std::optional<NamedView> find(uint64_t address, bool unordered_access) const {
     const std::lock_guard lock(mutex_);
     const auto it = views_.find({address, unordered_access});
     if (it == views_.end() || it->second.texture.expired()) return std::nullopt;
     return it->second;
   }
-  void AddSampler(uint64_t address, const SamplerDesc& desc) {
+  void add_sampler(uint64_t address, const SamplerDesc& desc) {
     const std::lock_guard lock(mutex_);
     samplers_[address] = desc;
   }
-  std::optional<SamplerDesc> FindSampler(uint64_t address) const {
+  std::optional<SamplerDesc> find_sampler(uint64_t address) const {
     const std::lock_guard lock(mutex_);
     const auto it = samplers_.find(address);
     return it == samplers_.end() ? std::nullopt : std::optional(it->second);

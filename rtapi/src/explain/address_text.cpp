@@ -8,7 +8,7 @@ using shader::Descriptor;
 using shader::DescriptorAccess;
 using shader::DescriptorKind;
 
-const char* KindText(DescriptorKind kind) {
+const char* kind_text(DescriptorKind kind) {
   switch (kind) {
     case DescriptorKind::kNull:
       return "null";
@@ -30,7 +30,7 @@ const char* KindText(DescriptorKind kind) {
   return "no descriptor";
 }
 
-const char* AccessText(const Descriptor& descriptor) {
+const char* access_text(const Descriptor& descriptor) {
   switch (descriptor.kind) {
     case DescriptorKind::kNull:
       return "";
@@ -45,7 +45,7 @@ const char* AccessText(const Descriptor& descriptor) {
 
 }  // namespace
 
-AddressDescription DescribeWhere(const DeviceImpl& device, GpuVirtualAddress address) {
+AddressDescription describe_where(const DeviceImpl& device, GpuVirtualAddress address) {
   AddressDescription where;
   where.Address = address;
   if (const auto allocation = device.addresses.find(address)) {
@@ -57,16 +57,16 @@ AddressDescription DescribeWhere(const DeviceImpl& device, GpuVirtualAddress add
   return where;
 }
 
-DescriptorDescription DescribeDescriptor(const DeviceImpl& device, const Descriptor& descriptor) {
+DescriptorDescription describe_descriptor(const DeviceImpl& device, const Descriptor& descriptor) {
   DescriptorDescription out;
-  out.Kind = KindText(descriptor.kind);
-  out.Access = AccessText(descriptor);
+  out.Kind = kind_text(descriptor.kind);
+  out.Access = access_text(descriptor);
   switch (descriptor.kind) {
     case DescriptorKind::kNull:
     case DescriptorKind::kSampler:
       break;
     case DescriptorKind::kTexture:
-      if (const auto view = device.views.Find(
+      if (const auto view = device.views.find(
               descriptor.address, descriptor.access == DescriptorAccess::kUnorderedAccess)) {
         out.Resource = view->name;
       }
@@ -74,7 +74,7 @@ DescriptorDescription DescribeDescriptor(const DeviceImpl& device, const Descrip
     default:
       out.StrideInBytes = descriptor.stride_bytes;
       out.SizeInBytes = descriptor.size_bytes;
-      out.Address = DescribeWhere(device, descriptor.address);
+      out.Address = describe_where(device, descriptor.address);
       out.Resource = out.Address.Buffer;
       break;
   }

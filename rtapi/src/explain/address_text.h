@@ -11,9 +11,9 @@
 
 namespace rtapi::detail {
 
-AddressDescription DescribeWhere(const DeviceImpl& device, GpuVirtualAddress address);
-DescriptorDescription DescribeDescriptor(const DeviceImpl& device,
-                                         const shader::Descriptor& descriptor);
+AddressDescription describe_where(const DeviceImpl& device, GpuVirtualAddress address);
+DescriptorDescription describe_descriptor(const DeviceImpl& device,
+                                          const shader::Descriptor& descriptor);
 
 // For example "buffer \"x\" + 64 (416 bytes)", "address 0", "address 0x10 (in no live buffer)".
 std::string ToText(const AddressDescription& address);

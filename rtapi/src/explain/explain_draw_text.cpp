@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using kaamos::explain::number_text;
 
-const char* OutcomeName(TriangleOutcome outcome) {
+const char* outcome_name(TriangleOutcome outcome) {
   switch (outcome) {
     case TriangleOutcome::kWritten:
       return "written";
@@ -32,26 +32,26 @@ const char* OutcomeName(TriangleOutcome outcome) {
   return "";
 }
 
-const char* FuncName(ComparisonFunc func) {
+const char* func_name(ComparisonFunc func) {
   constexpr const char* kNames[] = {"?",       "NEVER",     "LESS",          "EQUAL", "LESS_EQUAL",
                                     "GREATER", "NOT_EQUAL", "GREATER_EQUAL", "ALWAYS"};
   const auto number = static_cast<uint32_t>(func);
   return number < std::size(kNames) ? kNames[number] : kNames[0];
 }
 
-std::string DepthText(const ExplainedTriangle& t) {
+std::string depth_text(const ExplainedTriangle& t) {
   if (!t.DepthTested) {
     return Text("z ", number_text(t.Z),
                 t.DepthWritten ? ", stored without a test" : ", not tested");
   }
   return Text("z ", number_text(t.Z), "; depth ", number_text(t.TestedDepth), " ",
-              FuncName(t.DepthFunc), " ", number_text(t.StoredDepth),
+              func_name(t.DepthFunc), " ", number_text(t.StoredDepth),
               t.TestedLate ? " after the pixel shader" : " before the pixel shader", ": ",
               t.DepthPassed ? "passed" : "failed", t.DepthWritten ? ", stored" : "");
 }
 
 // JSON has no infinity and no NaN, so they are written as text.
-Json DepthNumber(float value) {
+Json depth_number(float value) {
   if (std::isfinite(value)) return value;
   return number_text(value);
 }
@@ -70,11 +70,11 @@ std::string ToText(const DrawPixelExplanation& e) {
   for (const ExplainedTriangle& t : e.Triangles) {
     out += Text("  draw ", t.Draw, " (", t.Command, "), ", Quoted(t.Pipeline), ": instance ",
                 t.InstanceID, ", triangle ", t.PrimitiveID,
-                t.FrontFace ? ", front face: " : ", back face: ", OutcomeName(t.Outcome), "\n");
+                t.FrontFace ? ", front face: " : ", back face: ", outcome_name(t.Outcome), "\n");
     out += Text("    weights ", number_text(t.Weights[0]), " ", number_text(t.Weights[1]), " ",
                 number_text(t.Weights[2]), "\n");
     if (t.Outcome == TriangleOutcome::kCulledByFace) continue;
-    out += Text("    ", DepthText(t), "\n");
+    out += Text("    ", depth_text(t), "\n");
     if (!t.PixelShader.empty()) {
       out += Text("    pixel ", Quoted(t.PixelShader),
                   t.Outcome == TriangleOutcome::kDiscarded ? " discarded it" : ":");
@@ -100,12 +100,12 @@ std::string ToJson(const DrawPixelExplanation& e) {
                  {"primitive", t.PrimitiveID},
                  {"front_face", t.FrontFace},
                  {"weights", Json::array({t.Weights[0], t.Weights[1], t.Weights[2]})},
-                 {"z", DepthNumber(t.Z)}};
+                 {"z", depth_number(t.Z)}};
     if (t.DepthTested) {
       json["depth_test"] = {{"late", t.TestedLate},
-                            {"func", FuncName(t.DepthFunc)},
-                            {"tested", DepthNumber(t.TestedDepth)},
-                            {"stored", DepthNumber(t.StoredDepth)},
+                            {"func", func_name(t.DepthFunc)},
+                            {"tested", depth_number(t.TestedDepth)},
+                            {"stored", depth_number(t.StoredDepth)},
                             {"passed", t.DepthPassed}};
     }
     json["depth_written"] = t.DepthWritten;
@@ -122,7 +122,7 @@ std::string ToJson(const DrawPixelExplanation& e) {
       texels.push_back({{"slot", texel.Slot}, {"before", texel.Before}, {"after", texel.After}});
     }
     json["texels"] = std::move(texels);
-    json["outcome"] = OutcomeName(t.Outcome);
+    json["outcome"] = outcome_name(t.Outcome);
     triangles.push_back(std::move(json));
   }
   const Json json = {{"pixel", Json::array({e.X, e.Y})},

@@ -16,19 +16,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json ToJsonValue(const ExplainedShader& shader);
+Json to_json_value(const ExplainedShader& shader);
 
 // JSON has no infinity and no NaN, so they are written as text.
-Json Number(float value) {
+Json number_json(float value) {
   if (std::isfinite(value)) return value;
   return kaamos::explain::number_text(value);
 }
 
-Json Vector(const float v[3]) {
-  return Json::array({Number(v[0]), Number(v[1]), Number(v[2])});
+Json vector_json(const float v[3]) {
+  return Json::array({number_json(v[0]), number_json(v[1]), number_json(v[2])});
 }
 
-Json ToJsonValue(const std::vector<ExplainedValue>& values) {
+Json to_json_value(const std::vector<ExplainedValue>& values) {
   Json json = Json::array();
   for (const ExplainedValue& value : values) {
     json.push_back({{"name", value.Name}, {"type", value.Type}, {"value", value.Text}});
@@ -36,7 +36,7 @@ Json ToJsonValue(const std::vector<ExplainedValue>& values) {
   return json;
 }
 
-Json ToJsonValue(const ExplainedRecord& record) {
+Json to_json_value(const ExplainedRecord& record) {
   Json json = {{"table", record.Table},
                {"index", record.Index},
                {"arithmetic", record.Arithmetic},
@@ -45,50 +45,51 @@ Json ToJsonValue(const ExplainedRecord& record) {
   return json;
 }
 
-Json ToJsonValue(const std::vector<ExplainedShader>& shaders) {
+Json to_json_value(const std::vector<ExplainedShader>& shaders) {
   Json json = Json::array();
-  for (const ExplainedShader& shader : shaders) json.push_back(ToJsonValue(shader));
+  for (const ExplainedShader& shader : shaders) json.push_back(to_json_value(shader));
   return json;
 }
 
-Json ToJsonValue(const ExplainedCandidate& c) {
-  Json json = {{"t", Number(c.T)},
+Json to_json_value(const ExplainedCandidate& c) {
+  Json json = {{"t", number_json(c.T)},
                {"instance", c.InstanceIndex},
                {"instance_id", c.InstanceID},
                {"geometry", c.GeometryIndex},
                {"primitive", c.PrimitiveIndex},
                {"procedural", c.Procedural},
                {"opaque", c.Opaque},
-               {"outcome", OutcomeName(c.Outcome)},
+               {"outcome", outcome_name(c.Outcome)},
                {"reason", c.Reason}};
   if (!c.Procedural) {
     json["front_face"] = c.FrontFace;
-    json["barycentrics"] = {Number(c.Barycentrics[0]), Number(c.Barycentrics[1])};
+    json["barycentrics"] = {number_json(c.Barycentrics[0]), number_json(c.Barycentrics[1])};
   }
-  if (!c.Record.Table.empty()) json["record"] = ToJsonValue(c.Record);
-  if (!c.Shaders.empty()) json["shaders"] = ToJsonValue(c.Shaders);
+  if (!c.Record.Table.empty()) json["record"] = to_json_value(c.Record);
+  if (!c.Shaders.empty()) json["shaders"] = to_json_value(c.Shaders);
   return json;
 }
 
-Json RayJson(const ExplainedCall& call) {
+Json ray_json(const ExplainedCall& call) {
   Json json;
   json["scene"] = ToText(call.Scene);
   json["flags"] = static_cast<uint32_t>(call.Flags);
   json["flag_names"] = kaamos::explain::ray_flags_text(static_cast<uint32_t>(call.Flags));
   json["mask"] = call.InstanceInclusionMask;
-  json["origin"] = Vector(call.Origin);
-  json["t_min"] = Number(call.TMin);
-  json["direction"] = Vector(call.Direction);
-  json["t_max"] = Number(call.TMax);
+  json["origin"] = vector_json(call.Origin);
+  json["t_min"] = number_json(call.TMin);
+  json["direction"] = vector_json(call.Direction);
+  json["t_max"] = number_json(call.TMax);
   json["candidates"] = Json::array();
-  for (const ExplainedCandidate& c : call.Candidates) json["candidates"].push_back(ToJsonValue(c));
+  for (const ExplainedCandidate& c : call.Candidates)
+    json["candidates"].push_back(to_json_value(c));
   if (call.CandidatesLeftOut != 0) json["candidates_left_out"] = call.CandidatesLeftOut;
   json["hit"] = call.Hit;
-  if (call.Hit) json["hit_t"] = Number(call.HitT);
+  if (call.Hit) json["hit_t"] = number_json(call.HitT);
   return json;
 }
 
-Json ToJsonValue(const ExplainedCall& call) {
+Json to_json_value(const ExplainedCall& call) {
   Json json;
   switch (call.Kind) {
     case ExplainedCallKind::kTraceRay:
@@ -97,39 +98,39 @@ Json ToJsonValue(const ExplainedCall& call) {
       json["ray_contribution"] = call.RayContributionToHitGroupIndex;
       json["geometry_multiplier"] = call.MultiplierForGeometryContributionToHitGroupIndex;
       json["miss_index"] = call.MissShaderIndex;
-      json.update(RayJson(call));
+      json.update(ray_json(call));
       break;
     case ExplainedCallKind::kRayQuery:
       json["call"] = "RayQuery";
-      json.update(RayJson(call));
+      json.update(ray_json(call));
       break;
     case ExplainedCallKind::kCallShader:
       json["call"] = "CallShader";
       break;
     case ExplainedCallKind::kReportHit:
       json["call"] = "ReportHit";
-      json["t"] = Number(call.HitT);
+      json["t"] = number_json(call.HitT);
       json["hit_kind"] = call.HitKind;
       json["accepted"] = call.Hit;
       break;
   }
   if (!call.Note.empty()) json["note"] = call.Note;
-  if (!call.Before.empty()) json["before"] = ToJsonValue(call.Before);
-  json["shaders"] = ToJsonValue(call.Shaders);
-  if (!call.After.empty()) json["after"] = ToJsonValue(call.After);
+  if (!call.Before.empty()) json["before"] = to_json_value(call.Before);
+  json["shaders"] = to_json_value(call.Shaders);
+  if (!call.After.empty()) json["after"] = to_json_value(call.After);
   return json;
 }
 
-Json ToJsonValue(const ExplainedShader& shader) {
+Json to_json_value(const ExplainedShader& shader) {
   Json json = {{"name", shader.Name},
-               {"stage", StageName(shader.Stage)},
-               {"record", ToJsonValue(shader.Record)}};
+               {"stage", stage_name(shader.Stage)},
+               {"record", to_json_value(shader.Record)}};
   if (!shader.Result.empty()) json["result"] = shader.Result;
-  if (!shader.Attributes.empty()) json["attributes"] = ToJsonValue(shader.Attributes);
-  if (!shader.Before.empty()) json["before"] = ToJsonValue(shader.Before);
+  if (!shader.Attributes.empty()) json["attributes"] = to_json_value(shader.Attributes);
+  if (!shader.Before.empty()) json["before"] = to_json_value(shader.Before);
   json["calls"] = Json::array();
-  for (const ExplainedCall& call : shader.Calls) json["calls"].push_back(ToJsonValue(call));
-  if (!shader.After.empty()) json["after"] = ToJsonValue(shader.After);
+  for (const ExplainedCall& call : shader.Calls) json["calls"].push_back(to_json_value(call));
+  if (!shader.After.empty()) json["after"] = to_json_value(shader.After);
   return json;
 }
 
@@ -140,7 +141,7 @@ std::string ToJson(const PixelExplanation& e) {
                {"dimensions", e.Dimensions},
                {"backend", e.Backend},
                {"executor", e.Executor}};
-  json["ray_generation"] = ToJsonValue(e.RayGeneration);
+  json["ray_generation"] = to_json_value(e.RayGeneration);
   if (!e.Removal.empty()) json["removal"] = e.Removal;
   // Names may contain bytes that are not UTF-8; replace them instead of throwing.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -5,7 +5,7 @@
 
 namespace rtapi::detail {
 
-inline const char* StageName(ShaderStage stage) {
+inline const char* stage_name(ShaderStage stage) {
   switch (stage) {
     case ShaderStage::kRayGeneration:
       return "ray generation";
@@ -24,7 +24,7 @@ inline const char* StageName(ShaderStage stage) {
   }
 }
 
-inline const char* OutcomeName(CandidateOutcome outcome) {
+inline const char* outcome_name(CandidateOutcome outcome) {
   switch (outcome) {
     case CandidateOutcome::kCommitted:
       return "committed";

@@ -18,20 +18,20 @@ using kaamos::explain::number_text;
 class Writer {
  public:
   explicit Writer(std::string& out) : out_(out) {}
-  void Shader(const ExplainedShader& shader, int indent);
+  void write_shader(const ExplainedShader& shader, int indent);
 
  private:
-  void Line(int indent, const std::string& text) {
+  void write_line(int indent, const std::string& text) {
     out_ += std::string(2 * static_cast<size_t>(indent), ' ') + text + "\n";
   }
-  void Call(const ExplainedCall& call, int indent);
-  void TraceRay(const ExplainedCall& call, int indent);
-  void Candidate(const ExplainedCandidate& candidate, int indent);
+  void write_call(const ExplainedCall& call, int indent);
+  void write_trace_ray(const ExplainedCall& call, int indent);
+  void write_candidate(const ExplainedCandidate& candidate, int indent);
 
   std::string& out_;
 };
 
-std::string Values(const std::vector<ExplainedValue>& values) {
+std::string values_text(const std::vector<ExplainedValue>& values) {
   std::string text;
   for (const ExplainedValue& value : values) {
     text += (text.empty() ? "" : ", ") + value.Name + " = " + value.Text;
@@ -39,11 +39,11 @@ std::string Values(const std::vector<ExplainedValue>& values) {
   return text;
 }
 
-std::string Vector(const float v[3]) {
+std::string vector_text(const float v[3]) {
   return "(" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + ")";
 }
 
-std::string Record(const ExplainedRecord& record) {
+std::string record_text(const ExplainedRecord& record) {
   std::string text = Text(record.Table, " record ", record.Index);
   if (!record.Arithmetic.empty()) text += " = " + record.Arithmetic;
   if (!record.Export.empty()) text += Text(", ", Quoted(record.Export));
@@ -51,75 +51,80 @@ std::string Record(const ExplainedRecord& record) {
   return text;
 }
 
-void Writer::Shader(const ExplainedShader& shader, int indent) {
-  std::string title = Text(StageName(shader.Stage), " ", Quoted(shader.Name));
+void Writer::write_shader(const ExplainedShader& shader, int indent) {
+  std::string title = Text(stage_name(shader.Stage), " ", Quoted(shader.Name));
   if (!shader.Result.empty()) title += ": " + shader.Result;
-  Line(indent, title);
-  Line(indent + 1, Record(shader.Record));
-  if (!shader.Attributes.empty()) Line(indent + 1, "attributes: " + Values(shader.Attributes));
+  write_line(indent, title);
+  write_line(indent + 1, record_text(shader.Record));
+  if (!shader.Attributes.empty())
+    write_line(indent + 1, "attributes: " + values_text(shader.Attributes));
   const bool callable = shader.Stage == ShaderStage::kCallable;
   if (!shader.Before.empty() && !callable)
-    Line(indent + 1, "payload before: " + Values(shader.Before));
-  for (const ExplainedCall& call : shader.Calls) Call(call, indent + 1);
+    write_line(indent + 1, "payload before: " + values_text(shader.Before));
+  for (const ExplainedCall& call : shader.Calls) write_call(call, indent + 1);
   if (!shader.After.empty() && !callable)
-    Line(indent + 1, "payload after: " + Values(shader.After));
+    write_line(indent + 1, "payload after: " + values_text(shader.After));
 }
 
-void Writer::Candidate(const ExplainedCandidate& c, int indent) {
+void Writer::write_candidate(const ExplainedCandidate& c, int indent) {
   std::string text = Text("t ", number_text(c.T), ": instance ", c.InstanceIndex, " (ID ",
                           c.InstanceID, "), geometry ", c.GeometryIndex, ", ",
                           c.Procedural ? "box " : "triangle ", c.PrimitiveIndex);
   if (!c.Procedural) text += c.FrontFace ? ", front face" : ", back face";
-  text += Text(": ", OutcomeName(c.Outcome));
+  text += Text(": ", outcome_name(c.Outcome));
   if (!c.Reason.empty()) text += Text(" (", c.Reason, ")");
-  Line(indent, text);
-  for (const ExplainedShader& shader : c.Shaders) Shader(shader, indent + 1);
+  write_line(indent, text);
+  for (const ExplainedShader& shader : c.Shaders) write_shader(shader, indent + 1);
 }
 
-void Writer::TraceRay(const ExplainedCall& call, int indent) {
+void Writer::write_trace_ray(const ExplainedCall& call, int indent) {
   const bool query = call.Kind == ExplainedCallKind::kRayQuery;
-  Line(indent, query ? std::string("RayQuery") : Text("TraceRay, depth ", call.Depth));
-  Line(indent + 1, "scene: " + ToText(call.Scene));
-  Line(indent + 1,
-       Text("flags: ", kaamos::explain::ray_flags_text(static_cast<uint32_t>(call.Flags)),
-            "; mask ", Hex(call.InstanceInclusionMask)));
-  Line(indent + 1, Text("ray: origin ", Vector(call.Origin), ", direction ", Vector(call.Direction),
-                        ", t ", number_text(call.TMin), " to ", number_text(call.TMax)));
+  write_line(indent, query ? std::string("RayQuery") : Text("TraceRay, depth ", call.Depth));
+  write_line(indent + 1, "scene: " + ToText(call.Scene));
+  write_line(indent + 1,
+             Text("flags: ", kaamos::explain::ray_flags_text(static_cast<uint32_t>(call.Flags)),
+                  "; mask ", Hex(call.InstanceInclusionMask)));
+  write_line(indent + 1, Text("ray: origin ", vector_text(call.Origin), ", direction ",
+                              vector_text(call.Direction), ", t ", number_text(call.TMin), " to ",
+                              number_text(call.TMax)));
   if (!query) {
-    Line(indent + 1,
-         Text("records: ray contribution ", call.RayContributionToHitGroupIndex,
-              ", geometry multiplier ", call.MultiplierForGeometryContributionToHitGroupIndex,
-              ", miss index ", call.MissShaderIndex));
+    write_line(indent + 1,
+               Text("records: ray contribution ", call.RayContributionToHitGroupIndex,
+                    ", geometry multiplier ", call.MultiplierForGeometryContributionToHitGroupIndex,
+                    ", miss index ", call.MissShaderIndex));
   }
-  if (!call.Before.empty()) Line(indent + 1, "payload before: " + Values(call.Before));
+  if (!call.Before.empty()) write_line(indent + 1, "payload before: " + values_text(call.Before));
   const size_t count = call.Candidates.size() + call.CandidatesLeftOut;
-  Line(indent + 1,
-       count == 0 ? std::string("no candidates")
-                  : Text(count, count == 1 ? " candidate" : " candidates", ", front to back:"));
-  for (const ExplainedCandidate& candidate : call.Candidates) Candidate(candidate, indent + 2);
-  if (call.CandidatesLeftOut != 0) Line(indent + 2, Text("and ", call.CandidatesLeftOut, " more"));
-  Line(indent + 1, call.Hit ? Text("hit at t ", number_text(call.HitT)) : std::string("miss"));
-  if (!call.Note.empty()) Line(indent + 1, "note: " + call.Note);
-  for (const ExplainedShader& shader : call.Shaders) Shader(shader, indent + 1);
-  if (!call.After.empty()) Line(indent + 1, "payload after: " + Values(call.After));
+  write_line(indent + 1, count == 0 ? std::string("no candidates")
+                                    : Text(count, count == 1 ? " candidate" : " candidates",
+                                           ", front to back:"));
+  for (const ExplainedCandidate& candidate : call.Candidates)
+    write_candidate(candidate, indent + 2);
+  if (call.CandidatesLeftOut != 0)
+    write_line(indent + 2, Text("and ", call.CandidatesLeftOut, " more"));
+  write_line(indent + 1,
+             call.Hit ? Text("hit at t ", number_text(call.HitT)) : std::string("miss"));
+  if (!call.Note.empty()) write_line(indent + 1, "note: " + call.Note);
+  for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
+  if (!call.After.empty()) write_line(indent + 1, "payload after: " + values_text(call.After));
 }
 
-void Writer::Call(const ExplainedCall& call, int indent) {
+void Writer::write_call(const ExplainedCall& call, int indent) {
   switch (call.Kind) {
     case ExplainedCallKind::kTraceRay:
     case ExplainedCallKind::kRayQuery:
-      return TraceRay(call, indent);
+      return write_trace_ray(call, indent);
     case ExplainedCallKind::kReportHit:
-      Line(indent,
-           Text("ReportHit, t ", number_text(call.HitT), ", kind ", call.HitKind, ": ", call.Note));
-      for (const ExplainedShader& shader : call.Shaders) Shader(shader, indent + 1);
+      write_line(indent, Text("ReportHit, t ", number_text(call.HitT), ", kind ", call.HitKind,
+                              ": ", call.Note));
+      for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
       return;
     case ExplainedCallKind::kCallShader:
-      Line(indent, "CallShader");
-      if (!call.Note.empty()) Line(indent + 1, "note: " + call.Note);
-      if (!call.Before.empty()) Line(indent + 1, "data before: " + Values(call.Before));
-      for (const ExplainedShader& shader : call.Shaders) Shader(shader, indent + 1);
-      if (!call.After.empty()) Line(indent + 1, "data after: " + Values(call.After));
+      write_line(indent, "CallShader");
+      if (!call.Note.empty()) write_line(indent + 1, "note: " + call.Note);
+      if (!call.Before.empty()) write_line(indent + 1, "data before: " + values_text(call.Before));
+      for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
+      if (!call.After.empty()) write_line(indent + 1, "data after: " + values_text(call.After));
       return;
   }
 }
@@ -132,7 +137,7 @@ std::string ToText(const PixelExplanation& e) {
                          e.Backend, "\n", e.Executor, "\n");
   Writer writer(out);
   if (e.RayGeneration.empty()) out += "the ray generation record runs nothing\n";
-  for (const ExplainedShader& shader : e.RayGeneration) writer.Shader(shader, 0);
+  for (const ExplainedShader& shader : e.RayGeneration) writer.write_shader(shader, 0);
   if (!e.Removal.empty()) out += Text("ended: ", e.Removal, "; the dispatch removes the device\n");
   return out;
 }

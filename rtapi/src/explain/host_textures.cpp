@@ -8,27 +8,27 @@
 
 namespace rtapi::detail {
 
-HostTextures::Layout HostTextures::LayOut(const TextureDesc& desc, uint32_t bytes, bool blocks) {
+HostTextures::Layout HostTextures::lay_out(const TextureDesc& desc, uint32_t bytes, bool blocks) {
   Layout layout;
   for (uint32_t mip = 0; mip < desc.MipLevels; ++mip) {
-    const MipExtent extent = blocks ? GetMipElements(desc, mip) : GetMipExtent(desc, mip);
+    const MipExtent extent = blocks ? get_mip_elements(desc, mip) : get_mip_extent(desc, mip);
     Subresource& at = layout.mips.emplace_back();
     at.offset = layout.element_bytes;
-    at.row_pitch = AlignUp(uint64_t{extent.width} * bytes, 256);
+    at.row_pitch = align_up(uint64_t{extent.width} * bytes, 256);
     at.slice_pitch = at.row_pitch * extent.height;
-    layout.element_bytes = AlignUp(at.offset + at.slice_pitch * extent.depth, 512);
+    layout.element_bytes = align_up(at.offset + at.slice_pitch * extent.depth, 512);
   }
   return layout;
 }
 
-HostTextures::Copy* HostTextures::Find(const std::shared_ptr<runtime::BackendTexture>& texture,
+HostTextures::Copy* HostTextures::find(const std::shared_ptr<runtime::BackendTexture>& texture,
                                        const TextureDesc& desc) {
   auto& found = copies_[texture.get()];
   if (found != nullptr) return found.get();
   auto copy = std::make_unique<Copy>();
   copy->desc = desc;
-  copy->layout = LayOut(desc, GetFormatInfo(desc.Format).bytes, true);
-  const uint32_t elements = ArraySize(desc);
+  copy->layout = lay_out(desc, GetFormatInfo(desc.Format).bytes, true);
+  const uint32_t elements = array_size(desc);
   auto memory = device_.backend->create_buffer(
       {.SizeInBytes = copy->layout.element_bytes * elements, .Heap = HeapType::kReadback});
   if (!memory.ok() || (*memory)->host() == nullptr) return nullptr;
@@ -36,7 +36,7 @@ HostTextures::Copy* HostTextures::Find(const std::shared_ptr<runtime::BackendTex
   std::vector<runtime::Command> commands;
   for (uint32_t element = 0; element < elements; ++element) {
     for (uint32_t mip = 0; mip < desc.MipLevels; ++mip) {
-      const MipExtent extent = GetMipElements(desc, mip);
+      const MipExtent extent = get_mip_elements(desc, mip);
       const Subresource& at = copy->layout.mips[mip];
       runtime::CopyTextureCommand command;
       command.source.texture = texture;
@@ -57,12 +57,12 @@ HostTextures::Copy* HostTextures::Find(const std::shared_ptr<runtime::BackendTex
   return found.get();
 }
 
-HostTextures::Decoded& HostTextures::Decode(Copy& copy, const shader::BlockCodec& codec) {
+HostTextures::Decoded& HostTextures::decode(Copy& copy, const shader::BlockCodec& codec) {
   const auto [at, is_new] = copy.decoded.try_emplace(&codec);
   Decoded& decoded = at->second;
   if (!is_new) return decoded;
-  decoded.layout = LayOut(copy.desc, codec.texel_bytes, false);
-  const uint32_t elements = ArraySize(copy.desc);
+  decoded.layout = lay_out(copy.desc, codec.texel_bytes, false);
+  const uint32_t elements = array_size(copy.desc);
   decoded.memory.resize(decoded.layout.element_bytes * elements);
   for (uint32_t element = 0; element < elements; ++element) {
     const uint8_t* blocks = copy.memory->host() + copy.layout.element_bytes * element;
@@ -70,8 +70,8 @@ HostTextures::Decoded& HostTextures::Decode(Copy& copy, const shader::BlockCodec
     for (uint32_t mip = 0; mip < copy.desc.MipLevels; ++mip) {
       const Subresource& from = copy.layout.mips[mip];
       const Subresource& to = decoded.layout.mips[mip];
-      const MipExtent size = GetMipExtent(copy.desc, mip);
-      const MipExtent count = GetMipElements(copy.desc, mip);
+      const MipExtent size = get_mip_extent(copy.desc, mip);
+      const MipExtent count = get_mip_elements(copy.desc, mip);
       const uint32_t texel_size[2] = {size.width, size.height}, first[2] = {0, 0};
       const uint32_t block_count[2] = {count.width, count.height};
       for (uint32_t z = 0; z < size.depth; ++z) {
@@ -84,7 +84,7 @@ HostTextures::Decoded& HostTextures::Decode(Copy& copy, const shader::BlockCodec
   return decoded;
 }
 
-void HostTextures::Fill(Copy& copy, const runtime::TextureViewDesc& desc,
+void HostTextures::fill(Copy& copy, const runtime::TextureViewDesc& desc,
                         shader::TextureView& view) {
   const bool volume = copy.desc.Dimension == ResourceDimension::kTexture3D;
   view.format = static_cast<uint32_t>(desc.format);
@@ -95,7 +95,7 @@ void HostTextures::Fill(Copy& copy, const runtime::TextureViewDesc& desc,
   view.min_lod = desc.min_lod;
   const shader::BlockFormat blocks = shader::block_format(view.format);
   shader::show_decoded(view);
-  Decoded* decoded = blocks.codec != nullptr ? &Decode(copy, *blocks.codec) : nullptr;
+  Decoded* decoded = blocks.codec != nullptr ? &decode(copy, *blocks.codec) : nullptr;
   const Layout& layout_of_copy = decoded != nullptr ? decoded->layout : copy.layout;
   uint8_t* memory = decoded != nullptr ? decoded->memory.data() : copy.memory->host();
   const auto mips = static_cast<uint32_t>(layout_of_copy.mips.size());
@@ -104,7 +104,7 @@ void HostTextures::Fill(Copy& copy, const runtime::TextureViewDesc& desc,
   for (uint32_t i = 0; i < view.mip_count; ++i) {
     const uint32_t mip = desc.first_mip + i;
     const Subresource& layout = layout_of_copy.mips[mip];
-    const MipExtent extent = GetMipExtent(copy.desc, mip);
+    const MipExtent extent = get_mip_extent(copy.desc, mip);
     shader::TextureMip& to = view.mips[i];
     to.texels = memory + layout.offset;
     to.width = extent.width;
@@ -127,20 +127,20 @@ const shader::TextureView* HostTextures::View(const shader::Descriptor& descript
   const auto key = std::pair(descriptor.address, writable);
   if (const auto it = views_.find(key); it != views_.end()) return it->second.get();
   auto& view = views_[key];
-  const auto named = device_.views.Find(descriptor.address, writable);
+  const auto named = device_.views.find(descriptor.address, writable);
   const auto texture = named ? named->texture.lock() : nullptr;
   if (texture == nullptr) return nullptr;
-  Copy* copy = Find(texture, named->texture_desc);
+  Copy* copy = find(texture, named->texture_desc);
   if (copy == nullptr) return nullptr;
   view = std::make_unique<shader::TextureView>();
-  Fill(*copy, named->desc, *view);
+  fill(*copy, named->desc, *view);
   return view.get();
 }
 
 const shader::SamplerState* HostTextures::Sampler(const shader::Descriptor& descriptor) {
   auto& state = samplers_[descriptor.address];
   if (state != nullptr) return state.get();
-  const auto desc = device_.views.FindSampler(descriptor.address);
+  const auto desc = device_.views.find_sampler(descriptor.address);
   if (!desc) return nullptr;
   state = std::make_unique<shader::SamplerState>();
   state->filter = static_cast<uint32_t>(desc->Filter);

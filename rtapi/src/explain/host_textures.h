@@ -44,10 +44,10 @@ class HostTextures {
     std::shared_ptr<runtime::BackendBuffer> memory;
     std::map<const shader::BlockCodec*, Decoded> decoded;  // of a block-compressed texture
   };
-  static Layout LayOut(const TextureDesc& desc, uint32_t bytes, bool blocks);
-  Copy* Find(const std::shared_ptr<runtime::BackendTexture>& texture, const TextureDesc& desc);
-  static Decoded& Decode(Copy& copy, const shader::BlockCodec& codec);
-  static void Fill(Copy& copy, const runtime::TextureViewDesc& desc, shader::TextureView& view);
+  static Layout lay_out(const TextureDesc& desc, uint32_t bytes, bool blocks);
+  Copy* find(const std::shared_ptr<runtime::BackendTexture>& texture, const TextureDesc& desc);
+  static Decoded& decode(Copy& copy, const shader::BlockCodec& codec);
+  static void fill(Copy& copy, const runtime::TextureViewDesc& desc, shader::TextureView& view);
 
   DeviceImpl& device_;
   std::map<std::pair<uint64_t, bool>, std::unique_ptr<shader::TextureView>> views_;

@@ -31,7 +31,7 @@ constexpr TableKind kHitGroup = {"hit group", RecordKind::kHitGroup};
 constexpr TableKind kCallable = {"callable", RecordKind::kCallable};
 
 // Collects the HLSL resources that read the local argument at an offset.
-void AddNames(const LinkedShader* shader, uint32_t offset, std::vector<std::string>& names) {
+void add_names(const LinkedShader* shader, uint32_t offset, std::vector<std::string>& names) {
   if (shader == nullptr || shader->library == nullptr) return;
   for (size_t i = 0; i < shader->slots.size() && i < shader->library->binding_count; ++i) {
     const shader::BindingSlot& slot = shader->slots[i];
@@ -44,8 +44,8 @@ void AddNames(const LinkedShader* shader, uint32_t offset, std::vector<std::stri
   }
 }
 
-std::string RegisterOf(shader::RegisterClass register_class, uint32_t index, uint32_t space,
-                       uint32_t count = 1) {
+std::string register_of(shader::RegisterClass register_class, uint32_t index, uint32_t space,
+                        uint32_t count = 1) {
   std::string text = Text("tubs"[static_cast<uint32_t>(register_class) & 3], index);
   if (count == kUnboundedDescriptors) {
     text += "..";
@@ -55,29 +55,29 @@ std::string RegisterOf(shader::RegisterClass register_class, uint32_t index, uin
   return space == 0 ? text : Text(text, ", space", space);
 }
 
-std::vector<std::string> RegistersOf(const RootParameter& parameter) {
+std::vector<std::string> registers_of(const RootParameter& parameter) {
   using shader::RegisterClass;
   switch (parameter.ParameterType) {
     case RootParameterType::k32BitConstants:
-      return {RegisterOf(RegisterClass::kConstantBuffer, parameter.Constants.ShaderRegister,
-                         parameter.Constants.RegisterSpace)};
+      return {register_of(RegisterClass::kConstantBuffer, parameter.Constants.ShaderRegister,
+                          parameter.Constants.RegisterSpace)};
     case RootParameterType::kCbv:
-      return {RegisterOf(RegisterClass::kConstantBuffer, parameter.Descriptor.ShaderRegister,
-                         parameter.Descriptor.RegisterSpace)};
+      return {register_of(RegisterClass::kConstantBuffer, parameter.Descriptor.ShaderRegister,
+                          parameter.Descriptor.RegisterSpace)};
     case RootParameterType::kSrv:
-      return {RegisterOf(RegisterClass::kShaderResource, parameter.Descriptor.ShaderRegister,
-                         parameter.Descriptor.RegisterSpace)};
+      return {register_of(RegisterClass::kShaderResource, parameter.Descriptor.ShaderRegister,
+                          parameter.Descriptor.RegisterSpace)};
     case RootParameterType::kUav:
-      return {RegisterOf(RegisterClass::kUnorderedAccess, parameter.Descriptor.ShaderRegister,
-                         parameter.Descriptor.RegisterSpace)};
+      return {register_of(RegisterClass::kUnorderedAccess, parameter.Descriptor.ShaderRegister,
+                          parameter.Descriptor.RegisterSpace)};
     case RootParameterType::kDescriptorTable:
       break;
   }
   std::vector<std::string> registers;
   for (const DescriptorRange& range : parameter.DescriptorTable.Ranges) {
-    registers.push_back(RegisterOf(static_cast<RegisterClass>(range.RangeType),
-                                   range.BaseShaderRegister, range.RegisterSpace,
-                                   range.NumDescriptors));
+    registers.push_back(register_of(static_cast<RegisterClass>(range.RangeType),
+                                    range.BaseShaderRegister, range.RegisterSpace,
+                                    range.NumDescriptors));
   }
   return registers;
 }
@@ -92,31 +92,31 @@ class Describer {
     out_.RayTypes = desc.RayTypes;
   }
 
-  Result<TableDescription> Run() {
+  Result<TableDescription> run() {
     const DispatchRaysDesc& d = desc_.Dispatch;
     const auto& generation = d.RayGenerationShaderRecord;
-    Decode(kRayGeneration, {generation.StartAddress, generation.SizeInBytes, 0});
-    Decode(kMiss, d.MissShaderTable);
-    Decode(kHitGroup, d.HitGroupTable);
-    Decode(kCallable, d.CallableShaderTable);
-    AddMissReaches();
-    if (Status s = AddHitReaches(); !s.ok()) return s.error();
+    decode(kRayGeneration, {generation.StartAddress, generation.SizeInBytes, 0});
+    decode(kMiss, d.MissShaderTable);
+    decode(kHitGroup, d.HitGroupTable);
+    decode(kCallable, d.CallableShaderTable);
+    add_miss_reaches();
+    if (Status s = add_hit_reaches(); !s.ok()) return s.error();
     return std::move(out_);
   }
 
  private:
-  void Decode(const TableKind& kind, const GpuVirtualAddressRangeAndStride& range);
-  TableRecord DecodeRecord(const TableKind& kind, const DescribedTable& table, uint64_t index);
-  void DecodeArguments(const DescribedTable& table, const LinkedRecord& record,
-                       const uint8_t* bytes, uint64_t readable, TableRecord& out);
-  TableArgument DecodeArgument(const LinkedRecord& record, uint32_t parameter,
-                               const uint8_t* argument);
-  void DecodeDescriptorTable(const RootParameter& parameter, TableArgument& out);
-  void AddMissReaches();
-  Status AddHitReaches();
-  void AddReach(DescribedTable& table, uint64_t index, const TableReach& reach);
-  void Problem(std::string text) { out_.Problems.push_back(std::move(text)); }
-  DescribedTable* Find(const char* name);
+  void decode(const TableKind& kind, const GpuVirtualAddressRangeAndStride& range);
+  TableRecord decode_record(const TableKind& kind, const DescribedTable& table, uint64_t index);
+  void decode_arguments(const DescribedTable& table, const LinkedRecord& record,
+                        const uint8_t* bytes, uint64_t readable, TableRecord& out);
+  TableArgument decode_argument(const LinkedRecord& record, uint32_t parameter,
+                                const uint8_t* argument);
+  void decode_descriptor_table(const RootParameter& parameter, TableArgument& out);
+  void add_miss_reaches();
+  Status add_hit_reaches();
+  void add_reach(DescribedTable& table, uint64_t index, const TableReach& reach);
+  void add_problem(std::string text) { out_.Problems.push_back(std::move(text)); }
+  DescribedTable* find(const char* name);
 
   const DeviceImpl& device_;
   const runtime::LinkedPipeline& pipeline_;
@@ -126,18 +126,18 @@ class Describer {
   std::string first_out_of_table_;
 };
 
-DescribedTable* Describer::Find(const char* name) {
+DescribedTable* Describer::find(const char* name) {
   for (DescribedTable& table : out_.Tables) {
     if (table.Name == name) return &table;
   }
   return nullptr;
 }
 
-void Describer::Decode(const TableKind& kind, const GpuVirtualAddressRangeAndStride& range) {
+void Describer::decode(const TableKind& kind, const GpuVirtualAddressRangeAndStride& range) {
   if (range.StartAddress == 0) return;
   DescribedTable table;
   table.Name = kind.name;
-  table.Address = DescribeWhere(device_, range.StartAddress);
+  table.Address = describe_where(device_, range.StartAddress);
   table.SizeInBytes = range.SizeInBytes;
   table.StrideInBytes = range.StrideInBytes;
   uint64_t count = 0;
@@ -149,10 +149,10 @@ void Describer::Decode(const TableKind& kind, const GpuVirtualAddressRangeAndStr
   const uint64_t shown = std::min<uint64_t>(count, desc_.MaxRecords);
   table.RecordsLeftOut = count - shown;
   for (uint64_t i = 0; i < shown; ++i) {
-    table.Records.push_back(DecodeRecord(kind, table, i));
+    table.Records.push_back(decode_record(kind, table, i));
     if (table.Records.back().State == TableRecordState::kUnreadable) {
-      Problem(Text(kind.name, " table: record ", i, " lies at ",
-                   ToText(table.Records.back().Address), ", which cannot be read"));
+      add_problem(Text(kind.name, " table: record ", i, " lies at ",
+                       ToText(table.Records.back().Address), ", which cannot be read"));
       table.RecordsLeftOut += shown - i - 1;
       break;
     }
@@ -160,11 +160,11 @@ void Describer::Decode(const TableKind& kind, const GpuVirtualAddressRangeAndStr
   out_.Tables.push_back(std::move(table));
 }
 
-TableRecord Describer::DecodeRecord(const TableKind& kind, const DescribedTable& table,
-                                    uint64_t index) {
+TableRecord Describer::decode_record(const TableKind& kind, const DescribedTable& table,
+                                     uint64_t index) {
   TableRecord out;
   out.Index = index;
-  out.Address = DescribeWhere(device_, table.Address.Address + index * table.StrideInBytes);
+  out.Address = describe_where(device_, table.Address.Address + index * table.StrideInBytes);
   const uint64_t readable = device_.addresses.bytes_from(out.Address.Address);
   if (readable < kIdentifierBytes || out.Address.Address % 4 != 0) {
     out.State = TableRecordState::kUnreadable;
@@ -175,9 +175,9 @@ TableRecord Describer::DecodeRecord(const TableKind& kind, const DescribedTable&
   const LinkedRecord* record = pipeline_.identifiers.find(bytes);
   if (record == nullptr) {
     out.State = TableRecordState::kUnknown;
-    Problem(Text(kind.name, " table: record ", index,
-                 " holds no identifier of this state object. Was it written, and with an "
-                 "identifier of this state object?"));
+    add_problem(Text(kind.name, " table: record ", index,
+                     " holds no identifier of this state object. Was it written, and with an "
+                     "identifier of this state object?"));
     return out;
   }
   out.State = record->kind == kind.kind ? TableRecordState::kKnown : TableRecordState::kWrongTable;
@@ -188,29 +188,30 @@ TableRecord Describer::DecodeRecord(const TableKind& kind, const DescribedTable&
   out.ClosestHitShader = name(record->closest_hit);
   out.IntersectionShader = name(record->intersection);
   if (out.State == TableRecordState::kWrongTable) {
-    Problem(Text(kind.name, " table: record ", index, " names ", Quoted(record->name),
-                 ", which belongs in another table; nothing runs for it"));
+    add_problem(Text(kind.name, " table: record ", index, " names ", Quoted(record->name),
+                     ", which belongs in another table; nothing runs for it"));
     return out;
   }
-  DecodeArguments(table, *record, bytes, readable, out);
+  decode_arguments(table, *record, bytes, readable, out);
   return out;
 }
 
-void Describer::DecodeArguments(const DescribedTable& table, const LinkedRecord& record,
-                                const uint8_t* bytes, uint64_t readable, TableRecord& out) {
+void Describer::decode_arguments(const DescribedTable& table, const LinkedRecord& record,
+                                 const uint8_t* bytes, uint64_t readable, TableRecord& out) {
   if (!record.local_root_signature) return;
   const RootSignature& signature = record.local_root_signature;
   out.ArgumentBytes = signature.GetArgumentBytes();
   const uint64_t needed = kIdentifierBytes + out.ArgumentBytes;
   if (table.StrideInBytes != 0 && table.StrideInBytes < needed) {
-    Problem(Text(table.Name, " table: record ", out.Index, " (", Quoted(record.name), ") takes ",
-                 needed, " bytes, the stride is ", table.StrideInBytes,
-                 ": it reaches into the next record. Make the stride at least ",
-                 AlignUp(needed, kRaytracingShaderRecordByteAlignment)));
+    add_problem(Text(table.Name, " table: record ", out.Index, " (", Quoted(record.name),
+                     ") takes ", needed, " bytes, the stride is ", table.StrideInBytes,
+                     ": it reaches into the next record. Make the stride at least ",
+                     align_up(needed, kRaytracingShaderRecordByteAlignment)));
   }
   if (out.Index * table.StrideInBytes + needed > table.SizeInBytes) {
-    Problem(Text(table.Name, " table: record ", out.Index, " (", Quoted(record.name), ") takes ",
-                 needed, " bytes and reaches past the table's ", table.SizeInBytes));
+    add_problem(Text(table.Name, " table: record ", out.Index, " (", Quoted(record.name),
+                     ") takes ", needed, " bytes and reaches past the table's ",
+                     table.SizeInBytes));
   }
   for (uint32_t i = 0; i < signature.GetDesc().Parameters.size(); ++i) {
     const RootParameter& parameter = signature.GetDesc().Parameters[i];
@@ -219,33 +220,33 @@ void Describer::DecodeArguments(const DescribedTable& table, const LinkedRecord&
                               ? uint64_t{parameter.Constants.Num32BitValues} * 4
                               : 8;
     if (offset + size > readable) break;
-    out.Arguments.push_back(DecodeArgument(record, i, bytes + offset));
+    out.Arguments.push_back(decode_argument(record, i, bytes + offset));
     const TableArgument& argument = out.Arguments.back();
     const std::string where = Text(
         table.Name, " table: record ", out.Index, " (", Quoted(record.name), "), argument ",
         argument.Registers.empty() ? std::string("without registers") : argument.Registers.front());
     if (argument.Type == RootParameterType::kDescriptorTable) {
       if (!argument.HandleIsLive) {
-        Problem(Text(where, ": ", Hex(argument.Handle),
-                     " is no slot of a live shader-visible descriptor heap"));
+        add_problem(Text(where, ": ", Hex(argument.Handle),
+                         " is no slot of a live shader-visible descriptor heap"));
       }
     } else if (argument.Type != RootParameterType::k32BitConstants && !argument.Address.Live &&
                argument.Address.Address != 0) {
-      Problem(Text(where, ": ", ToText(argument.Address)));
+      add_problem(Text(where, ": ", ToText(argument.Address)));
     }
   }
 }
 
-TableArgument Describer::DecodeArgument(const LinkedRecord& record, uint32_t index,
-                                        const uint8_t* argument) {
+TableArgument Describer::decode_argument(const LinkedRecord& record, uint32_t index,
+                                         const uint8_t* argument) {
   const RootSignature& signature = record.local_root_signature;
   const RootParameter& parameter = signature.GetDesc().Parameters[index];
   TableArgument out;
   out.Type = parameter.ParameterType;
   out.OffsetInBytes = static_cast<uint32_t>(kIdentifierBytes) + signature.GetArgumentOffset(index);
-  out.Registers = RegistersOf(parameter);
+  out.Registers = registers_of(parameter);
   for (const auto* s : {record.shader, record.intersection, record.any_hit, record.closest_hit}) {
-    AddNames(s, signature.GetArgumentOffset(index), out.Names);
+    add_names(s, signature.GetArgumentOffset(index), out.Names);
   }
   if (parameter.ParameterType == RootParameterType::k32BitConstants) {
     out.Constants.resize(parameter.Constants.Num32BitValues);
@@ -255,16 +256,16 @@ TableArgument Describer::DecodeArgument(const LinkedRecord& record, uint32_t ind
   uint64_t value = 0;
   std::memcpy(&value, argument, sizeof value);
   if (parameter.ParameterType != RootParameterType::kDescriptorTable) {
-    out.Address = DescribeWhere(device_, value);
+    out.Address = describe_where(device_, value);
     return out;
   }
   out.Handle = value;
-  DecodeDescriptorTable(parameter, out);
+  decode_descriptor_table(parameter, out);
   return out;
 }
 
-void Describer::DecodeDescriptorTable(const RootParameter& parameter, TableArgument& out) {
-  const auto slot = device_.FindSlot(GpuDescriptorHandle{out.Handle});
+void Describer::decode_descriptor_table(const RootParameter& parameter, TableArgument& out) {
+  const auto slot = device_.find_slot(GpuDescriptorHandle{out.Handle});
   if (!slot) return;
   out.HandleIsLive = true;
   out.Heap = slot->heap_name;
@@ -283,13 +284,13 @@ void Describer::DecodeDescriptorTable(const RootParameter& parameter, TableArgum
         out.DescriptorsLeftOut += static_cast<uint32_t>(end - i);
         break;
       }
-      out.Descriptors.push_back(DescribeDescriptor(device_, slot->slot[i]));
+      out.Descriptors.push_back(describe_descriptor(device_, slot->slot[i]));
       out.Descriptors.back().Slot = slot->index + static_cast<uint32_t>(i);
     }
   }
 }
 
-void Describer::AddReach(DescribedTable& table, uint64_t index, const TableReach& reach) {
+void Describer::add_reach(DescribedTable& table, uint64_t index, const TableReach& reach) {
   // A stride of 0 makes every index the first record. [DXR: Shader record stride]
   const uint64_t record = table.StrideInBytes == 0 ? 0 : index;
   if (record < table.Records.size()) {
@@ -303,8 +304,8 @@ void Describer::AddReach(DescribedTable& table, uint64_t index, const TableReach
   }
 }
 
-void Describer::AddMissReaches() {
-  DescribedTable* table = Find(kMiss.name);
+void Describer::add_miss_reaches() {
+  DescribedTable* table = find(kMiss.name);
   for (uint32_t type = 0; type < desc_.RayTypes.size() && table != nullptr; ++type) {
     const uint64_t index = desc_.RayTypes[type].MissShaderIndex & 0xFFFFu;
     const uint64_t record = table->StrideInBytes == 0 ? 0 : index;
@@ -312,21 +313,21 @@ void Describer::AddMissReaches() {
       table->Records[record].ReachedBy.push_back({0, 0, 0, type});
       ++table->Records[record].ReachCount;
     } else if (table->RecordsLeftOut == 0) {
-      Problem(Text("miss table: ray type ", type, " asks for record ", index, ", the table has ",
-                   table->Records.size()));
+      add_problem(Text("miss table: ray type ", type, " asks for record ", index,
+                       ", the table has ", table->Records.size()));
     }
   }
 }
 
-Status Describer::AddHitReaches() {
+Status Describer::add_hit_reaches() {
   if (desc_.TopLevel == 0) return {};
   const auto top = device_.backend->find_structure(desc_.TopLevel);
   if (top == nullptr || top->instances == nullptr) {
     return MakeError(Id::kTableDescription, "there is no top level at ",
-                     ToText(DescribeWhere(device_, desc_.TopLevel)),
+                     ToText(describe_where(device_, desc_.TopLevel)),
                      "; it was never built, or has been overwritten");
   }
-  DescribedTable* table = Find(kHitGroup.name);
+  DescribedTable* table = find(kHitGroup.name);
   if (table == nullptr) return {};
   const auto& instances = *top->instances;
   for (uint32_t i = 0; i < instances.size(); ++i) {
@@ -340,15 +341,15 @@ Status Describer::AddHitReaches() {
             uint64_t{ray.RayContributionToHitGroupIndex & 15u} +
             uint64_t{ray.MultiplierForGeometryContributionToHitGroupIndex & 15u} * g +
             instances[i].InstanceContributionToHitGroupIndex;
-        AddReach(*table, index, {i, instances[i].InstanceID, g, type});
+        add_reach(*table, index, {i, instances[i].InstanceID, g, type});
       }
     }
   }
   if (out_of_table_ != 0) {
-    Problem(Text(first_out_of_table_,
-                 out_of_table_ == 1 ? "" : Text(" (and ", out_of_table_ - 1, " more)"),
-                 "; nothing runs for it. Do SizeInBytes, StrideInBytes and the contributions "
-                 "agree?"));
+    add_problem(Text(first_out_of_table_,
+                     out_of_table_ == 1 ? "" : Text(" (and ", out_of_table_ - 1, " more)"),
+                     "; nothing runs for it. Do SizeInBytes, StrideInBytes and the contributions "
+                     "agree?"));
   }
   return {};
 }
@@ -369,7 +370,7 @@ Result<TableDescription> DescribeShaderTables(const Device& device, const StateO
                      "the state object is a collection, but tables hold identifiers of a pipeline");
   }
   const std::lock_guard lock(device.impl()->execute_mutex);
-  return Describer(*device.impl(), *state.linked, desc).Run();
+  return Describer(*device.impl(), *state.linked, desc).run();
 }
 
 }  // namespace rtapi

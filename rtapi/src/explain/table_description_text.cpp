@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* StateText(TableRecordState state) {
+const char* state_text(TableRecordState state) {
   switch (state) {
     case TableRecordState::kNull:
       return "null";
@@ -30,14 +30,14 @@ const char* StateText(TableRecordState state) {
   return "";
 }
 
-std::string Join(const std::vector<std::string>& words, const char* between) {
+std::string join(const std::vector<std::string>& words, const char* between) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
   return out;
 }
 
 // A constant may be an integer or a float; the float is shown too if it has a plausible size.
-std::string ConstantText(uint32_t bits) {
+std::string constant_text(uint32_t bits) {
   float value;
   std::memcpy(&value, &bits, sizeof value);
   const float size = value < 0 ? -value : value;
@@ -45,11 +45,11 @@ std::string ConstantText(uint32_t bits) {
   return Text(bits);
 }
 
-std::string ArgumentText(const TableArgument& argument) {
+std::string argument_text(const TableArgument& argument) {
   switch (argument.Type) {
     case RootParameterType::k32BitConstants: {
       std::string text = "constants";
-      for (const uint32_t c : argument.Constants) text += " " + ConstantText(c);
+      for (const uint32_t c : argument.Constants) text += " " + constant_text(c);
       return text;
     }
     case RootParameterType::kDescriptorTable:
@@ -67,7 +67,7 @@ std::string ArgumentText(const TableArgument& argument) {
   return "";
 }
 
-std::string RecordTitle(const DescribedTable& table, const TableRecord& record) {
+std::string record_title(const DescribedTable& table, const TableRecord& record) {
   switch (record.State) {
     case TableRecordState::kNull:
       return "NULL identifier: nothing runs";
@@ -91,26 +91,26 @@ std::string RecordTitle(const DescribedTable& table, const TableRecord& record) 
   return text;
 }
 
-std::string RayTypeText(const TableDescription& d, uint32_t type) {
+std::string ray_type_text(const TableDescription& d, uint32_t type) {
   const std::string& name = d.RayTypes[type].Name;
   return name.empty() ? Text("ray type ", type) : Text("ray type ", type, " ", Quoted(name));
 }
 
-std::string ReachText(const TableDescription& d, const DescribedTable& table,
-                      const TableReach& reach) {
-  if (table.Name != "hit group") return RayTypeText(d, reach.RayType);
+std::string reach_text(const TableDescription& d, const DescribedTable& table,
+                       const TableReach& reach) {
+  if (table.Name != "hit group") return ray_type_text(d, reach.RayType);
   return Text("instance ", reach.InstanceIndex, " (ID ", reach.InstanceID, "), geometry ",
-              reach.GeometryIndex, ", ", RayTypeText(d, reach.RayType));
+              reach.GeometryIndex, ", ", ray_type_text(d, reach.RayType));
 }
 
-void AddRecord(const TableDescription& d, const DescribedTable& table, const TableRecord& record,
-               std::string& out) {
+void add_record(const TableDescription& d, const DescribedTable& table, const TableRecord& record,
+                std::string& out) {
   out += Text("  record ", record.Index, " at + ", record.Index * table.StrideInBytes, ": ",
-              RecordTitle(table, record), "\n");
+              record_title(table, record), "\n");
   for (const TableArgument& argument : record.Arguments) {
-    out += Text("    + ", argument.OffsetInBytes, " ", Join(argument.Registers, " | "));
-    if (!argument.Names.empty()) out += Text(" ", Quoted(Join(argument.Names, "\", \"")));
-    out += Text(": ", ArgumentText(argument), "\n");
+    out += Text("    + ", argument.OffsetInBytes, " ", join(argument.Registers, " | "));
+    if (!argument.Names.empty()) out += Text(" ", Quoted(join(argument.Names, "\", \"")));
+    out += Text(": ", argument_text(argument), "\n");
     for (const DescriptorDescription& descriptor : argument.Descriptors) {
       out += Text("      slot ", descriptor.Slot, ": ", ToText(descriptor), "\n");
     }
@@ -119,14 +119,14 @@ void AddRecord(const TableDescription& d, const DescribedTable& table, const Tab
     }
   }
   for (const TableReach& reach : record.ReachedBy) {
-    out += Text("    reached by ", ReachText(d, table, reach), "\n");
+    out += Text("    reached by ", reach_text(d, table, reach), "\n");
   }
   if (record.ReachCount > record.ReachedBy.size()) {
     out += Text("    and ", record.ReachCount - record.ReachedBy.size(), " more\n");
   }
 }
 
-Json ToJsonValue(const AddressDescription& address) {
+Json to_json_value(const AddressDescription& address) {
   Json json;
   json["address"] = Hex(address.Address);
   json["live"] = address.Live;
@@ -137,15 +137,15 @@ Json ToJsonValue(const AddressDescription& address) {
   return json;
 }
 
-Json ToJsonValue(const DescriptorDescription& d) {
+Json to_json_value(const DescriptorDescription& d) {
   Json json = {{"slot", d.Slot}, {"kind", d.Kind}, {"access", d.Access}, {"resource", d.Resource}};
   if (d.StrideInBytes != 0) json["stride"] = d.StrideInBytes;
   if (d.SizeInBytes != 0) json["bytes"] = d.SizeInBytes;
-  if (d.Address.Address != 0) json["at"] = ToJsonValue(d.Address);
+  if (d.Address.Address != 0) json["at"] = to_json_value(d.Address);
   return json;
 }
 
-const char* TypeName(RootParameterType type) {
+const char* type_name(RootParameterType type) {
   switch (type) {
     case RootParameterType::kDescriptorTable:
       return "descriptor table";
@@ -161,8 +161,8 @@ const char* TypeName(RootParameterType type) {
   return "";
 }
 
-Json ToJsonValue(const TableArgument& argument) {
-  Json json = {{"type", TypeName(argument.Type)},
+Json to_json_value(const TableArgument& argument) {
+  Json json = {{"type", type_name(argument.Type)},
                {"offset", argument.OffsetInBytes},
                {"registers", argument.Registers},
                {"names", argument.Names}};
@@ -174,18 +174,18 @@ Json ToJsonValue(const TableArgument& argument) {
     json["heap"] = argument.Heap;
     json["slot"] = argument.Slot;
     json["descriptors"] = Json::array();
-    for (const auto& d : argument.Descriptors) json["descriptors"].push_back(ToJsonValue(d));
+    for (const auto& d : argument.Descriptors) json["descriptors"].push_back(to_json_value(d));
     if (argument.DescriptorsLeftOut != 0) json["left_out"] = argument.DescriptorsLeftOut;
   } else {
-    json["at"] = ToJsonValue(argument.Address);
+    json["at"] = to_json_value(argument.Address);
   }
   return json;
 }
 
-Json ToJsonValue(const DescribedTable& table, const TableRecord& record) {
+Json to_json_value(const DescribedTable& table, const TableRecord& record) {
   Json json = {{"index", record.Index},
-               {"state", StateText(record.State)},
-               {"at", ToJsonValue(record.Address)}};
+               {"state", state_text(record.State)},
+               {"at", to_json_value(record.Address)}};
   if (!record.Export.empty()) json["export"] = record.Export;
   const auto add = [&](const char* key, const std::string& name) {
     if (!name.empty()) json[key] = name;
@@ -195,7 +195,8 @@ Json ToJsonValue(const DescribedTable& table, const TableRecord& record) {
   add("any_hit", record.AnyHitShader);
   add("closest_hit", record.ClosestHitShader);
   json["arguments"] = Json::array();
-  for (const auto& argument : record.Arguments) json["arguments"].push_back(ToJsonValue(argument));
+  for (const auto& argument : record.Arguments)
+    json["arguments"].push_back(to_json_value(argument));
   json["reach_count"] = record.ReachCount;
   json["reached_by"] = Json::array();
   for (const TableReach& reach : record.ReachedBy) {
@@ -219,7 +220,7 @@ std::string ToText(const TableDescription& d) {
     out += Text(table.Name, " table: ", count, count == 1 ? " record" : " records");
     if (table.StrideInBytes != 0) out += Text(" every ", table.StrideInBytes, " bytes");
     out += Text(" at ", ToText(table.Address), "\n");
-    for (const TableRecord& record : table.Records) AddRecord(d, table, record, out);
+    for (const TableRecord& record : table.Records) add_record(d, table, record, out);
     if (table.RecordsLeftOut != 0) out += Text("  and ", table.RecordsLeftOut, " more\n");
   }
   for (const std::string& problem : d.Problems) out += Text("problem: ", problem, "\n");
@@ -239,11 +240,12 @@ std::string ToJson(const TableDescription& d) {
   json["tables"] = Json::array();
   for (const DescribedTable& table : d.Tables) {
     Json each = {{"name", table.Name},
-                 {"at", ToJsonValue(table.Address)},
+                 {"at", to_json_value(table.Address)},
                  {"bytes", table.SizeInBytes},
                  {"stride", table.StrideInBytes}};
     each["records"] = Json::array();
-    for (const auto& record : table.Records) each["records"].push_back(ToJsonValue(table, record));
+    for (const auto& record : table.Records)
+      each["records"].push_back(to_json_value(table, record));
     if (table.RecordsLeftOut != 0) each["left_out"] = table.RecordsLeftOut;
     json["tables"].push_back(std::move(each));
   }

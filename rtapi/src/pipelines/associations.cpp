@@ -17,7 +17,7 @@ namespace {
 // thousands of exports.
 using Index = std::unordered_map<std::string_view, std::vector<const ExplicitAssociation*>>;
 
-Index MakeIndex(const Parts& parts) {
+Index make_index(const Parts& parts) {
   Index index;
   for (const ExplicitAssociation& a : parts.explicit_associations) {
     for (const std::string& name : a.exports) index[name].push_back(&a);
@@ -25,7 +25,7 @@ Index MakeIndex(const Parts& parts) {
   return index;
 }
 
-std::vector<const ExplicitAssociation*> Find(const Index& index, const Subject& subject) {
+std::vector<const ExplicitAssociation*> find(const Index& index, const Subject& subject) {
   std::vector<const ExplicitAssociation*> found;
   for (const std::string* name : {&subject.name, &subject.mangled}) {
     auto it = index.find(*name);
@@ -37,15 +37,15 @@ std::vector<const ExplicitAssociation*> Find(const Index& index, const Subject& 
 
 // Finds the explicit association of a subject in one category, on one level: in the state object
 // itself, or in any of its libraries. Several associations are fine as long as they agree.
-Result<DefinitionPtr> FindExplicit(const std::vector<const ExplicitAssociation*>& candidates,
-                                   const Subject& subject, Category category,
-                                   bool in_state_object) {
+Result<DefinitionPtr> find_explicit(const std::vector<const ExplicitAssociation*>& candidates,
+                                    const Subject& subject, Category category,
+                                    bool in_state_object) {
   const ExplicitAssociation* first = nullptr;
   for (const ExplicitAssociation* a : candidates) {
     if (a->definition->category != category || (a->library_scope < 0) != in_state_object) continue;
-    if (first && !SameDefinition(*first->definition, *a->definition)) {
+    if (first && !same_definition(*first->definition, *a->definition)) {
       return MakeError(Id::kAssociationConflict, Quoted(subject.name), " is associated with two ",
-                       CategoryName(category), "s: ", first->definition->where, " (by ",
+                       category_name(category), "s: ", first->definition->where, " (by ",
                        first->where, ") and ", a->definition->where, " (by ", a->where, ")");
     }
     if (!first) first = a;
@@ -56,13 +56,13 @@ Result<DefinitionPtr> FindExplicit(const std::vector<const ExplicitAssociation*>
 // Returns the default of a scope, or null. An association with an empty export list takes
 // precedence over subobjects that are in no association. If several different candidates remain,
 // there is no default.
-DefinitionPtr FindDefault(const DefaultScope& scope, Category category) {
+DefinitionPtr find_default(const DefaultScope& scope, Category category) {
   for (const auto* candidates : {&scope.by_empty, &scope.implicit}) {
     DefinitionPtr found;
     bool ambiguous = false;
     for (const DefinitionPtr& d : *candidates) {
       if (d->category != category) continue;
-      if (found && !SameDefinition(*found, *d)) ambiguous = true;
+      if (found && !same_definition(*found, *d)) ambiguous = true;
       found = d;
     }
     if (ambiguous) return nullptr;
@@ -71,36 +71,36 @@ DefinitionPtr FindDefault(const DefaultScope& scope, Category category) {
   return nullptr;
 }
 
-Result<Associated> Resolve(const Parts& parts,
+Result<Associated> resolve(const Parts& parts,
                            const std::vector<const ExplicitAssociation*>& candidates,
                            const Subject& subject, Category category) {
-  const auto own = FindExplicit(candidates, subject, category, true);
+  const auto own = find_explicit(candidates, subject, category, true);
   if (!own.ok()) return own.error();
   const Associated& given = subject.associations[static_cast<size_t>(category)];
   if (given.definition) {  // set by its collection, so final
-    if (*own && !SameDefinition(**own, *given.definition)) {
+    if (*own && !same_definition(**own, *given.definition)) {
       return MakeError(Id::kAssociationConflict, "the collection of ", Quoted(subject.name),
-                       " already set its ", CategoryName(category), " (", given.definition->where,
+                       " already set its ", category_name(category), " (", given.definition->where,
                        "), so ", (*own)->where,
                        " cannot replace it; associate it when you create the collection");
     }
     return given;
   }
   if (*own) return Associated{*own, Strength::kExplicit};
-  if (auto d = FindDefault(parts.own_scope, category)) return Associated{d, Strength::kDefault};
-  const auto in_libraries = FindExplicit(candidates, subject, category, false);
+  if (auto d = find_default(parts.own_scope, category)) return Associated{d, Strength::kDefault};
+  const auto in_libraries = find_explicit(candidates, subject, category, false);
   if (!in_libraries.ok()) return in_libraries.error();
   if (*in_libraries) return Associated{*in_libraries, Strength::kExplicit};
   if (subject.library_scope >= 0) {
     const auto& scope = parts.library_scopes[static_cast<size_t>(subject.library_scope)];
-    if (auto d = FindDefault(scope, category)) return Associated{d, Strength::kDefault};
+    if (auto d = find_default(scope, category)) return Associated{d, Strength::kDefault};
   }
   return Associated{};
 }
 
 // Every name in an explicit association of a pipeline must exist. Libraries may name their own
 // functions even if an export list left them out.
-Status CheckNamesExist(const Parts& parts) {
+Status check_names_exist(const Parts& parts) {
   for (const ExplicitAssociation& a : parts.explicit_associations) {
     for (const std::string& name : a.exports) {
       const bool known = std::any_of(parts.subjects.begin(), parts.subjects.end(),
@@ -116,7 +116,7 @@ Status CheckNamesExist(const Parts& parts) {
         }
       }
       return MakeError(Id::kAssociationUnknownExport, a.where, " associates ",
-                       CategoryName(a.definition->category), " with ", Quoted(name),
+                       category_name(a.definition->category), " with ", Quoted(name),
                        ", which this state object does not export");
     }
   }
@@ -125,15 +125,15 @@ Status CheckNamesExist(const Parts& parts) {
 
 }  // namespace
 
-Status AssociateAll(Parts& parts) {
+Status associate_all(Parts& parts) {
   if (!parts.is_collection()) {
-    if (Status s = CheckNamesExist(parts); !s.ok()) return s;
+    if (Status s = check_names_exist(parts); !s.ok()) return s;
   }
-  const Index index = MakeIndex(parts);
+  const Index index = make_index(parts);
   for (const SubjectPtr& subject : parts.subjects) {
-    const auto candidates = Find(index, *subject);
+    const auto candidates = find(index, *subject);
     for (size_t c = 0; c < kCategories; ++c) {
-      auto associated = Resolve(parts, candidates, *subject, static_cast<Category>(c));
+      auto associated = resolve(parts, candidates, *subject, static_cast<Category>(c));
       if (!associated.ok()) return associated.error();
       subject->associations[c] = *associated;
     }

@@ -17,7 +17,7 @@ using shader::DescriptorKind;
 using shader::RegisterClass;
 using shader::SlotSource;
 
-DescriptorKind KindOf(BindingType type) {
+DescriptorKind kind_of(BindingType type) {
   switch (type) {
     case BindingType::kConstantBuffer:
       return DescriptorKind::kConstantBuffer;
@@ -38,15 +38,16 @@ DescriptorKind KindOf(BindingType type) {
   return DescriptorKind::kNull;
 }
 
-std::string Describe(const BindingDesc& b) {
-  return Text(Quoted(b.name), " (", RegisterText(b.register_class, b.register_index, b.space), ")");
+std::string describe(const BindingDesc& b) {
+  return Text(Quoted(b.name), " (", register_text(b.register_class, b.register_index, b.space),
+              ")");
 }
 
 // Finds the range of a signature that contains the binding's first register and is visible.
-std::optional<RegisterRange> Find(const RootSignature& signature, const BindingDesc& binding,
+std::optional<RegisterRange> find(const RootSignature& signature, const BindingDesc& binding,
                                   ShaderVisibility stage) {
   if (!signature) return std::nullopt;
-  for (const RegisterRange& r : GetRegisterRanges(signature.GetDesc())) {
+  for (const RegisterRange& r : get_register_ranges(signature.GetDesc())) {
     if (r.register_class == binding.register_class && r.space == binding.space &&
         binding.register_index >= r.first && binding.register_index < r.end &&
         (r.visibility == ShaderVisibility::kAll || r.visibility == stage)) {
@@ -56,8 +57,8 @@ std::optional<RegisterRange> Find(const RootSignature& signature, const BindingD
   return std::nullopt;
 }
 
-const DescriptorRange& FindDescriptorRange(const RootDescriptorTable& table,
-                                           const RegisterRange& range) {
+const DescriptorRange& find_descriptor_range(const RootDescriptorTable& table,
+                                             const RegisterRange& range) {
   // Within one table, class, space and first register identify a range: overlapping ranges were
   // refused earlier.
   for (const DescriptorRange& r : table.Ranges) {
@@ -70,14 +71,14 @@ const DescriptorRange& FindDescriptorRange(const RootDescriptorTable& table,
   return table.Ranges.front();
 }
 
-Status FillTable(const BindingDesc& binding, const RegisterRange& range,
-                 const RootParameter& parameter, const std::string& where, BindingSlot& slot) {
-  const DescriptorRange& descriptors = FindDescriptorRange(parameter.DescriptorTable, range);
+Status fill_table(const BindingDesc& binding, const RegisterRange& range,
+                  const RootParameter& parameter, const std::string& where, BindingSlot& slot) {
+  const DescriptorRange& descriptors = find_descriptor_range(parameter.DescriptorTable, range);
   const uint64_t skipped = uint64_t{binding.register_index} - range.first;
   const uint64_t available = range.end - binding.register_index;
   const bool unbounded = binding.count == shader::kUnbounded;
   if (!unbounded && binding.count > available) {
-    return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding), " needs ",
+    return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding), " needs ",
                      binding.count, " registers, but parameter ", range.parameter, " has only ",
                      available, " from there on");
   }
@@ -91,14 +92,14 @@ Status FillTable(const BindingDesc& binding, const RegisterRange& range,
   return {};
 }
 
-Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range,
-                          const std::string& where, BindingSlot& slot) {
+Status fill_root_descriptor(const BindingDesc& binding, const RegisterRange& range,
+                            const std::string& where, BindingSlot& slot) {
   const bool buffer = binding.type == BindingType::kConstantBuffer ||
                       binding.type == BindingType::kRawBuffer ||
                       binding.type == BindingType::kStructuredBuffer ||
                       binding.type == BindingType::kAccelerationStructure;
   if (!buffer || binding.count != 1) {
-    return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
+    return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding),
                      binding.count != 1 ? " is an array" : " is a texture or typed buffer",
                      ", which root descriptor ", range.parameter,
                      " cannot hold; bind it through a descriptor table");
@@ -108,7 +109,7 @@ Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range
   return {};
 }
 
-DescriptorAccess AccessOf(RegisterClass register_class) {
+DescriptorAccess access_of(RegisterClass register_class) {
   switch (register_class) {
     case RegisterClass::kUnorderedAccess:
       return DescriptorAccess::kUnorderedAccess;
@@ -119,16 +120,16 @@ DescriptorAccess AccessOf(RegisterClass register_class) {
   }
 }
 
-Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
-                const RegisterRange& range, const std::string& where, BindingSlot& slot) {
-  slot.kind = KindOf(binding.type);
-  slot.access = AccessOf(binding.register_class);
+Status fill_slot(const RootSignature& signature, const BindingDesc& binding,
+                 const RegisterRange& range, const std::string& where, BindingSlot& slot) {
+  slot.kind = kind_of(binding.type);
+  slot.access = access_of(binding.register_class);
   if (binding.type == BindingType::kStructuredBuffer || binding.type == BindingType::kTexture) {
     slot.stride_bytes = binding.size_bytes;
   }
   if (range.static_sampler) {
     if (binding.count != 1) {
-      return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
+      return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding),
                        " is an array, but a static sampler covers a single register");
     }
     slot.source = SlotSource::kStaticSampler;
@@ -140,10 +141,10 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
   const RootParameter& parameter = signature.GetDesc().Parameters[range.parameter];
   switch (parameter.ParameterType) {
     case RootParameterType::kDescriptorTable:
-      return FillTable(binding, range, parameter, where, slot);
+      return fill_table(binding, range, parameter, where, slot);
     case RootParameterType::k32BitConstants:
       if (binding.count != 1) {
-        return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
+        return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding),
                          " is an array, which root constants (parameter ", range.parameter,
                          ") cannot hold");
       }
@@ -151,12 +152,12 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
       slot.size_bytes = parameter.Constants.Num32BitValues * 4;
       return {};
     default:
-      return FillRootDescriptor(binding, range, where, slot);
+      return fill_root_descriptor(binding, range, where, slot);
   }
 }
 
-Status CheckHeapAccess(const shader::ExportDesc& code, const RootSignature& global,
-                       const std::string& where) {
+Status check_heap_access(const shader::ExportDesc& code, const RootSignature& global,
+                         const std::string& where) {
   const RootSignatureFlags flags = global.GetDesc().Flags;
   if ((code.flags & shader::kExportUsesViewHeap) &&
       !HasAny(flags, RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed)) {
@@ -175,25 +176,23 @@ Status CheckHeapAccess(const shader::ExportDesc& code, const RootSignature& glob
 
 }  // namespace
 
-Result<std::vector<BindingSlot>> ResolveBindings(const shader::LibraryDesc& library,
-                                                 const shader::ExportDesc& code,
-                                                 const RootSignature& global,
-                                                 const RootSignature& local,
-                                                 const std::string& where, ShaderVisibility stage) {
-  if (Status s = CheckHeapAccess(code, global, where); !s.ok()) return s.error();
+Result<std::vector<BindingSlot>> resolve_bindings(
+    const shader::LibraryDesc& library, const shader::ExportDesc& code, const RootSignature& global,
+    const RootSignature& local, const std::string& where, ShaderVisibility stage) {
+  if (Status s = check_heap_access(code, global, where); !s.ok()) return s.error();
   std::vector<BindingSlot> slots(library.binding_count);
   for (uint32_t i = 0; i < code.binding_count; ++i) {
     const uint32_t index = code.bindings[i];
     const BindingDesc& binding = library.bindings[index];
     const RootSignature* signature = &local;
-    auto range = Find(local, binding, stage);
+    auto range = find(local, binding, stage);
     if (!range) {
       signature = &global;
-      range = Find(global, binding, stage);
+      range = find(global, binding, stage);
     }
     if (!range) {
       return MakeError(
-          Id::kBindingMissing, where, ": resource ", Describe(binding), " of ",
+          Id::kBindingMissing, where, ": resource ", describe(binding), " of ",
           Quoted(library.name ? library.name : ""), " is ",
           global && local ? "in neither its global nor its local root signature"
           : global ? "not in its global root signature, or not visible to this stage; it has no "
@@ -201,22 +200,22 @@ Result<std::vector<BindingSlot>> ResolveBindings(const shader::LibraryDesc& libr
           : local  ? "not in its local root signature; it has no global one"
                    : "in no root signature: none is associated with it");
     }
-    if (Status s = FillSlot(*signature, binding, *range, where, slots[index]); !s.ok()) {
+    if (Status s = fill_slot(*signature, binding, *range, where, slots[index]); !s.ok()) {
       return s.error();
     }
   }
   return slots;
 }
 
-Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignature& local,
-                                   const std::string& where) {
+Status check_root_signatures_disjoint(const RootSignature& global, const RootSignature& local,
+                                      const std::string& where) {
   if (!global || !local) return {};
-  const auto outer = GetRegisterRanges(global.GetDesc());
-  for (const RegisterRange& a : GetRegisterRanges(local.GetDesc())) {
+  const auto outer = get_register_ranges(global.GetDesc());
+  for (const RegisterRange& a : get_register_ranges(local.GetDesc())) {
     for (const RegisterRange& b : outer) {
-      if (!Overlap(a, b)) continue;
+      if (!overlap(a, b)) continue;
       return MakeError(Id::kRootSignaturesOverlap, where, ": register ",
-                       RegisterText(a.register_class, std::max(a.first, b.first), a.space),
+                       register_text(a.register_class, std::max(a.first, b.first), a.space),
                        " is in its local root signature (",
                        a.static_sampler ? "sampler " : "parameter ", a.parameter,
                        ") and in its global one (", b.static_sampler ? "sampler " : "parameter ",
@@ -226,8 +225,8 @@ Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignat
   return {};
 }
 
-Status CheckTier(const DeviceImpl& device, const shader::ExportDesc& code,
-                 const std::string& where) {
+Status check_tier(const DeviceImpl& device, const shader::ExportDesc& code,
+                  const std::string& where) {
   if (device.desc.Tier >= RaytracingTier::kTier1_1) return {};
   if ((code.flags & shader::kExportUsesRayQuery) != 0) {
     return MakeError(Id::kShaderTier, where,

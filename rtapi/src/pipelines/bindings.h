@@ -17,17 +17,17 @@ struct DeviceImpl;
 // Returns one slot per binding of the library; bindings that the export does not reach stay
 // unbound. Either signature may be empty. `where` names the export in messages. Parameters that are
 // visible to another stage only are not looked at. [DXR: D3D12_LOCAL_ROOT_SIGNATURE]
-Result<std::vector<kaamos::shader::BindingSlot>> ResolveBindings(
+Result<std::vector<kaamos::shader::BindingSlot>> resolve_bindings(
     const kaamos::shader::LibraryDesc& library, const kaamos::shader::ExportDesc& code,
     const RootSignature& global, const RootSignature& local, const std::string& where,
     ShaderVisibility stage = ShaderVisibility::kAll);
 
 // Fails if both signatures define the same register. Either may be empty.
-Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignature& local,
-                                   const std::string& where);
+Status check_root_signatures_disjoint(const RootSignature& global, const RootSignature& local,
+                                      const std::string& where);
 
 // Inline ray tracing, and the SKIP ray flags where they are constants, need a device of tier 1.1.
-Status CheckTier(const DeviceImpl& device, const kaamos::shader::ExportDesc& code,
-                 const std::string& where);
+Status check_tier(const DeviceImpl& device, const kaamos::shader::ExportDesc& code,
+                  const std::string& where);
 
 }  // namespace rtapi::detail

@@ -6,8 +6,8 @@
 
 namespace rtapi::detail {
 
-Status Gatherer::Gather(const ExistingCollectionDesc& sub, size_t i) {
-  const std::string where = Where(i);
+Status Gatherer::gather(const ExistingCollectionDesc& sub, size_t i) {
+  const std::string where = where_of(i);
   if (parts_.is_collection()) {
     return MakeError(Id::kCollectionNested, where,
                      " is an existing collection; only a pipeline may include collections");
@@ -28,12 +28,12 @@ Status Gatherer::Gather(const ExistingCollectionDesc& sub, size_t i) {
                      ": the pipeline has flag 0x4 "
                      "(kAllowStateObjectAdditions), so the collection needs it too");
   }
-  return ImportCollection(collection, sub.Exports, where);
+  return import_collection(collection, sub.Exports, where);
 }
 
-Status Gatherer::ImportCollection(const StateObjectImpl& collection,
-                                  const std::vector<ExportDesc>& exports,
-                                  const std::string& where) {
+Status Gatherer::import_collection(const StateObjectImpl& collection,
+                                   const std::vector<ExportDesc>& exports,
+                                   const std::string& where) {
   const int scope = parts_.collection_count++;
   const bool referable =
       HasAny(collection.flags, StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions);
@@ -52,7 +52,7 @@ Status Gatherer::ImportCollection(const StateObjectImpl& collection,
       if (member) member = copies[member.get()];
     }
   }
-  if (Status s = ListCollectionExports(collection, copies, exports, where); !s.ok()) return s;
+  if (Status s = list_collection_exports(collection, copies, exports, where); !s.ok()) return s;
   if (!referable) return {};
   for (const ExplicitAssociation& a : collection.outward_associations) {
     parts_.explicit_associations.push_back(a);
@@ -61,10 +61,10 @@ Status Gatherer::ImportCollection(const StateObjectImpl& collection,
   return {};
 }
 
-Status Gatherer::ListCollectionExports(const StateObjectImpl& collection,
-                                       std::map<const Subject*, SubjectPtr>& copies,
-                                       const std::vector<ExportDesc>& exports,
-                                       const std::string& where) {
+Status Gatherer::list_collection_exports(const StateObjectImpl& collection,
+                                         std::map<const Subject*, SubjectPtr>& copies,
+                                         const std::vector<ExportDesc>& exports,
+                                         const std::string& where) {
   for (const ExportDesc& wanted : exports) {
     const std::string& source = wanted.ExportToRename.empty() ? wanted.Name : wanted.ExportToRename;
     bool found = false;

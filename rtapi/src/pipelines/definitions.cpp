@@ -6,13 +6,13 @@
 
 namespace rtapi::detail {
 
-const char* CategoryName(Category category) {
+const char* category_name(Category category) {
   static constexpr const char* kNames[] = {"shader config", "pipeline config",
                                            "global root signature", "local root signature"};
   return kNames[static_cast<size_t>(category)];
 }
 
-bool SameDefinition(const Definition& a, const Definition& b) {
+bool same_definition(const Definition& a, const Definition& b) {
   if (a.category != b.category) return false;
   switch (a.category) {
     case Category::kShaderConfig:
@@ -22,12 +22,12 @@ bool SameDefinition(const Definition& a, const Definition& b) {
       return a.pipeline_config.MaxTraceRecursionDepth == b.pipeline_config.MaxTraceRecursionDepth &&
              a.pipeline_config.Flags == b.pipeline_config.Flags;
     default:
-      return SameDefinition(a.root_signature, b.root_signature);
+      return same_definition(a.root_signature, b.root_signature);
   }
 }
 
-Status Gatherer::DefineRootSignature(const RootSignature& signature, bool local,
-                                     const std::string& where, DefinitionPtr& out) {
+Status Gatherer::define_root_signature(const RootSignature& signature, bool local,
+                                       const std::string& where, DefinitionPtr& out) {
   if (Status s = CheckHandle(parts_.device, signature, where + ": the root signature"); !s.ok()) {
     return s;
   }
@@ -44,8 +44,8 @@ Status Gatherer::DefineRootSignature(const RootSignature& signature, bool local,
   return {};
 }
 
-Status Gatherer::DefineShaderConfig(const RaytracingShaderConfig& config, const std::string& where,
-                                    DefinitionPtr& out) {
+Status Gatherer::define_shader_config(const RaytracingShaderConfig& config,
+                                      const std::string& where, DefinitionPtr& out) {
   if (config.MaxAttributeSizeInBytes > kRaytracingMaxAttributeSizeInBytes) {
     return MakeError(Id::kAttributeSizeLimit, where, ": MaxAttributeSizeInBytes is ",
                      config.MaxAttributeSizeInBytes, "; it must be 0 to 32");
@@ -58,8 +58,8 @@ Status Gatherer::DefineShaderConfig(const RaytracingShaderConfig& config, const 
   return {};
 }
 
-Status Gatherer::DefinePipelineConfig(const RaytracingPipelineConfig1& config, bool config1,
-                                      const std::string& where, DefinitionPtr& out) {
+Status Gatherer::define_pipeline_config(const RaytracingPipelineConfig1& config, bool config1,
+                                        const std::string& where, DefinitionPtr& out) {
   if (config.MaxTraceRecursionDepth > kRaytracingMaxDeclarableTraceRecursionDepth) {
     return MakeError(Id::kRecursionDepth, where, ": MaxTraceRecursionDepth is ",
                      config.MaxTraceRecursionDepth, "; it must be 0 to 31");
@@ -87,7 +87,7 @@ Status Gatherer::DefinePipelineConfig(const RaytracingPipelineConfig1& config, b
   return {};
 }
 
-Status Gatherer::AddHitGroup(const HitGroupDesc& group, int scope, const std::string& where) {
+Status Gatherer::add_hit_group(const HitGroupDesc& group, int scope, const std::string& where) {
   if (group.HitGroupExport.empty()) {
     return MakeError(Id::kExportUnnamed, where, ": HitGroupExport is empty");
   }

@@ -21,24 +21,24 @@ constexpr uint32_t kMaxElementEnd = 2048;  // bytes from the start of a vertex
 constexpr uint32_t kMaxInterstageVectors = 32;
 constexpr uint32_t kMaxClipAndCullDistances = 8;
 
-std::span<const SignatureElement> InputsOf(const runtime::LinkedShader& s) {
+std::span<const SignatureElement> inputs_of(const runtime::LinkedShader& s) {
   return {s.code->graphics->inputs, s.code->graphics->input_count};
 }
-std::span<const SignatureElement> OutputsOf(const runtime::LinkedShader& s) {
+std::span<const SignatureElement> outputs_of(const runtime::LinkedShader& s) {
   return {s.code->graphics->outputs, s.code->graphics->output_count};
 }
 
-bool SameName(std::string_view a, std::string_view b) {
+bool same_name(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
     return std::toupper(x) == std::toupper(y);
   });
 }
 
-bool SameSemantic(const SignatureElement& a, const SignatureElement& b) {
-  return a.semantic_index == b.semantic_index && SameName(a.semantic, b.semantic);
+bool same_semantic(const SignatureElement& a, const SignatureElement& b) {
+  return a.semantic_index == b.semantic_index && same_name(a.semantic, b.semantic);
 }
 
-const char* TypeName(ColumnType type) {
+const char* type_name(ColumnType type) {
   switch (type) {
     case ColumnType::kFloat:
       return "float";
@@ -50,14 +50,14 @@ const char* TypeName(ColumnType type) {
 }
 
 // "COLOR1 (float3, gbuffer.hlsl:31)"
-std::string Describe(const SignatureElement& e) {
-  std::string type = TypeName(e.type);
+std::string describe(const SignatureElement& e) {
+  std::string type = type_name(e.type);
   if (e.components > 1) type += std::to_string(e.components);
   return Text(e.semantic, e.semantic_index, " (", type, ", ", e.file ? e.file : "", ":", e.line,
               ")");
 }
 
-std::string ListSemantics(std::span<const InputElementDesc> elements) {
+std::string list_semantics(std::span<const InputElementDesc> elements) {
   std::string out;
   for (const InputElementDesc& e : elements) {
     out += Text(out.empty() ? "" : ", ", e.SemanticName, e.SemanticIndex);
@@ -66,7 +66,7 @@ std::string ListSemantics(std::span<const InputElementDesc> elements) {
 }
 
 // The type class that a shader must declare for a format. [RAS-18]
-ColumnType ColumnTypeOf(Format format) {
+ColumnType column_type_of(Format format) {
   switch (GetFormatInfo(format).type) {
     case FormatClass::kUint:
       return ColumnType::kUint;
@@ -77,7 +77,7 @@ ColumnType ColumnTypeOf(Format format) {
   }
 }
 
-Status CheckElement(const InputElementDesc& e, size_t index, uint32_t offset) {
+Status check_element(const InputElementDesc& e, size_t index, uint32_t offset) {
   const std::string where =
       Text("InputLayout[", index, "] (", e.SemanticName, e.SemanticIndex, ")");
   const FormatInfo info = GetFormatInfo(e.Format);
@@ -106,7 +106,7 @@ Status CheckElement(const InputElementDesc& e, size_t index, uint32_t offset) {
 }
 
 // Offsets of all elements, appended ones resolved in the order of the array, slot by slot. [RAS-16]
-Result<std::vector<uint32_t>> Offsets(std::span<const InputElementDesc> elements) {
+Result<std::vector<uint32_t>> offsets_of(std::span<const InputElementDesc> elements) {
   std::array<uint32_t, kIAVertexInputResourceSlotCount> ends = {};
   std::vector<uint32_t> out;
   for (size_t i = 0; i < elements.size(); ++i) {
@@ -114,15 +114,16 @@ Result<std::vector<uint32_t>> Offsets(std::span<const InputElementDesc> elements
     const uint32_t bytes = GetFormatInfo(e.Format).bytes;
     uint32_t offset = e.AlignedByteOffset;
     if (offset == kAppendAlignedElement && e.InputSlot < ends.size()) {
-      offset = static_cast<uint32_t>(AlignUp(ends[e.InputSlot], std::clamp<uint32_t>(bytes, 1, 4)));
+      offset =
+          static_cast<uint32_t>(align_up(ends[e.InputSlot], std::clamp<uint32_t>(bytes, 1, 4)));
     }
     if (offset > kMaxElementEnd) offset = kMaxElementEnd + 1;
-    if (Status s = CheckElement(e, i, offset); !s.ok()) return s.error();
+    if (Status s = check_element(e, i, offset); !s.ok()) return s.error();
     ends[e.InputSlot] = offset + bytes;
     out.push_back(offset);
     for (size_t k = 0; k < i; ++k) {
       const InputElementDesc& other = elements[k];
-      if (other.SemanticIndex == e.SemanticIndex && SameName(other.SemanticName, e.SemanticName)) {
+      if (other.SemanticIndex == e.SemanticIndex && same_name(other.SemanticName, e.SemanticName)) {
         return MakeError(Id::kInputLayout, "InputLayout has ", e.SemanticName, e.SemanticIndex,
                          " twice, as elements ", k, " and ", i);
       }
@@ -135,8 +136,8 @@ Result<std::vector<uint32_t>> Offsets(std::span<const InputElementDesc> elements
   return out;
 }
 
-Status LinkVertexInput(const GraphicsPipelineStateDesc& desc, std::span<const uint32_t> offsets,
-                       const SignatureElement& input, LinkedGraphics& linked) {
+Status link_vertex_input(const GraphicsPipelineStateDesc& desc, std::span<const uint32_t> offsets,
+                         const SignatureElement& input, LinkedGraphics& linked) {
   switch (input.system_value) {
     case SystemValue::kVertexId:
       linked.vertex_columns.vertex_id = input.first_column;
@@ -149,16 +150,16 @@ Status LinkVertexInput(const GraphicsPipelineStateDesc& desc, std::span<const ui
   }
   const auto& elements = desc.InputLayout;
   const auto it = std::find_if(elements.begin(), elements.end(), [&](const InputElementDesc& e) {
-    return e.SemanticIndex == input.semantic_index && SameName(e.SemanticName, input.semantic);
+    return e.SemanticIndex == input.semantic_index && same_name(e.SemanticName, input.semantic);
   });
   if (it == elements.end()) {
     return MakeError(Id::kInputLayout, "vertex shader ", Quoted(linked.vertex.name), " reads ",
-                     Describe(input), "; the input layout has ", ListSemantics(elements));
+                     describe(input), "; the input layout has ", list_semantics(elements));
   }
-  if (ColumnTypeOf(it->Format) != input.type) {
+  if (column_type_of(it->Format) != input.type) {
     return MakeError(Id::kInputLayout, "vertex shader ", Quoted(linked.vertex.name), " reads ",
-                     Describe(input), ", but DXGI format ", static_cast<uint32_t>(it->Format),
-                     " of the element gives ", TypeName(ColumnTypeOf(it->Format)));
+                     describe(input), ", but DXGI format ", static_cast<uint32_t>(it->Format),
+                     " of the element gives ", type_name(column_type_of(it->Format)));
   }
   runtime::LinkedElement element;
   element.slot = it->InputSlot;
@@ -172,13 +173,13 @@ Status LinkVertexInput(const GraphicsPipelineStateDesc& desc, std::span<const ui
   return {};
 }
 
-void AppendColumns(const SignatureElement& e, std::vector<uint32_t>& columns) {
+void append_columns(const SignatureElement& e, std::vector<uint32_t>& columns) {
   for (uint32_t c = 0; c < e.components; ++c) columns.push_back(e.first_column + c);
 }
 
-Status LinkVertexOutputs(LinkedGraphics& linked) {
+Status link_vertex_outputs(LinkedGraphics& linked) {
   auto& columns = linked.vertex_columns;
-  for (const SignatureElement& e : OutputsOf(linked.vertex)) {
+  for (const SignatureElement& e : outputs_of(linked.vertex)) {
     switch (e.system_value) {
       case SystemValue::kPosition:
         columns.position = e.first_column;
@@ -190,10 +191,10 @@ Status LinkVertexOutputs(LinkedGraphics& linked) {
         columns.viewport_array_index = e.first_column;
         break;
       case SystemValue::kClipDistance:
-        AppendColumns(e, columns.clip_distances);
+        append_columns(e, columns.clip_distances);
         break;
       case SystemValue::kCullDistance:
-        AppendColumns(e, columns.cull_distances);
+        append_columns(e, columns.cull_distances);
         break;
       default:
         break;
@@ -218,7 +219,7 @@ Status LinkVertexOutputs(LinkedGraphics& linked) {
 }
 
 // Returns whether the pipeline itself feeds the input.
-bool LinkPixelSystemValue(const SignatureElement& input, runtime::PixelSystemColumns& columns) {
+bool link_pixel_system_value(const SignatureElement& input, runtime::PixelSystemColumns& columns) {
   switch (input.system_value) {
     case SystemValue::kPosition:
       columns.position = input.first_column;
@@ -241,15 +242,15 @@ bool LinkPixelSystemValue(const SignatureElement& input, runtime::PixelSystemCol
   }
 }
 
-Status LinkPixelInput(const SignatureElement& input, LinkedGraphics& linked) {
-  if (LinkPixelSystemValue(input, linked.pixel_columns)) return {};
+Status link_pixel_input(const SignatureElement& input, LinkedGraphics& linked) {
+  if (link_pixel_system_value(input, linked.pixel_columns)) return {};
   const std::string reads =
-      Text("pixel shader ", Quoted(linked.pixel.name), " reads ", Describe(input));
-  for (const SignatureElement& output : OutputsOf(linked.vertex)) {
-    if (!SameSemantic(output, input)) continue;
+      Text("pixel shader ", Quoted(linked.pixel.name), " reads ", describe(input));
+  for (const SignatureElement& output : outputs_of(linked.vertex)) {
+    if (!same_semantic(output, input)) continue;
     if (output.type != input.type || output.components < input.components) {
       return MakeError(Id::kStageLinkage, reads, "; vertex shader ", Quoted(linked.vertex.name),
-                       " writes ", Describe(output));
+                       " writes ", describe(output));
     }
     linked.varyings.push_back(
         {output.first_column, input.first_column, input.components, input.interpolation});
@@ -265,12 +266,12 @@ Status LinkPixelInput(const SignatureElement& input, LinkedGraphics& linked) {
 }
 
 // Native D3D12 links by registers, which follow the order of declaration. [RAS-21]
-void WarnOfOrder(const DeviceImpl& device, const LinkedGraphics& linked) {
+void warn_of_order(const DeviceImpl& device, const LinkedGraphics& linked) {
   const bool in_order = std::is_sorted(
       linked.varyings.begin(), linked.varyings.end(),
       [](const auto& a, const auto& b) { return a.vertex_column < b.vertex_column; });
   if (in_order) return;
-  device.Report(MessageSeverity::kWarning,
+  device.report(MessageSeverity::kWarning,
                 MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name),
                           ": pixel shader ", Quoted(linked.pixel.name),
                           " declares its inputs in another order than vertex shader ",
@@ -281,32 +282,32 @@ void WarnOfOrder(const DeviceImpl& device, const LinkedGraphics& linked) {
 
 }  // namespace
 
-Status LinkInputLayout(const GraphicsPipelineStateDesc& desc, LinkedGraphics& linked) {
+Status link_input_layout(const GraphicsPipelineStateDesc& desc, LinkedGraphics& linked) {
   if (desc.InputLayout.size() > kIAVertexInputResourceSlotCount) {
     return MakeError(Id::kInputLayout, "InputLayout has ", desc.InputLayout.size(),
                      " elements; at most 32");
   }
-  auto offsets = Offsets(desc.InputLayout);
+  auto offsets = offsets_of(desc.InputLayout);
   if (!offsets.ok()) return offsets.error();
-  for (const SignatureElement& input : InputsOf(linked.vertex)) {
-    if (Status s = LinkVertexInput(desc, *offsets, input, linked); !s.ok()) return s;
+  for (const SignatureElement& input : inputs_of(linked.vertex)) {
+    if (Status s = link_vertex_input(desc, *offsets, input, linked); !s.ok()) return s;
   }
   return {};
 }
 
-Status LinkStages(const DeviceImpl& device, LinkedGraphics& linked) {
-  if (Status s = LinkVertexOutputs(linked); !s.ok()) return s;
+Status link_stages(const DeviceImpl& device, LinkedGraphics& linked) {
+  if (Status s = link_vertex_outputs(linked); !s.ok()) return s;
   if (!linked.has_pixel()) return {};
-  for (const SignatureElement& input : InputsOf(linked.pixel)) {
-    if (Status s = LinkPixelInput(input, linked); !s.ok()) return s;
+  for (const SignatureElement& input : inputs_of(linked.pixel)) {
+    if (Status s = link_pixel_input(input, linked); !s.ok()) return s;
   }
-  WarnOfOrder(device, linked);
+  warn_of_order(device, linked);
   return {};
 }
 
-Status LinkTargets(const DeviceImpl& device, LinkedGraphics& linked) {
+Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
   if (!linked.has_pixel()) return {};
-  for (const SignatureElement& e : OutputsOf(linked.pixel)) {
+  for (const SignatureElement& e : outputs_of(linked.pixel)) {
     if (e.system_value == SystemValue::kDepth) linked.pixel_columns.depth = e.first_column;
     if (e.system_value != SystemValue::kTarget) continue;
     const uint32_t slot = e.semantic_index;
@@ -314,18 +315,18 @@ Status LinkTargets(const DeviceImpl& device, LinkedGraphics& linked) {
     linked.pixel_columns.targets[slot] = {e.first_column, e.components};
     const Format format = linked.target_formats[slot];
     if (slot >= linked.target_count || format == Format::kUnknown) {
-      device.Report(
+      device.report(
           MessageSeverity::kWarning,
           MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name),
-                    ": pixel shader ", Quoted(linked.pixel.name), " writes ", Describe(e),
+                    ": pixel shader ", Quoted(linked.pixel.name), " writes ", describe(e),
                     ", but RTVFormats has no target in that slot: the output is dropped"));
       continue;
     }
-    if (ColumnTypeOf(format) != e.type) {
+    if (column_type_of(format) != e.type) {
       return MakeError(Id::kTargetOutput, "pixel shader ", Quoted(linked.pixel.name), " writes ",
-                       Describe(e), "; RTVFormats[", slot, "] is DXGI format ",
+                       describe(e), "; RTVFormats[", slot, "] is DXGI format ",
                        static_cast<uint32_t>(format), ", which takes ",
-                       TypeName(ColumnTypeOf(format)));
+                       type_name(column_type_of(format)));
     }
   }
   return {};

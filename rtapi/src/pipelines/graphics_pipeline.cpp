@@ -24,12 +24,12 @@ using runtime::LinkedGraphics;
 
 constexpr const char* kZeroed = "; was the description zeroed? Begin with a default one";
 
-Status Unsupported(const std::string& what) {
+Status unsupported(const std::string& what) {
   return MakeError(Id::kGraphicsUnsupported, what);
 }
 
-Status CheckRasterizer(const RasterizerDesc& desc) {
-  if (desc.FillMode == FillMode::kWireframe) return Unsupported("FillMode is kWireframe");
+Status check_rasterizer(const RasterizerDesc& desc) {
+  if (desc.FillMode == FillMode::kWireframe) return unsupported("FillMode is kWireframe");
   if (desc.FillMode != FillMode::kSolid) {
     return MakeError(Id::kGraphicsDesc, "FillMode is ", static_cast<uint32_t>(desc.FillMode),
                      "; it must be kSolid (3)", kZeroed);
@@ -46,8 +46,8 @@ Status CheckRasterizer(const RasterizerDesc& desc) {
   return {};
 }
 
-Status CheckDepth(const DepthStencilDesc& desc) {
-  if (desc.StencilEnable) return Unsupported("StencilEnable is true: there is no stencil test");
+Status check_depth(const DepthStencilDesc& desc) {
+  if (desc.StencilEnable) return unsupported("StencilEnable is true: there is no stencil test");
   if (!desc.DepthEnable) return {};
   if (desc.DepthFunc < ComparisonFunc::kNever || desc.DepthFunc > ComparisonFunc::kAlways) {
     return MakeError(Id::kGraphicsDesc, "DepthFunc is ", static_cast<uint32_t>(desc.DepthFunc),
@@ -60,21 +60,21 @@ Status CheckDepth(const DepthStencilDesc& desc) {
   return {};
 }
 
-bool ReadsSecondSource(Blend blend) {
+bool reads_second_source(Blend blend) {
   return blend >= Blend::kSrc1Color && blend <= Blend::kInvSrc1Alpha;
 }
-bool IsBlend(Blend blend) {
+bool is_blend(Blend blend) {
   return (blend >= Blend::kZero && blend <= Blend::kSrcAlphaSat) || blend == Blend::kBlendFactor ||
          blend == Blend::kInvBlendFactor;
 }
-bool IsColorBlend(Blend blend) {
+bool is_color_blend(Blend blend) {
   return blend == Blend::kSrcColor || blend == Blend::kInvSrcColor || blend == Blend::kDestColor ||
          blend == Blend::kInvDestColor;
 }
 
-Status CheckBlend(const RenderTargetBlendDesc& desc, uint32_t slot) {
+Status check_blend(const RenderTargetBlendDesc& desc, uint32_t slot) {
   const std::string where = Text("RenderTarget[", slot, "]");
-  if (desc.LogicOpEnable) return Unsupported(where + " has LogicOpEnable");
+  if (desc.LogicOpEnable) return unsupported(where + " has LogicOpEnable");
   if (static_cast<uint32_t>(desc.RenderTargetWriteMask) > 15) {
     return MakeError(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
                      static_cast<uint32_t>(desc.RenderTargetWriteMask), "; it must be 0 to 15");
@@ -85,15 +85,15 @@ Status CheckBlend(const RenderTargetBlendDesc& desc, uint32_t slot) {
                                                    {"SrcBlendAlpha", desc.SrcBlendAlpha},
                                                    {"DestBlendAlpha", desc.DestBlendAlpha}};
   for (const auto& [name, factor] : factors) {
-    if (ReadsSecondSource(factor)) {
-      return Unsupported(Text(where, ".", name, " reads a second source of colours"));
+    if (reads_second_source(factor)) {
+      return unsupported(Text(where, ".", name, " reads a second source of colours"));
     }
-    if (!IsBlend(factor)) {
+    if (!is_blend(factor)) {
       return MakeError(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
                        "; it must be 1 to 11, 14 or 15", kZeroed);
     }
     const bool of_alpha = std::string_view(name).ends_with("Alpha");
-    if (of_alpha && IsColorBlend(factor)) {
+    if (of_alpha && is_color_blend(factor)) {
       return MakeError(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
                        ", a colour; alpha takes the factor of the same name with Alpha");
     }
@@ -105,14 +105,14 @@ Status CheckBlend(const RenderTargetBlendDesc& desc, uint32_t slot) {
                    "; they must be 1 to 5", kZeroed);
 }
 
-Status CheckTopology(const GraphicsPipelineStateDesc& desc) {
+Status check_topology(const GraphicsPipelineStateDesc& desc) {
   const auto type = desc.PrimitiveTopologyType;
   if (type == PrimitiveTopologyType::kUndefined || type > PrimitiveTopologyType::kPatch) {
     return MakeError(Id::kGraphicsDesc, "PrimitiveTopologyType is ", static_cast<uint32_t>(type),
                      "; it must be kTriangle (3)");
   }
   if (type != PrimitiveTopologyType::kTriangle) {
-    return Unsupported(Text("PrimitiveTopologyType is ", static_cast<uint32_t>(type),
+    return unsupported(Text("PrimitiveTopologyType is ", static_cast<uint32_t>(type),
                             "; only kTriangle (3) is drawn"));
   }
   if (desc.IBStripCutValue > IndexBufferStripCutValue::k0xFFFFFFFF) {
@@ -123,18 +123,18 @@ Status CheckTopology(const GraphicsPipelineStateDesc& desc) {
 }
 
 // Formats of targets, and what is blended into them.
-Status TakeTargets(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
-                   LinkedGraphics& linked) {
+Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
+                    LinkedGraphics& linked) {
   if (desc.RTVFormats.size() > kSimultaneousRenderTargetCount) {
     return MakeError(Id::kGraphicsDesc, "RTVFormats has ", desc.RTVFormats.size(),
                      " formats; at most 8");
   }
   linked.target_count = static_cast<uint32_t>(desc.RTVFormats.size());
-  if (desc.BlendState.AlphaToCoverageEnable) return Unsupported("AlphaToCoverageEnable is true");
+  if (desc.BlendState.AlphaToCoverageEnable) return unsupported("AlphaToCoverageEnable is true");
   for (uint32_t i = 0; i < kSimultaneousRenderTargetCount; ++i) {
     linked.blend[i] = desc.BlendState.RenderTarget[desc.BlendState.IndependentBlendEnable ? i : 0];
     if (i >= linked.target_count) continue;
-    if (Status s = CheckBlend(linked.blend[i], i); !s.ok()) return s;
+    if (Status s = check_blend(linked.blend[i], i); !s.ok()) return s;
     const Format format = desc.RTVFormats[i];
     linked.target_formats[i] = format;
     if (format == Format::kUnknown) continue;
@@ -161,8 +161,8 @@ Status TakeTargets(const DeviceImpl& device, const GraphicsPipelineStateDesc& de
 }
 
 // The only export of a stage, or that of the name.
-Result<const shader::ExportDesc*> FindShader(const ShaderLibrary& library, const std::string& name,
-                                             shader::Stage stage, const char* kind) {
+Result<const shader::ExportDesc*> find_shader(const ShaderLibrary& library, const std::string& name,
+                                              shader::Stage stage, const char* kind) {
   const auto& table = *library.impl()->desc;
   const shader::ExportDesc* found = nullptr;
   std::string known;
@@ -182,14 +182,15 @@ Result<const shader::ExportDesc*> FindShader(const ShaderLibrary& library, const
                    Quoted(name), "; it has ", known.empty() ? "none" : known);
 }
 
-Status LinkShader(const DeviceImpl& device, const RootSignature& signature,
-                  const GraphicsShader& given, shader::Stage stage, runtime::LinkedShader& linked) {
+Status link_shader(const DeviceImpl& device, const RootSignature& signature,
+                   const GraphicsShader& given, shader::Stage stage,
+                   runtime::LinkedShader& linked) {
   const bool vertex = stage == shader::Stage::kVertex;
-  const ShaderLibrary library = device.LibraryToRun(given.Library);
-  auto code = FindShader(library, given.EntryPoint, stage, vertex ? "vertex" : "pixel");
+  const ShaderLibrary library = device.library_to_run(given.Library);
+  auto code = find_shader(library, given.EntryPoint, stage, vertex ? "vertex" : "pixel");
   if (!code.ok()) return code.error();
   const std::string where = Text(vertex ? "vertex" : "pixel", " shader ", Quoted((*code)->name));
-  if (Status s = CheckTier(device, **code, where); !s.ok()) return s;
+  if (Status s = check_tier(device, **code, where); !s.ok()) return s;
   const RootSignatureFlags denied = vertex ? RootSignatureFlags::kDenyVertexShaderRootAccess
                                            : RootSignatureFlags::kDenyPixelShaderRootAccess;
   if ((*code)->binding_count > 0 && HasAny(signature.GetDesc().Flags, denied)) {
@@ -198,8 +199,8 @@ Status LinkShader(const DeviceImpl& device, const RootSignature& signature,
                      "ShaderRootAccess");
   }
   const auto& table = *library.impl()->desc;
-  auto slots = ResolveBindings(table, **code, signature, RootSignature(), where,
-                               vertex ? ShaderVisibility::kVertex : ShaderVisibility::kPixel);
+  auto slots = resolve_bindings(table, **code, signature, RootSignature(), where,
+                                vertex ? ShaderVisibility::kVertex : ShaderVisibility::kPixel);
   if (!slots.ok()) return slots.error();
   linked.name = (*code)->name;
   linked.stage = stage;
@@ -212,18 +213,18 @@ Status LinkShader(const DeviceImpl& device, const RootSignature& signature,
   return {};
 }
 
-Status LinkShaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
-                   LinkedGraphics& linked) {
+Status link_shaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
+                    LinkedGraphics& linked) {
   if (!desc.VS.Library) return MakeError(Id::kNullHandle, "VS.Library is an empty library handle");
   if (Status s =
-          LinkShader(device, desc.pRootSignature, desc.VS, shader::Stage::kVertex, linked.vertex);
+          link_shader(device, desc.pRootSignature, desc.VS, shader::Stage::kVertex, linked.vertex);
       !s.ok()) {
     return s;
   }
   linked.name = desc.Name.empty() ? linked.vertex.name : desc.Name;
   if (desc.PS.Library) {
     if (Status s =
-            LinkShader(device, desc.pRootSignature, desc.PS, shader::Stage::kPixel, linked.pixel);
+            link_shader(device, desc.pRootSignature, desc.PS, shader::Stage::kPixel, linked.pixel);
         !s.ok()) {
       return s;
     }
@@ -233,14 +234,14 @@ Status LinkShaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& de
     return MakeError(Id::kStageRootAccess, "InputLayout has ", desc.InputLayout.size(),
                      " elements, but the root signature lacks kAllowInputAssemblerInputLayout");
   }
-  if (Status s = LinkInputLayout(desc, linked); !s.ok()) return s;
-  if (Status s = LinkStages(device, linked); !s.ok()) return s;
-  return LinkTargets(device, linked);
+  if (Status s = link_input_layout(desc, linked); !s.ok()) return s;
+  if (Status s = link_stages(device, linked); !s.ok()) return s;
+  return link_targets(device, linked);
 }
 
-void WarnOfSampleMask(const DeviceImpl& device, const LinkedGraphics& linked) {
+void warn_of_sample_mask(const DeviceImpl& device, const LinkedGraphics& linked) {
   if ((linked.sample_mask & 1) != 0) return;
-  device.Report(
+  device.report(
       MessageSeverity::kWarning,
       MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name), ": SampleMask is ",
                 Hex(linked.sample_mask), ", so that nothing is drawn; set it to 0xFFFFFFFF"));
@@ -263,17 +264,17 @@ Result<PipelineState> Device::CreateGraphicsPipelineState(
     return MakeError(Id::kRootSignatureKind,
                      "a graphics pipeline needs a global root signature, but this one is local");
   }
-  if (Status s = CheckRasterizer(desc.RasterizerState); !s.ok()) return s.error();
-  if (Status s = CheckDepth(desc.DepthStencilState); !s.ok()) return s.error();
-  if (Status s = CheckTopology(desc); !s.ok()) return s.error();
+  if (Status s = check_rasterizer(desc.RasterizerState); !s.ok()) return s.error();
+  if (Status s = check_depth(desc.DepthStencilState); !s.ok()) return s.error();
+  if (Status s = check_topology(desc); !s.ok()) return s.error();
   auto linked = std::make_shared<runtime::LinkedGraphics>();
   linked->rasterizer = desc.RasterizerState;
   linked->depth_stencil = desc.DepthStencilState;
   linked->sample_mask = desc.SampleMask;
   linked->strip_cut = desc.IBStripCutValue;
-  if (Status s = TakeTargets(*impl_, desc, *linked); !s.ok()) return s.error();
-  if (Status s = LinkShaders(*impl_, desc, *linked); !s.ok()) return s.error();
-  WarnOfSampleMask(*impl_, *linked);
+  if (Status s = take_targets(*impl_, desc, *linked); !s.ok()) return s.error();
+  if (Status s = link_shaders(*impl_, desc, *linked); !s.ok()) return s.error();
+  warn_of_sample_mask(*impl_, *linked);
   if (impl_->checks) impl_->checks->created(*linked);
   auto pipeline = impl_->backend->create_graphics_pipeline(linked);
   if (!pipeline.ok()) return pipeline.error();

@@ -9,13 +9,13 @@ namespace {
 
 using shader::Stage;
 
-bool IgnoresAttributes(const Subject& s) {
+bool ignores_attributes(const Subject& s) {
   return (s.code->flags & shader::kExportIgnoresAttributes) != 0;
 }
 
 }  // namespace
 
-const char* StageName(Stage stage) {
+const char* stage_name(Stage stage) {
   switch (stage) {
     case Stage::kPixel:
       return "pixel";
@@ -41,32 +41,32 @@ const char* StageName(Stage stage) {
   return "unknown";
 }
 
-std::string Describe(const Subject& s) {
+std::string describe(const Subject& s) {
   return s.is_group() ? Text("hit group ", Quoted(s.name))
-                      : Text(StageName(s.code->stage), " shader ", Quoted(s.name));
+                      : Text(stage_name(s.code->stage), " shader ", Quoted(s.name));
 }
 
 // A shader that reads no attributes may declare any in a procedural group, as with the drivers of
 // native devices: often it is one that serves triangles, too.
-Status CheckAttributes(const DeviceImpl& device, const Subject& group) {
+Status check_attributes(const DeviceImpl& device, const Subject& group) {
   const bool triangles = group.group.Type == HitGroupType::kTriangles;
   const Subject* first = nullptr;
   std::vector<const Subject*> unread;
   for (const SubjectPtr& m : group.members) {
     if (!m || m->code->attribute_bytes == 0) continue;
     if (triangles && m->code->attribute_bytes != 8) {
-      return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*m), " takes ",
+      return MakeError(Id::kAttributesDisagree, describe(group), ": ", describe(*m), " takes ",
                        m->code->attribute_bytes,
                        " bytes of attributes, but triangles pass "
                        "BuiltInTriangleIntersectionAttributes (8 bytes)");
     }
-    if (!triangles && IgnoresAttributes(*m)) {
+    if (!triangles && ignores_attributes(*m)) {
       unread.push_back(m.get());
       continue;
     }
     if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
-      return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*first), " has ",
-                       first->code->attribute_bytes, " bytes of attributes, but ", Describe(*m),
+      return MakeError(Id::kAttributesDisagree, describe(group), ": ", describe(*first), " has ",
+                       first->code->attribute_bytes, " bytes of attributes, but ", describe(*m),
                        " has ", m->code->attribute_bytes);
     }
     first = m.get();
@@ -75,11 +75,11 @@ Status CheckAttributes(const DeviceImpl& device, const Subject& group) {
   if (!first || group.identifier) return {};
   for (const Subject* m : unread) {
     if (m->code->attribute_bytes == first->code->attribute_bytes) continue;
-    device.Report(
+    device.report(
         MessageSeverity::kWarning,
-        MakeError(Id::kAttributesUnread, Describe(group), ": ", Describe(*m), " declares ",
+        MakeError(Id::kAttributesUnread, describe(group), ": ", describe(*m), " declares ",
                   m->code->attribute_bytes, " bytes of attributes and reads none of them, and ",
-                  Describe(*first), " has ", first->code->attribute_bytes,
+                  describe(*first), " has ", first->code->attribute_bytes,
                   "; DXR wants one type in a hit group"));
   }
   return {};

@@ -9,10 +9,10 @@
 
 namespace rtapi::detail {
 
-const char* StageName(shader::Stage stage);    // "closest-hit"
-std::string Describe(const Subject& subject);  // "hit group \"Sofa\""
+const char* stage_name(shader::Stage stage);   // "closest-hit"
+std::string describe(const Subject& subject);  // "hit group \"Sofa\""
 
 // Errors: KA0524 sizes differ. Warns of KA0553: they differ where nothing is read.
-Status CheckAttributes(const DeviceImpl& device, const Subject& group);
+Status check_attributes(const DeviceImpl& device, const Subject& group);
 
 }  // namespace rtapi::detail

@@ -13,7 +13,7 @@ namespace rtapi::detail {
 
 namespace {
 
-std::vector<std::string> SplitNames(const char* list) {
+std::vector<std::string> split_names(const char* list) {
   std::vector<std::string> names;
   std::string current;
   for (const char* c = list ? list : "";; ++c) {
@@ -29,8 +29,8 @@ std::vector<std::string> SplitNames(const char* list) {
 
 }  // namespace
 
-Status Gatherer::Gather(const DxilLibraryDesc& sub, size_t i) {
-  const std::string where = Where(i);
+Status Gatherer::gather(const DxilLibraryDesc& sub, size_t i) {
+  const std::string where = where_of(i);
   if (!sub.DXILLibrary) {
     return MakeError(Id::kNullHandle, where, ": DXILLibrary is an empty handle");
   }
@@ -45,19 +45,19 @@ Status Gatherer::Gather(const DxilLibraryDesc& sub, size_t i) {
   parts_.libraries.push_back(sub.DXILLibrary);
   parts_.library_scopes.emplace_back();
   library_definitions_.emplace_back();
-  if (Status s = GatherExports(sub, scope, where); !s.ok()) return s;
-  return GatherLibrarySubobjects(sub, scope);
+  if (Status s = gather_exports(sub, scope, where); !s.ok()) return s;
+  return gather_library_subobjects(sub, scope);
 }
 
-bool Gatherer::IsListed(const DxilLibraryDesc& sub, const char* name) {
+bool Gatherer::is_listed(const DxilLibraryDesc& sub, const char* name) {
   if (sub.Exports.empty()) return true;
   return name && std::any_of(sub.Exports.begin(), sub.Exports.end(), [&](const ExportDesc& e) {
            return e.Name == name || e.ExportToRename == name;
          });
 }
 
-void Gatherer::AddShader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
-                         const std::string& renamed) {
+void Gatherer::add_shader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
+                          const std::string& renamed) {
   // What a state object has no use for.
   if (code.stage == shader::Stage::kCompute || code.stage == shader::Stage::kVertex ||
       code.stage == shader::Stage::kPixel) {
@@ -72,11 +72,11 @@ void Gatherer::AddShader(const shader::ExportDesc& code, const ShaderLibrary& li
   parts_.subjects.push_back(std::move(subject));
 }
 
-Status Gatherer::GatherExports(const DxilLibraryDesc& sub, int scope, const std::string& where) {
+Status Gatherer::gather_exports(const DxilLibraryDesc& sub, int scope, const std::string& where) {
   const auto& table = *sub.DXILLibrary.impl()->desc;
   if (sub.Exports.empty()) {
     for (uint32_t i = 0; i < table.export_count; ++i) {
-      AddShader(table.exports[i], sub.DXILLibrary, scope, {});
+      add_shader(table.exports[i], sub.DXILLibrary, scope, {});
     }
     return {};
   }
@@ -100,25 +100,25 @@ Status Gatherer::GatherExports(const DxilLibraryDesc& sub, int scope, const std:
                        Quoted(sub.DXILLibrary.name()), " has ", found.size(),
                        " overloads; use the mangled name to rename one");
     }
-    if (found.empty() && !IsSubobject(table, source)) {
+    if (found.empty() && !is_subobject(table, source)) {
       return MakeError(Id::kExportNotFound, where, ": ", Quoted(sub.DXILLibrary.name()),
-                       " has no export ", Quoted(source), "; it has ", ListExports(table));
+                       " has no export ", Quoted(source), "; it has ", list_exports(table));
     }
     for (const auto* e : found) {
-      AddShader(*e, sub.DXILLibrary, scope, renames ? wanted.Name : std::string());
+      add_shader(*e, sub.DXILLibrary, scope, renames ? wanted.Name : std::string());
     }
   }
   return {};
 }
 
-bool Gatherer::IsSubobject(const shader::LibraryDesc& table, const std::string& name) {
+bool Gatherer::is_subobject(const shader::LibraryDesc& table, const std::string& name) {
   for (uint32_t i = 0; i < table.subobject_count; ++i) {
     if (table.subobjects[i].name && name == table.subobjects[i].name) return true;
   }
   return false;
 }
 
-std::string Gatherer::ListExports(const shader::LibraryDesc& table) {
+std::string Gatherer::list_exports(const shader::LibraryDesc& table) {
   std::string list;
   for (uint32_t i = 0; i < table.export_count && i < 12; ++i) {
     list += Text(i ? ", " : "", Quoted(table.exports[i].name));
@@ -127,39 +127,39 @@ std::string Gatherer::ListExports(const shader::LibraryDesc& table) {
   return list.empty() ? "none" : list;
 }
 
-Status Gatherer::GatherLibrarySubobjects(const DxilLibraryDesc& sub, int scope) {
+Status Gatherer::gather_library_subobjects(const DxilLibraryDesc& sub, int scope) {
   const auto& table = *sub.DXILLibrary.impl()->desc;
   for (uint32_t i = 0; i < table.subobject_count; ++i) {
     const auto& s = table.subobjects[i];
-    if (!IsListed(sub, s.name)) continue;
+    if (!is_listed(sub, s.name)) continue;
     const std::string name = s.name ? s.name : "";
     const std::string where = Text(Quoted(name), " of ", Quoted(sub.DXILLibrary.name()));
     DefinitionPtr definition;
     Status status;
     switch (static_cast<StateSubobjectType>(s.type)) {
       case StateSubobjectType::kGlobalRootSignature:
-        status = DefineFromText(s.strings[0], false, where, definition);
+        status = define_from_text(s.strings[0], false, where, definition);
         break;
       case StateSubobjectType::kLocalRootSignature:
-        status = DefineFromText(s.strings[0], true, where, definition);
+        status = define_from_text(s.strings[0], true, where, definition);
         break;
       case StateSubobjectType::kRaytracingShaderConfig:
-        status = DefineShaderConfig({s.values[0], s.values[1]}, where, definition);
+        status = define_shader_config({s.values[0], s.values[1]}, where, definition);
         break;
       case StateSubobjectType::kRaytracingPipelineConfig:
-        status = DefinePipelineConfig({s.values[0], RaytracingPipelineFlags::kNone}, false, where,
-                                      definition);
+        status = define_pipeline_config({s.values[0], RaytracingPipelineFlags::kNone}, false, where,
+                                        definition);
         break;
       case StateSubobjectType::kRaytracingPipelineConfig1:
         status =
-            DefinePipelineConfig({s.values[0], static_cast<RaytracingPipelineFlags>(s.values[1])},
-                                 true, where, definition);
+            define_pipeline_config({s.values[0], static_cast<RaytracingPipelineFlags>(s.values[1])},
+                                   true, where, definition);
         break;
       case StateSubobjectType::kHitGroup: {
         auto text = [&s](int k) { return std::string(s.strings[k] ? s.strings[k] : ""); };
         status =
-            AddHitGroup({name, static_cast<HitGroupType>(s.values[0]), text(0), text(1), text(2)},
-                        scope, where);
+            add_hit_group({name, static_cast<HitGroupType>(s.values[0]), text(0), text(1), text(2)},
+                          scope, where);
         break;
       }
       case StateSubobjectType::kStateObjectConfig:
@@ -167,7 +167,7 @@ Status Gatherer::GatherLibrarySubobjects(const DxilLibraryDesc& sub, int scope) 
       case StateSubobjectType::kSubobjectToExportsAssociation:
       case StateSubobjectType::kDxilSubobjectToExportsAssociation:
         library_associations_.push_back(
-            {scope, s.strings[0] ? s.strings[0] : "", SplitNames(s.strings[1]), where});
+            {scope, s.strings[0] ? s.strings[0] : "", split_names(s.strings[1]), where});
         break;
       default:
         status = MakeError(Id::kLibrarySubobject, where, ": type ", s.type,
@@ -179,16 +179,16 @@ Status Gatherer::GatherLibrarySubobjects(const DxilLibraryDesc& sub, int scope) 
   return {};
 }
 
-Status Gatherer::DefineFromText(const char* text, bool local, const std::string& where,
-                                DefinitionPtr& out) {
+Status Gatherer::define_from_text(const char* text, bool local, const std::string& where,
+                                  DefinitionPtr& out) {
   auto desc = ParseRootSignature(text ? text : "");
   if (!desc.ok()) return MakeError(Id::kLibrarySubobject, where, ": ", desc.error().message);
   // Like DXC, set the flag for LocalRootSignature subobjects, whatever the string says.
   if (local) desc->Flags |= RootSignatureFlags::kLocalRootSignature;
-  auto signature = MakeRootSignature(parts_.device, *desc);
+  auto signature = make_root_signature(parts_.device, *desc);
   if (!signature.ok()) {
     return MakeError(Id::kLibrarySubobject, where, ": ", signature.error().message);
   }
-  return DefineRootSignature(*signature, local, where, out);
+  return define_root_signature(*signature, local, where, out);
 }
 }  // namespace rtapi::detail

@@ -25,7 +25,7 @@ struct Held {
   bool is_local;
 };
 
-std::vector<Held> HeldBy(const kaamos::shader::LibraryDesc& table) {
+std::vector<Held> held_by(const kaamos::shader::LibraryDesc& table) {
   constexpr uint32_t kGlobal = static_cast<uint32_t>(StateSubobjectType::kGlobalRootSignature);
   constexpr uint32_t kLocal = static_cast<uint32_t>(StateSubobjectType::kLocalRootSignature);
   std::vector<Held> out;
@@ -42,7 +42,7 @@ std::vector<Held> HeldBy(const kaamos::shader::LibraryDesc& table) {
   return out;
 }
 
-std::string ListOf(const std::vector<Held>& all) {
+std::string list_of(const std::vector<Held>& all) {
   std::string list;
   for (const Held& one : all) {
     list += (list.empty() ? "" : ", ") + Quoted(one.name) + (one.is_local ? " (local)" : "");
@@ -51,28 +51,28 @@ std::string ListOf(const std::vector<Held>& all) {
 }
 
 // The one of that name; without a name, the only global one.
-Result<Held> Find(const ShaderLibrary& library, std::string_view name) {
-  const std::vector<Held> all = HeldBy(*library.impl()->desc);
+Result<Held> find(const ShaderLibrary& library, std::string_view name) {
+  const std::vector<Held> all = held_by(*library.impl()->desc);
   if (!name.empty()) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Held& one) { return name == one.name; });
     if (found != all.end()) return *found;
     return MakeError(Id::kLibraryRootSignature, Quoted(library.name()), " has no root signature ",
-                     Quoted(name), "; it has ", ListOf(all));
+                     Quoted(name), "; it has ", list_of(all));
   }
   const Held* only = nullptr;
   for (const Held& one : all) {
     if (one.is_local || (only != nullptr && std::string_view(only->text) == one.text)) continue;
     if (only != nullptr) {
       return MakeError(Id::kLibraryRootSignature, Quoted(library.name()),
-                       " has several global root signatures: ", ListOf(all),
+                       " has several global root signatures: ", list_of(all),
                        ". Pass the name of one");
     }
     only = &one;
   }
   if (only != nullptr) return *only;
   return MakeError(Id::kLibraryRootSignature, Quoted(library.name()),
-                   " has no global root signature; it has ", ListOf(all));
+                   " has no global root signature; it has ", list_of(all));
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ Result<RootSignature> Device::CreateRootSignature(const ShaderLibrary& library,
   if (!library) {
     return MakeError(Id::kNullHandle, "CreateRootSignature with an empty library handle");
   }
-  const auto held = Find(library, name);
+  const auto held = find(library, name);
   if (!held) return held.error();
   auto desc = ParseRootSignature(held->text);
   if (desc) {

@@ -16,7 +16,7 @@ namespace {
 
 using shader::Stage;
 
-const shader::LibraryDesc& Table(const Subject& s) {
+const shader::LibraryDesc& desc_of(const Subject& s) {
   return *s.library.impl()->desc;
 }
 
@@ -24,25 +24,25 @@ class FunctionLinker {
  public:
   explicit FunctionLinker(Parts& parts) : parts_(parts) {}
 
-  Status Run() {
+  Status run() {
     // A library's shaders that one scope sees alike are compiled together.
     std::map<std::pair<const shader::LibraryDesc*, int>, std::vector<SubjectPtr>> groups;
     std::vector<std::pair<const shader::LibraryDesc*, int>> order;
     for (const SubjectPtr& s : parts_.subjects) {
       if (s->is_group() || s->code->import_count == 0) continue;
       Plan ignored;
-      if (Status status = Visit(*s, ignored); !status.ok()) {
+      if (Status status = visit(*s, ignored); !status.ok()) {
         const bool may_wait = parts_.may_stay_unresolved() || s->hidden;
         if (status.error().id == PublicId(Id::kFunctionUnresolved) && may_wait) continue;
         return status;
       }
       if (s->code->stage == Stage::kLibrary) continue;
-      const auto key = std::make_pair(&Table(*s), s->collection_scope);
+      const auto key = std::make_pair(&desc_of(*s), s->collection_scope);
       if (groups[key].empty()) order.push_back(key);
       groups[key].push_back(s);
     }
     for (const auto& key : order) {
-      if (Status status = Link(groups[key]); !status.ok()) return status;
+      if (Status status = link(groups[key]); !status.ok()) return status;
     }
     return {};
   }
@@ -55,29 +55,29 @@ class FunctionLinker {
     std::vector<SubjectPtr> definitions;
   };
 
-  static uint32_t PlaceOf(const Subject& s, Plan& plan) {
-    const auto [it, is_new] = plan.places.emplace(std::pair(&Table(s), s.collection_scope),
+  static uint32_t place_of(const Subject& s, Plan& plan) {
+    const auto [it, is_new] = plan.places.emplace(std::pair(&desc_of(s), s.collection_scope),
                                                   static_cast<uint32_t>(plan.places.size()));
     if (is_new) plan.link.libraries.push_back(s.library);
     return it->second;
   }
 
   // Adds what the subject reaches, through any number of libraries.
-  Status Visit(const Subject& first, Plan& plan) {
+  Status visit(const Subject& first, Plan& plan) {
     std::deque<const Subject*> waiting = {&first};
     while (!waiting.empty()) {
       const Subject& s = *waiting.front();
       waiting.pop_front();
-      const uint32_t place = PlaceOf(s, plan);
+      const uint32_t place = place_of(s, plan);
       for (uint32_t i = 0; i < s.code->import_count; ++i) {
         const uint32_t import = s.code->imports[i];
         if (!plan.known.emplace(std::pair(place, import), true).second) continue;
-        auto found = FindDefinition(s, Table(s).imports[import]);
+        auto found = find_definition(s, desc_of(s).imports[import]);
         if (!found.ok()) return found.error();
         const Subject& definition = **found;
         plan.link.imports.push_back(
-            {place, import, PlaceOf(definition, plan),
-             static_cast<uint32_t>(definition.code - Table(definition).exports)});
+            {place, import, place_of(definition, plan),
+             static_cast<uint32_t>(definition.code - desc_of(definition).exports)});
         plan.definitions.push_back(*found);
         waiting.push_back(&definition);
       }
@@ -85,38 +85,40 @@ class FunctionLinker {
     return {};
   }
 
-  static std::string Caller(const Subject& s) {
+  static std::string caller_text(const Subject& s) {
     return Text(s.code->stage == Stage::kLibrary ? "function " : "shader ", Quoted(s.name), " of ",
                 Quoted(s.library.name()));
   }
 
-  Result<SubjectPtr> FindDefinition(const Subject& user, const shader::ImportDesc& import) const {
+  Result<SubjectPtr> find_definition(const Subject& user, const shader::ImportDesc& import) const {
     SubjectPtr found, other;
     for (const SubjectPtr& s : parts_.subjects) {
       const bool is_visible = !s->hidden || s->collection_scope == user.collection_scope;
       if (s->is_group() || !is_visible) continue;
       // A renamed export has no mangled name in the state object; its new one may be either.
       const bool is_renamed =
-          s->mangled.empty() && s->name == import.name && SameParameters(*s->code, import);
+          s->mangled.empty() && s->name == import.name && same_parameters(*s->code, import);
       const bool is_meant =
           s->code->stage == Stage::kLibrary && (s->answers_to(import.mangled_name) || is_renamed);
       if (is_meant && (!found || s->collection_scope == user.collection_scope)) found = s;
       if (!is_meant && s->name == import.name) other = s;
     }
     if (!found && other) {
-      return MakeError(Id::kFunctionDiffers, Caller(user), " calls ", Quoted(import.signature),
+      return MakeError(Id::kFunctionDiffers, caller_text(user), " calls ", Quoted(import.signature),
                        ", but ", Quoted(other->library.name()), " exports ",
                        other->code->signature ? Text("function ", Quoted(other->code->signature))
                                               : Text("shader ", Quoted(other->name)),
                        " under that name; declare it with the types of its definition");
     }
     if (!found) {
-      return MakeError(Id::kFunctionUnresolved, Caller(user), " calls ", Quoted(import.signature),
+      return MakeError(Id::kFunctionUnresolved, caller_text(user), " calls ",
+                       Quoted(import.signature),
                        ", which has no body there, and no library of this ",
                        parts_.is_collection() ? "collection" : "state object", " exports it");
     }
     if (!found->referable && found->collection_scope != user.collection_scope) {
-      return MakeError(Id::kFunctionNotReferable, Caller(user), " calls ", Quoted(import.signature),
+      return MakeError(Id::kFunctionNotReferable, caller_text(user), " calls ",
+                       Quoted(import.signature),
                        " of a collection that lacks flag 0x2 "
                        "(kAllowExternalDependenciesOnLocalDefinitions)");
     }
@@ -124,7 +126,7 @@ class FunctionLinker {
   }
 
   // What mangled names say behind the function's own.
-  static bool SameParameters(const shader::ExportDesc& code, const shader::ImportDesc& import) {
+  static bool same_parameters(const shader::ExportDesc& code, const shader::ImportDesc& import) {
     const auto behind = [](std::string_view mangled) {
       const size_t end = mangled.find("@@");
       return end == std::string_view::npos ? mangled : mangled.substr(end);
@@ -132,17 +134,17 @@ class FunctionLinker {
     return code.mangled_name && behind(code.mangled_name) == behind(import.mangled_name);
   }
 
-  Status Link(const std::vector<SubjectPtr>& subjects) {
+  Status link(const std::vector<SubjectPtr>& subjects) {
     Plan plan;
     for (const SubjectPtr& s : subjects) {
-      if (Status status = Visit(*s, plan); !status.ok()) return status;
-      const auto entry = static_cast<uint32_t>(s->code - Table(*s).exports);
+      if (Status status = visit(*s, plan); !status.ok()) return status;
+      const auto entry = static_cast<uint32_t>(s->code - desc_of(*s).exports);
       auto& entries = plan.link.entries;
       if (std::find(entries.begin(), entries.end(), entry) == entries.end()) {
         entries.push_back(entry);
       }
     }
-    const std::string where = Caller(*subjects[0]);
+    const std::string where = caller_text(*subjects[0]);
     for (const ShaderLibrary& library : plan.link.libraries) {
       if (library.impl()->desc->source) continue;
       return MakeError(Id::kFunctionNoSource, where, " is linked with ", Quoted(library.name()),
@@ -153,7 +155,7 @@ class FunctionLinker {
       return MakeError(Id::kFunctionLink, where, " cannot be linked:\n", linked.error);
     }
     if (!linked.slow.empty()) {
-      parts_.device->Report(MessageSeverity::kWarning, MakeError(Id::kFunctionInterpreted, where,
+      parts_.device->report(MessageSeverity::kWarning, MakeError(Id::kFunctionInterpreted, where,
                                                                  " is interpreted: ", linked.slow));
     }
     const shader::LibraryDesc& table = *linked.library.impl()->desc;
@@ -180,8 +182,8 @@ class FunctionLinker {
 
 }  // namespace
 
-Status LinkFunctions(Parts& parts) {
-  return FunctionLinker(parts).Run();
+Status link_functions(Parts& parts) {
+  return FunctionLinker(parts).run();
 }
 
 }  // namespace rtapi::detail

@@ -14,7 +14,7 @@ namespace {
 
 const std::string kEmptyName;
 
-Result<const shader::ExportDesc*> FindKernel(const ComputePipelineStateDesc& desc) {
+Result<const shader::ExportDesc*> find_kernel(const ComputePipelineStateDesc& desc) {
   const auto& table = *desc.CS.impl()->desc;
   const shader::ExportDesc* found = nullptr;
   std::string known;
@@ -39,7 +39,7 @@ Result<const shader::ExportDesc*> FindKernel(const ComputePipelineStateDesc& des
                    Quoted(desc.EntryPoint), "; it has ", known.empty() ? "none" : known);
 }
 
-Status CheckThreadGroup(const shader::ExportDesc& kernel) {
+Status check_thread_group(const shader::ExportDesc& kernel) {
   const uint32_t* n = kernel.compute->thread_group;
   const bool ok = n[0] >= 1 && n[1] >= 1 && n[2] >= 1 && n[0] <= 1024 && n[1] <= 1024 &&
                   n[2] <= 64 && uint64_t{n[0]} * n[1] * n[2] <= 1024;
@@ -60,7 +60,7 @@ Result<PipelineState> Device::CreateComputePipelineState(
   if (!impl_) return MakeError(Id::kNullHandle, "CreateComputePipelineState on an empty device");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   ComputePipelineStateDesc desc = given;
-  if (desc.CS) desc.CS = impl_->LibraryToRun(desc.CS);
+  if (desc.CS) desc.CS = impl_->library_to_run(desc.CS);
   if (!desc.CS) return MakeError(Id::kNullHandle, "CS is an empty shader library handle");
   if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
     return s.error();
@@ -69,13 +69,13 @@ Result<PipelineState> Device::CreateComputePipelineState(
     return MakeError(Id::kRootSignatureKind,
                      "a compute pipeline needs a global root signature, but this one is local");
   }
-  auto kernel = FindKernel(desc);
+  auto kernel = find_kernel(desc);
   if (!kernel.ok()) return kernel.error();
-  if (Status s = CheckThreadGroup(**kernel); !s.ok()) return s.error();
+  if (Status s = check_thread_group(**kernel); !s.ok()) return s.error();
   const std::string where = Text("compute shader ", Quoted((*kernel)->name));
-  if (Status s = CheckTier(*impl_, **kernel, where); !s.ok()) return s.error();
+  if (Status s = check_tier(*impl_, **kernel, where); !s.ok()) return s.error();
   const auto& table = *desc.CS.impl()->desc;
-  auto slots = ResolveBindings(table, **kernel, desc.pRootSignature, RootSignature(), where);
+  auto slots = resolve_bindings(table, **kernel, desc.pRootSignature, RootSignature(), where);
   if (!slots.ok()) return slots.error();
   auto linked = std::make_shared<runtime::LinkedCompute>();
   linked->shader.name = (*kernel)->name;

@@ -19,7 +19,7 @@ constexpr uint64_t kRegisterEnd = uint64_t{1} << 32;
 // Spaces 0xFFFFFFF0 and up are reserved. [D3D12: root signatures]
 constexpr uint32_t kReservedSpaces = 0xFFFFFFF0u;
 
-RegisterClass ClassOf(DescriptorRangeType type) {
+RegisterClass class_of(DescriptorRangeType type) {
   switch (type) {
     case DescriptorRangeType::kUav:
       return RegisterClass::kUnorderedAccess;
@@ -32,7 +32,7 @@ RegisterClass ClassOf(DescriptorRangeType type) {
   }
 }
 
-RegisterClass ClassOf(RootParameterType type) {
+RegisterClass class_of(RootParameterType type) {
   switch (type) {
     case RootParameterType::kSrv:
       return RegisterClass::kShaderResource;
@@ -43,14 +43,14 @@ RegisterClass ClassOf(RootParameterType type) {
   }
 }
 
-Status CheckSpace(uint32_t space, const std::string& where) {
+Status check_space(uint32_t space, const std::string& where) {
   if (space < kReservedSpaces) return {};
   return MakeError(Id::kRootParameterInvalid, where, ": space ", space,
                    " is reserved; it must be 0 to 4294967279");
 }
 
 // Checks the ranges of a table and replaces append offsets by real ones.
-Status CheckTable(RootDescriptorTable& table, const std::string& where) {
+Status check_table(RootDescriptorTable& table, const std::string& where) {
   if (table.Ranges.empty()) {
     return MakeError(Id::kRangeInvalid, where, " is a descriptor table without ranges");
   }
@@ -65,7 +65,7 @@ Status CheckTable(RootDescriptorTable& table, const std::string& where) {
                        "; it must be 0 to 3");
     }
     (range.RangeType == DescriptorRangeType::kSampler ? samplers : views) = true;
-    if (Status s = CheckSpace(range.RegisterSpace, here); !s.ok()) return s;
+    if (Status s = check_space(range.RegisterSpace, here); !s.ok()) return s;
     const bool unbounded = range.NumDescriptors == kUnboundedDescriptors;
     if (range.NumDescriptors == 0 ||
         (!unbounded && uint64_t{range.BaseShaderRegister} + range.NumDescriptors > kRegisterEnd)) {
@@ -93,7 +93,7 @@ Status CheckTable(RootDescriptorTable& table, const std::string& where) {
   return {};
 }
 
-Status CheckVisibility(ShaderVisibility visibility, bool local, const std::string& where) {
+Status check_visibility(ShaderVisibility visibility, bool local, const std::string& where) {
   if (visibility == ShaderVisibility::kAll) return {};
   if (!local && visibility <= ShaderVisibility::kMesh) return {};
   return MakeError(Id::kRootSignatureVisibility, where, " has visibility ",
@@ -101,28 +101,28 @@ Status CheckVisibility(ShaderVisibility visibility, bool local, const std::strin
                    local ? "kAll, as in every local root signature" : "0 to 7");
 }
 
-Status CheckParameter(RootParameter& parameter, uint32_t index, bool local) {
+Status check_parameter(RootParameter& parameter, uint32_t index, bool local) {
   const std::string where = Text("parameter ", index);
-  if (Status s = CheckVisibility(parameter.ShaderVisibility, local, where); !s.ok()) return s;
+  if (Status s = check_visibility(parameter.ShaderVisibility, local, where); !s.ok()) return s;
   switch (parameter.ParameterType) {
     case RootParameterType::kDescriptorTable:
-      return CheckTable(parameter.DescriptorTable, where);
+      return check_table(parameter.DescriptorTable, where);
     case RootParameterType::k32BitConstants:
       if (parameter.Constants.Num32BitValues == 0) {
         return MakeError(Id::kRootConstantsCount, where,
                          " has Num32BitValues 0; it must be at least 1");
       }
-      return CheckSpace(parameter.Constants.RegisterSpace, where);
+      return check_space(parameter.Constants.RegisterSpace, where);
     case RootParameterType::kCbv:
     case RootParameterType::kSrv:
     case RootParameterType::kUav:
-      return CheckSpace(parameter.Descriptor.RegisterSpace, where);
+      return check_space(parameter.Descriptor.RegisterSpace, where);
   }
   return MakeError(Id::kRootParameterInvalid, where, " has type ",
                    static_cast<uint32_t>(parameter.ParameterType), "; it must be 0 to 4");
 }
 
-Status CheckFlags(RootSignatureFlags flags) {
+Status check_flags(RootSignatureFlags flags) {
   const auto bits = static_cast<uint32_t>(flags);
   if (bits & ~kDefinedFlags) {
     return MakeError(Id::kLocalRootSignatureFlags, "flags ", Hex(bits), " have undefined bits");
@@ -135,18 +135,18 @@ Status CheckFlags(RootSignatureFlags flags) {
   return {};
 }
 
-Status CheckStaticSamplers(const RootSignatureDesc& desc) {
+Status check_static_samplers(const RootSignatureDesc& desc) {
   for (size_t i = 0; i < desc.StaticSamplers.size(); ++i) {
     const StaticSamplerDesc& sampler = desc.StaticSamplers[i];
     const std::string where = Text("static sampler ", i);
     const bool local = HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature);
-    if (Status s = CheckVisibility(sampler.ShaderVisibility, local, where); !s.ok()) return s;
+    if (Status s = check_visibility(sampler.ShaderVisibility, local, where); !s.ok()) return s;
     if (sampler.BorderColor > StaticBorderColor::kOpaqueWhite) {
       return MakeError(Id::kStaticSamplerInvalid, where, ": BorderColor is ",
                        static_cast<uint32_t>(sampler.BorderColor), "; it must be 0 to 2");
     }
-    if (Status s = CheckSpace(sampler.RegisterSpace, where); !s.ok()) return s;
-    if (Status s = CheckSampler(ToSamplerDesc(sampler), Id::kStaticSamplerInvalid, where);
+    if (Status s = check_space(sampler.RegisterSpace, where); !s.ok()) return s;
+    if (Status s = check_sampler(to_sampler_desc(sampler), Id::kStaticSamplerInvalid, where);
         !s.ok()) {
       return s;
     }
@@ -154,15 +154,15 @@ Status CheckStaticSamplers(const RootSignatureDesc& desc) {
   return {};
 }
 
-Status CheckOverlaps(const RootSignatureDesc& desc) {
-  const auto ranges = GetRegisterRanges(desc);
+Status check_overlaps(const RootSignatureDesc& desc) {
+  const auto ranges = get_register_ranges(desc);
   for (size_t i = 0; i < ranges.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
-      if (!Overlap(ranges[k], ranges[i])) continue;
+      if (!overlap(ranges[k], ranges[i])) continue;
       const RegisterRange& a = ranges[k];
       const RegisterRange& b = ranges[i];
       return MakeError(Id::kRootSignatureOverlap,
-                       RegisterText(b.register_class, std::max(a.first, b.first), b.space),
+                       register_text(b.register_class, std::max(a.first, b.first), b.space),
                        " is bound by ", a.static_sampler ? "static sampler " : "parameter ",
                        a.parameter, " and by ", b.static_sampler ? "static sampler " : "parameter ",
                        b.parameter);
@@ -172,7 +172,7 @@ Status CheckOverlaps(const RootSignatureDesc& desc) {
 }
 
 // Size of a global signature in DWORDs. [D3D12: root signature limits]
-uint64_t RootCost(const RootSignatureDesc& desc) {
+uint64_t root_cost(const RootSignatureDesc& desc) {
   uint64_t cost = 0;
   for (const RootParameter& p : desc.Parameters) {
     switch (p.ParameterType) {
@@ -192,24 +192,24 @@ uint64_t RootCost(const RootSignatureDesc& desc) {
 
 // Lays out the arguments by the rules of shader records, also for the root arguments of a dispatch,
 // so that one slot description serves both. [DXR: Shader table memory initialization]
-uint64_t LayOut(const RootSignatureDesc& desc, std::vector<uint32_t>& offsets) {
+uint64_t lay_out(const RootSignatureDesc& desc, std::vector<uint32_t>& offsets) {
   uint64_t end = 0;
   for (const RootParameter& p : desc.Parameters) {
     const bool constants = p.ParameterType == RootParameterType::k32BitConstants;
-    const uint64_t start = AlignUp(end, constants ? 4 : 8);
+    const uint64_t start = align_up(end, constants ? 4 : 8);
     offsets.push_back(static_cast<uint32_t>(start));
     end = start + (constants ? uint64_t{p.Constants.Num32BitValues} * 4 : 8);
   }
   return end;
 }
 
-Status CheckSize(const RootSignatureDesc& desc, uint64_t argument_bytes) {
+Status check_size(const RootSignatureDesc& desc, uint64_t argument_bytes) {
   if (HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature)) {
     if (argument_bytes <= kMaxLocalRootArgumentBytes) return {};
     return MakeError(Id::kLocalRootSignatureTooLarge, "its arguments take ", argument_bytes,
                      " bytes; at most 4064 fit in a record, whose stride is at most 4096");
   }
-  const uint64_t cost = RootCost(desc);
+  const uint64_t cost = root_cost(desc);
   if (cost <= kMaxRootCost) return {};
   return MakeError(Id::kRootSignatureTooLarge, "it costs ", cost,
                    " DWORDs of at most 64 (a table costs 1, a root descriptor 2, each constant 1)");
@@ -217,7 +217,7 @@ Status CheckSize(const RootSignatureDesc& desc, uint64_t argument_bytes) {
 
 }  // namespace
 
-std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc) {
+std::vector<RegisterRange> get_register_ranges(const RootSignatureDesc& desc) {
   std::vector<RegisterRange> out;
   for (uint32_t i = 0; i < desc.Parameters.size(); ++i) {
     const RootParameter& p = desc.Parameters[i];
@@ -226,7 +226,7 @@ std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc) {
         const uint64_t end = r.NumDescriptors == kUnboundedDescriptors
                                  ? kRegisterEnd
                                  : uint64_t{r.BaseShaderRegister} + r.NumDescriptors;
-        out.push_back({ClassOf(r.RangeType), r.RegisterSpace, r.BaseShaderRegister, end, i, false,
+        out.push_back({class_of(r.RangeType), r.RegisterSpace, r.BaseShaderRegister, end, i, false,
                        p.ShaderVisibility});
       }
       continue;
@@ -234,7 +234,7 @@ std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc) {
     const bool constants = p.ParameterType == RootParameterType::k32BitConstants;
     const uint32_t first = constants ? p.Constants.ShaderRegister : p.Descriptor.ShaderRegister;
     const uint32_t space = constants ? p.Constants.RegisterSpace : p.Descriptor.RegisterSpace;
-    out.push_back({ClassOf(p.ParameterType), space, first, uint64_t{first} + 1, i, false,
+    out.push_back({class_of(p.ParameterType), space, first, uint64_t{first} + 1, i, false,
                    p.ShaderVisibility});
   }
   for (uint32_t i = 0; i < desc.StaticSamplers.size(); ++i) {
@@ -245,21 +245,21 @@ std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc) {
   return out;
 }
 
-bool Overlap(const RegisterRange& a, const RegisterRange& b) {
+bool overlap(const RegisterRange& a, const RegisterRange& b) {
   const bool seen_together = a.visibility == ShaderVisibility::kAll ||
                              b.visibility == ShaderVisibility::kAll || a.visibility == b.visibility;
   return seen_together && a.register_class == b.register_class && a.space == b.space &&
          a.first < b.end && b.first < a.end;
 }
 
-std::string RegisterText(RegisterClass register_class, uint32_t index, uint32_t space) {
+std::string register_text(RegisterClass register_class, uint32_t index, uint32_t space) {
   static constexpr char kLetters[] = {'t', 'u', 'b', 's'};
   const auto i = static_cast<uint32_t>(register_class);
   std::string text = Text(i < 4 ? kLetters[i] : '?', index);
   return space ? Text(text, ", space", space) : text;
 }
 
-bool SameSampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b) {
+bool same_sampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b) {
   auto key = [](const StaticSamplerDesc& s) {
     return std::tie(s.Filter, s.AddressU, s.AddressV, s.AddressW, s.MipLODBias, s.MaxAnisotropy,
                     s.ComparisonFunc, s.BorderColor, s.MinLOD, s.MaxLOD, s.ShaderRegister,
@@ -268,7 +268,7 @@ bool SameSampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b) {
   return key(a) == key(b);
 }
 
-bool SameDefinition(const RootSignature& a, const RootSignature& b) {
+bool same_definition(const RootSignature& a, const RootSignature& b) {
   if (a == b) return true;
   if (!a || !b) return false;
   const RootSignatureDesc& x = a.GetDesc();
@@ -298,37 +298,37 @@ bool SameDefinition(const RootSignature& a, const RootSignature& b) {
          std::equal(x.Parameters.begin(), x.Parameters.end(), y.Parameters.begin(),
                     y.Parameters.end(), same_parameter) &&
          std::equal(x.StaticSamplers.begin(), x.StaticSamplers.end(), y.StaticSamplers.begin(),
-                    y.StaticSamplers.end(), SameSampler);
+                    y.StaticSamplers.end(), same_sampler);
 }
 
 namespace {
 
 // Checks a description, gives appended ranges their offsets, and lays out the arguments.
-Status Complete(RootSignatureImpl& impl) {
+Status complete(RootSignatureImpl& impl) {
   const RootSignatureDesc& desc = impl.desc;
-  if (Status s = CheckFlags(desc.Flags); !s.ok()) return s;
+  if (Status s = check_flags(desc.Flags); !s.ok()) return s;
   for (uint32_t i = 0; i < desc.Parameters.size(); ++i) {
-    if (Status s = CheckParameter(impl.desc.Parameters[i], i, impl.is_local()); !s.ok()) return s;
+    if (Status s = check_parameter(impl.desc.Parameters[i], i, impl.is_local()); !s.ok()) return s;
   }
-  if (Status s = CheckStaticSamplers(desc); !s.ok()) return s;
-  if (Status s = CheckOverlaps(desc); !s.ok()) return s;
-  const uint64_t bytes = LayOut(desc, impl.offsets);
+  if (Status s = check_static_samplers(desc); !s.ok()) return s;
+  if (Status s = check_overlaps(desc); !s.ok()) return s;
+  const uint64_t bytes = lay_out(desc, impl.offsets);
   impl.argument_bytes = static_cast<uint32_t>(bytes);
-  return CheckSize(desc, bytes);
+  return check_size(desc, bytes);
 }
 
 }  // namespace
 
-Result<RootSignature> MakeRootSignature(const std::shared_ptr<DeviceImpl>& device,
-                                        const RootSignatureDesc& desc) {
+Result<RootSignature> make_root_signature(const std::shared_ptr<DeviceImpl>& device,
+                                          const RootSignatureDesc& desc) {
   auto impl = std::make_shared<RootSignatureImpl>();
   impl->device = device;
   impl->desc = desc;
-  if (Status s = Complete(*impl); !s.ok()) return s.error();
+  if (Status s = complete(*impl); !s.ok()) return s.error();
   for (const StaticSamplerDesc& sampler : desc.StaticSamplers) {
-    auto object = device->backend->create_sampler(ToSamplerDesc(sampler));
+    auto object = device->backend->create_sampler(to_sampler_desc(sampler));
     if (!object.ok()) return object.error();
-    device->views.AddSampler(*object, ToSamplerDesc(sampler));
+    device->views.add_sampler(*object, to_sampler_desc(sampler));
     shader::Descriptor descriptor;
     descriptor.kind = shader::DescriptorKind::kSampler;
     descriptor.access = shader::DescriptorAccess::kOther;
@@ -362,19 +362,19 @@ uint32_t RootSignature::GetArgumentBytes() const {
 Status CheckRootSignature(const RootSignatureDesc& desc) {
   RootSignatureImpl impl;
   impl.desc = desc;
-  return Complete(impl);
+  return complete(impl);
 }
 
 Result<RootSignature> Device::CreateRootSignature(const RootSignatureDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateRootSignature on an empty device handle");
-  return MakeRootSignature(impl_, desc);
+  return make_root_signature(impl_, desc);
 }
 
 Result<RootSignature> Device::CreateRootSignature(std::string_view text) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateRootSignature on an empty device handle");
   auto desc = ParseRootSignature(text);
   if (!desc.ok()) return desc.error();
-  return MakeRootSignature(impl_, *desc);
+  return make_root_signature(impl_, *desc);
 }
 
 }  // namespace rtapi

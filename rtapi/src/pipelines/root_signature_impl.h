@@ -23,8 +23,8 @@ struct RootSignatureImpl {
 };
 
 // Compares parameters, samplers and flags.
-bool SameDefinition(const RootSignature& a, const RootSignature& b);
-bool SameSampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b);
+bool same_definition(const RootSignature& a, const RootSignature& b);
+bool same_sampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b);
 
 // A range of registers that a signature defines, for overlap tests.
 struct RegisterRange {
@@ -36,13 +36,13 @@ struct RegisterRange {
   bool static_sampler = false;
   ShaderVisibility visibility = ShaderVisibility::kAll;
 };
-std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc);
+std::vector<RegisterRange> get_register_ranges(const RootSignatureDesc& desc);
 // Whether some shader sees a register of both.
-bool Overlap(const RegisterRange& a, const RegisterRange& b);
-std::string RegisterText(shader::RegisterClass register_class, uint32_t index, uint32_t space);
+bool overlap(const RegisterRange& a, const RegisterRange& b);
+std::string register_text(shader::RegisterClass register_class, uint32_t index, uint32_t space);
 
 // Resolves and lays out the signature; the backend makes the static samplers.
-Result<RootSignature> MakeRootSignature(const std::shared_ptr<DeviceImpl>& device,
-                                        const RootSignatureDesc& desc);
+Result<RootSignature> make_root_signature(const std::shared_ptr<DeviceImpl>& device,
+                                          const RootSignatureDesc& desc);
 
 }  // namespace rtapi::detail

@@ -99,7 +99,7 @@ constexpr Keyword kBorderColors[] = {
     {"STATIC_BORDER_COLOR_OPAQUE_WHITE", 2},
 };
 
-bool SameWord(std::string_view a, std::string_view b) {
+bool same_word(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   for (size_t i = 0; i < a.size(); ++i) {
     if (std::tolower(static_cast<unsigned char>(a[i])) !=
@@ -115,11 +115,11 @@ class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {}
 
-  Result<RootSignatureDesc> Parse() {
+  Result<RootSignatureDesc> parse() {
     skip_space();
     if (pos_ < text_.size()) {
       do {
-        if (!ParseElement()) return *error_;
+        if (!parse_element()) return *error_;
         skip_space();
       } while (take(','));
     }
@@ -166,12 +166,12 @@ class Parser {
     return text_.substr(pos_, end - pos_);
   }
   bool take_word(std::string_view word) {
-    if (!SameWord(peek_word(), word)) return false;
+    if (!same_word(peek_word(), word)) return false;
     pos_ += word.size();
     return true;
   }
 
-  bool ParseUint(uint32_t& out) {
+  bool parse_uint(uint32_t& out) {
     const std::string_view word = peek_word();
     if (word.empty() || !std::isdigit(static_cast<unsigned char>(word[0]))) {
       return fail("expected a number");
@@ -190,7 +190,7 @@ class Parser {
     return true;
   }
 
-  bool ParseFloat(float& out) {
+  bool parse_float(float& out) {
     skip_space();
     const std::string rest(text_.substr(pos_, 64));
     char* end = nullptr;
@@ -201,10 +201,10 @@ class Parser {
     return true;
   }
 
-  bool ParseKeyword(std::span<const Keyword> keywords, const char* kind, uint32_t& out) {
+  bool parse_keyword(std::span<const Keyword> keywords, const char* kind, uint32_t& out) {
     const std::string_view word = peek_word();
     for (const Keyword& k : keywords) {
-      if (SameWord(word, k.name)) {
+      if (same_word(word, k.name)) {
         pos_ += word.size();
         out = k.value;
         return true;
@@ -214,13 +214,13 @@ class Parser {
   }
 
   // Reads 0, or names joined by '|'.
-  bool ParseFlags(std::span<const Keyword> keywords, const char* kind, uint32_t& out) {
+  bool parse_flags(std::span<const Keyword> keywords, const char* kind, uint32_t& out) {
     out = 0;
     do {
       uint32_t flag = 0;
       if (peek_word() == "0") {
         pos_ += 1;
-      } else if (!ParseKeyword(keywords, kind, flag)) {
+      } else if (!parse_keyword(keywords, kind, flag)) {
         return false;
       }
       out |= flag;
@@ -228,25 +228,25 @@ class Parser {
     return true;
   }
 
-  bool ParseRegister(char letter, uint32_t& out) {
+  bool parse_register(char letter, uint32_t& out) {
     const std::string_view word = peek_word();
     if (word.size() < 2 || std::tolower(static_cast<unsigned char>(word[0])) != letter ||
         !std::isdigit(static_cast<unsigned char>(word[1]))) {
       return fail(std::string("expected a register ") + letter + "N");
     }
     ++pos_;
-    return ParseUint(out);
+    return parse_uint(out);
   }
 
   // A number of an option, which may have a sign: space = +1.
-  bool ParseNumber(uint32_t& out) {
+  bool parse_number(uint32_t& out) {
     if (take('+') && pos_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[pos_]))) {
       return fail("expected a digit after '+'");
     }
-    return ParseUint(out);
+    return parse_uint(out);
   }
 
-  static bool IsRegister(std::string_view word) {
+  static bool is_register(std::string_view word) {
     constexpr std::string_view kLetters = "bBtTuUsS";
     return word.size() > 1 && kLetters.find(word[0]) != std::string_view::npos &&
            std::isdigit(static_cast<unsigned char>(word[1]));
@@ -255,7 +255,7 @@ class Parser {
   // Reads "(", a register and "name = value" in any order, and ")". The handler parses the value of
   // an option and returns its number, or -1 if it does not know the name.
   template <class Handler>
-  bool ParseArguments(char letter, uint32_t& out, Handler&& handler) {
+  bool parse_arguments(char letter, uint32_t& out, Handler&& handler) {
     uint32_t seen = 0;
     bool has_register = false;
     if (!expect('(')) return false;
@@ -263,9 +263,9 @@ class Parser {
       skip_space();
       const size_t at = pos_;
       const std::string_view name = peek_word();
-      if (IsRegister(name)) {
+      if (is_register(name)) {
         if (has_register) return fail("the register is given twice");
-        if (!ParseRegister(letter, out)) return false;
+        if (!parse_register(letter, out)) return false;
         has_register = true;
         continue;
       }
@@ -285,41 +285,41 @@ class Parser {
     return expect(')');
   }
 
-  bool ParseElement() {
+  bool parse_element() {
     skip_space();
-    if (take_word("RootFlags")) return ParseRootFlags();
-    if (take_word("RootConstants")) return ParseRootConstants();
-    if (take_word("CBV")) return ParseRootDescriptor(RootParameterType::kCbv, 'b');
-    if (take_word("SRV")) return ParseRootDescriptor(RootParameterType::kSrv, 't');
-    if (take_word("UAV")) return ParseRootDescriptor(RootParameterType::kUav, 'u');
-    if (take_word("DescriptorTable")) return ParseTable();
-    if (take_word("StaticSampler")) return ParseStaticSampler();
+    if (take_word("RootFlags")) return parse_root_flags();
+    if (take_word("RootConstants")) return parse_root_constants();
+    if (take_word("CBV")) return parse_root_descriptor(RootParameterType::kCbv, 'b');
+    if (take_word("SRV")) return parse_root_descriptor(RootParameterType::kSrv, 't');
+    if (take_word("UAV")) return parse_root_descriptor(RootParameterType::kUav, 'u');
+    if (take_word("DescriptorTable")) return parse_table();
+    if (take_word("StaticSampler")) return parse_static_sampler();
     return fail(
         "expected RootFlags, RootConstants, CBV, SRV, UAV, DescriptorTable or StaticSampler");
   }
 
-  bool ParseRootFlags() {
+  bool parse_root_flags() {
     if (flags_seen_) return fail("RootFlags is given twice");
     flags_seen_ = true;
     uint32_t flags = 0;
-    if (!expect('(') || !ParseFlags(kFlags, "root flag", flags) || !expect(')')) return false;
+    if (!expect('(') || !parse_flags(kFlags, "root flag", flags) || !expect(')')) return false;
     desc_.Flags = static_cast<RootSignatureFlags>(flags);
     return true;
   }
 
-  bool ParseRootConstants() {
+  bool parse_root_constants() {
     RootParameter p;
     p.ParameterType = RootParameterType::k32BitConstants;
     uint32_t visibility = 0;
     bool has_count = false;
-    const bool ok = ParseArguments('b', p.Constants.ShaderRegister, [&](std::string_view name) {
-      if (SameWord(name, "num32BitConstants")) {
+    const bool ok = parse_arguments('b', p.Constants.ShaderRegister, [&](std::string_view name) {
+      if (same_word(name, "num32BitConstants")) {
         has_count = true;
-        return ParseNumber(p.Constants.Num32BitValues) ? 0 : -1;
+        return parse_number(p.Constants.Num32BitValues) ? 0 : -1;
       }
-      if (SameWord(name, "space")) return ParseNumber(p.Constants.RegisterSpace) ? 1 : -1;
-      if (SameWord(name, "visibility")) {
-        return ParseKeyword(kVisibilities, "visibility", visibility) ? 2 : -1;
+      if (same_word(name, "space")) return parse_number(p.Constants.RegisterSpace) ? 1 : -1;
+      if (same_word(name, "visibility")) {
+        return parse_keyword(kVisibilities, "visibility", visibility) ? 2 : -1;
       }
       return -1;
     });
@@ -330,18 +330,20 @@ class Parser {
     return true;
   }
 
-  bool ParseRootDescriptor(RootParameterType type, char letter) {
+  bool parse_root_descriptor(RootParameterType type, char letter) {
     RootParameter p;
     p.ParameterType = type;
     uint32_t visibility = 0, flags = 0;
-    const bool ok = ParseArguments(letter, p.Descriptor.ShaderRegister, [&](std::string_view name) {
-      if (SameWord(name, "space")) return ParseNumber(p.Descriptor.RegisterSpace) ? 0 : -1;
-      if (SameWord(name, "visibility")) {
-        return ParseKeyword(kVisibilities, "visibility", visibility) ? 1 : -1;
-      }
-      if (SameWord(name, "flags")) return ParseFlags(kRangeFlags, "data flag", flags) ? 2 : -1;
-      return -1;
-    });
+    const bool ok =
+        parse_arguments(letter, p.Descriptor.ShaderRegister, [&](std::string_view name) {
+          if (same_word(name, "space")) return parse_number(p.Descriptor.RegisterSpace) ? 0 : -1;
+          if (same_word(name, "visibility")) {
+            return parse_keyword(kVisibilities, "visibility", visibility) ? 1 : -1;
+          }
+          if (same_word(name, "flags"))
+            return parse_flags(kRangeFlags, "data flag", flags) ? 2 : -1;
+          return -1;
+        });
     if (!ok) return false;
     if (flags & ~0xEu) return fail("DESCRIPTORS_ flags belong to descriptor tables");
     p.Descriptor.Flags = static_cast<RootDescriptorFlags>(flags);
@@ -350,14 +352,14 @@ class Parser {
     return true;
   }
 
-  bool ParseTable() {
+  bool parse_table() {
     RootParameter p;
     uint32_t visibility = 0;
     if (!expect('(')) return false;
     do {
       if (take_word("visibility")) {
-        if (!expect('=') || !ParseKeyword(kVisibilities, "visibility", visibility)) return false;
-      } else if (!ParseRange(p.DescriptorTable)) {
+        if (!expect('=') || !parse_keyword(kVisibilities, "visibility", visibility)) return false;
+      } else if (!parse_range(p.DescriptorTable)) {
         return false;
       }
     } while (take(','));
@@ -366,7 +368,7 @@ class Parser {
     return expect(')');
   }
 
-  bool ParseRange(RootDescriptorTable& table) {
+  bool parse_range(RootDescriptorTable& table) {
     DescriptorRange range;
     char letter = 0;
     auto is = [&](const char* word, DescriptorRangeType type, char reg) {
@@ -381,23 +383,23 @@ class Parser {
       return fail("expected CBV, SRV, UAV, Sampler or visibility");
     }
     uint32_t flags = 0;
-    const bool ok = ParseArguments(letter, range.BaseShaderRegister, [&](std::string_view name) {
-      if (SameWord(name, "numDescriptors")) {
+    const bool ok = parse_arguments(letter, range.BaseShaderRegister, [&](std::string_view name) {
+      if (same_word(name, "numDescriptors")) {
         if (take_word("unbounded")) {
           range.NumDescriptors = kUnboundedDescriptors;
           return 0;
         }
-        return ParseNumber(range.NumDescriptors) ? 0 : -1;
+        return parse_number(range.NumDescriptors) ? 0 : -1;
       }
-      if (SameWord(name, "space")) return ParseNumber(range.RegisterSpace) ? 1 : -1;
-      if (SameWord(name, "offset")) {
+      if (same_word(name, "space")) return parse_number(range.RegisterSpace) ? 1 : -1;
+      if (same_word(name, "offset")) {
         if (take_word("DESCRIPTOR_RANGE_OFFSET_APPEND")) {
           range.OffsetInDescriptorsFromTableStart = kDescriptorRangeOffsetAppend;
           return 2;
         }
-        return ParseNumber(range.OffsetInDescriptorsFromTableStart) ? 2 : -1;
+        return parse_number(range.OffsetInDescriptorsFromTableStart) ? 2 : -1;
       }
-      if (SameWord(name, "flags")) return ParseFlags(kRangeFlags, "range flag", flags) ? 3 : -1;
+      if (same_word(name, "flags")) return parse_flags(kRangeFlags, "range flag", flags) ? 3 : -1;
       return -1;
     });
     range.Flags = static_cast<DescriptorRangeFlags>(flags);
@@ -405,31 +407,31 @@ class Parser {
     return ok;
   }
 
-  bool ParseStaticSampler() {
+  bool parse_static_sampler() {
     StaticSamplerDesc s;
     auto keyword = [&](std::span<const Keyword> words, const char* kind, auto& out, int index) {
       uint32_t value = 0;
-      if (!ParseKeyword(words, kind, value)) return -1;
+      if (!parse_keyword(words, kind, value)) return -1;
       out = static_cast<std::remove_reference_t<decltype(out)>>(value);
       return index;
     };
-    const bool ok = ParseArguments('s', s.ShaderRegister, [&](std::string_view name) {
-      if (SameWord(name, "filter")) return keyword(kFilters, "filter", s.Filter, 0);
-      if (SameWord(name, "addressU")) return keyword(kAddressModes, "mode", s.AddressU, 1);
-      if (SameWord(name, "addressV")) return keyword(kAddressModes, "mode", s.AddressV, 2);
-      if (SameWord(name, "addressW")) return keyword(kAddressModes, "mode", s.AddressW, 3);
-      if (SameWord(name, "mipLODBias")) return ParseFloat(s.MipLODBias) ? 4 : -1;
-      if (SameWord(name, "maxAnisotropy")) return ParseNumber(s.MaxAnisotropy) ? 5 : -1;
-      if (SameWord(name, "comparisonFunc")) {
+    const bool ok = parse_arguments('s', s.ShaderRegister, [&](std::string_view name) {
+      if (same_word(name, "filter")) return keyword(kFilters, "filter", s.Filter, 0);
+      if (same_word(name, "addressU")) return keyword(kAddressModes, "mode", s.AddressU, 1);
+      if (same_word(name, "addressV")) return keyword(kAddressModes, "mode", s.AddressV, 2);
+      if (same_word(name, "addressW")) return keyword(kAddressModes, "mode", s.AddressW, 3);
+      if (same_word(name, "mipLODBias")) return parse_float(s.MipLODBias) ? 4 : -1;
+      if (same_word(name, "maxAnisotropy")) return parse_number(s.MaxAnisotropy) ? 5 : -1;
+      if (same_word(name, "comparisonFunc")) {
         return keyword(kComparisons, "comparison", s.ComparisonFunc, 6);
       }
-      if (SameWord(name, "borderColor")) {
+      if (same_word(name, "borderColor")) {
         return keyword(kBorderColors, "border colour", s.BorderColor, 7);
       }
-      if (SameWord(name, "minLOD")) return ParseFloat(s.MinLOD) ? 8 : -1;
-      if (SameWord(name, "maxLOD")) return ParseFloat(s.MaxLOD) ? 9 : -1;
-      if (SameWord(name, "space")) return ParseNumber(s.RegisterSpace) ? 10 : -1;
-      if (SameWord(name, "visibility")) {
+      if (same_word(name, "minLOD")) return parse_float(s.MinLOD) ? 8 : -1;
+      if (same_word(name, "maxLOD")) return parse_float(s.MaxLOD) ? 9 : -1;
+      if (same_word(name, "space")) return parse_number(s.RegisterSpace) ? 10 : -1;
+      if (same_word(name, "visibility")) {
         return keyword(kVisibilities, "visibility", s.ShaderVisibility, 11);
       }
       return -1;
@@ -448,7 +450,7 @@ class Parser {
 }  // namespace
 
 Result<RootSignatureDesc> ParseRootSignature(std::string_view text) {
-  return Parser(text).Parse();
+  return Parser(text).parse();
 }
 
 }  // namespace rtapi

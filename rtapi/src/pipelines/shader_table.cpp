@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kIdentifierBytes = kShaderIdentifierSizeInBytes;
 constexpr const char* kKinds[] = {"32-bit constants", "an address", "a descriptor table"};
 
-size_t WantedKind(RootParameterType type) {
+size_t wanted_kind(RootParameterType type) {
   switch (type) {
     case RootParameterType::k32BitConstants:
       return 0;
@@ -26,10 +26,10 @@ size_t WantedKind(RootParameterType type) {
   }
 }
 
-Status WriteArgument(const RootSignature& signature, uint32_t index, const LocalArgument& argument,
-                     const std::string& where, std::vector<std::byte>& record) {
+Status write_argument(const RootSignature& signature, uint32_t index, const LocalArgument& argument,
+                      const std::string& where, std::vector<std::byte>& record) {
   const RootParameter& parameter = signature.GetDesc().Parameters[index];
-  const size_t wanted = WantedKind(parameter.ParameterType);
+  const size_t wanted = wanted_kind(parameter.ParameterType);
   if (argument.value().index() != wanted) {
     return MakeError(Id::kTableArgumentKind, where, ": argument ", index, " is ",
                      kKinds[argument.value().index()], ", but the local root signature expects ",
@@ -60,7 +60,7 @@ Result<uint32_t> ShaderTable::AddRecord(std::string_view export_name,
                                         std::span<const LocalArgument> arguments) {
   const std::string where =
       Text(Quoted(name_), ", record ", records_.size(), " (", export_name, ")");
-  const auto* linked = state_object_ ? state_object_.impl()->FindRecord(export_name) : nullptr;
+  const auto* linked = state_object_ ? state_object_.impl()->find_record(export_name) : nullptr;
   if (!linked) {
     std::string known;
     for (const auto& n : state_object_.GetIdentifiableExports()) {
@@ -79,7 +79,7 @@ Result<uint32_t> ShaderTable::AddRecord(std::string_view export_name,
   std::vector<std::byte> record(kIdentifierBytes + signature.GetArgumentBytes());
   std::memcpy(record.data(), linked->identifier.data(), kIdentifierBytes);
   for (uint32_t i = 0; i < count; ++i) {
-    if (Status s = WriteArgument(signature, i, arguments[i], where, record); !s.ok()) {
+    if (Status s = write_argument(signature, i, arguments[i], where, record); !s.ok()) {
       return s.error();
     }
   }
@@ -96,9 +96,9 @@ uint32_t ShaderTable::AddNullRecord() {
 uint32_t ShaderTable::stride_bytes() const {
   size_t largest = kIdentifierBytes;
   for (const auto& record : records_) largest = std::max(largest, record.size());
-  return static_cast<uint32_t>(AlignUp(largest, has_ray_generation_
-                                                    ? kRaytracingShaderTableByteAlignment
-                                                    : kRaytracingShaderRecordByteAlignment));
+  return static_cast<uint32_t>(align_up(largest, has_ray_generation_
+                                                     ? kRaytracingShaderTableByteAlignment
+                                                     : kRaytracingShaderRecordByteAlignment));
 }
 
 std::vector<std::byte> ShaderTable::bytes() const {

@@ -16,7 +16,7 @@ StateObjectType StateObject::GetType() const {
 }
 
 const ShaderIdentifier* StateObject::GetShaderIdentifier(std::string_view name) const {
-  const auto* record = impl_ ? impl_->FindRecord(name) : nullptr;
+  const auto* record = impl_ ? impl_->find_record(name) : nullptr;
   return record ? &record->identifier : nullptr;
 }
 
@@ -24,10 +24,10 @@ uint64_t StateObject::GetShaderStackSize(std::string_view name) const {
   if (!impl_) return kNoShaderStackSize;
   const size_t colons = name.rfind("::");
   if (colons == std::string_view::npos) {
-    const auto* record = impl_->FindRecord(name);
+    const auto* record = impl_->find_record(name);
     return record && record->shader ? record->shader->stack_bytes : kNoShaderStackSize;
   }
-  const auto* group = impl_->FindRecord(name.substr(0, colons));
+  const auto* group = impl_->find_record(name.substr(0, colons));
   if (!group || group->kind != runtime::RecordKind::kHitGroup) return kNoShaderStackSize;
   const std::string_view part = name.substr(colons + 2);
   const runtime::LinkedShader* member = part == "intersection" ? group->intersection
@@ -56,7 +56,7 @@ Status StateObject::SetPipelineStackSize(uint64_t bytes) {
 }
 
 RootSignature StateObject::GetLocalRootSignature(std::string_view name) const {
-  const auto* record = impl_ ? impl_->FindRecord(name) : nullptr;
+  const auto* record = impl_ ? impl_->find_record(name) : nullptr;
   return record ? record->local_root_signature : RootSignature();
 }
 
@@ -69,19 +69,19 @@ std::vector<std::string> StateObject::GetIdentifiableExports() const {
 
 namespace {
 
-Result<std::shared_ptr<StateObjectImpl>> Make(const std::shared_ptr<DeviceImpl>& device,
-                                              const StateObjectDesc& desc, bool for_backend) {
+Result<std::shared_ptr<StateObjectImpl>> make_state_object(
+    const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc, bool for_backend) {
   if (Status s = device->removed(); !s.ok()) return s.error();
-  auto parts = GatherParts(device, desc);
+  auto parts = gather_parts(device, desc);
   if (!parts.ok()) return parts.error();
-  if (Status s = LinkFunctions(*parts); !s.ok()) return s.error();
-  if (Status s = AssociateAll(*parts); !s.ok()) return s.error();
-  return LinkStateObject(std::move(*parts), for_backend);
+  if (Status s = link_functions(*parts); !s.ok()) return s.error();
+  if (Status s = associate_all(*parts); !s.ok()) return s.error();
+  return link_state_object(std::move(*parts), for_backend);
 }
 
 // [DXR: AddToStateObject]
-Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& addition,
-                     const StateObject& parent) {
+Status check_addition(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& addition,
+                      const StateObject& parent) {
   if (device->desc.Tier < RaytracingTier::kTier1_1) {
     return MakeError(Id::kAdditionNotAllowed, "AddToStateObject needs tier 1.1");
   }
@@ -101,7 +101,7 @@ Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjec
 }
 
 // Names of entry points and hit groups must be unique; library functions may be added again.
-Status CheckAddedNames(const StateObjectImpl& added, const StateObjectImpl& parent) {
+Status check_added_names(const StateObjectImpl& added, const StateObjectImpl& parent) {
   const auto counts = [](const Subject& s) {
     return !s.hidden && (s.is_group() || s.code->stage != shader::Stage::kLibrary);
   };
@@ -117,7 +117,7 @@ Status CheckAddedNames(const StateObjectImpl& added, const StateObjectImpl& pare
   return {};
 }
 
-Status CheckAdded(const StateObjectImpl& added, const StateObjectImpl& parent) {
+Status check_added(const StateObjectImpl& added, const StateObjectImpl& parent) {
   if (!HasAny(added.flags, StateObjectFlags::kAllowStateObjectAdditions)) {
     return MakeError(Id::kAdditionNotAllowed,
                      "the addition lacks flag 0x4 "
@@ -134,14 +134,14 @@ Status CheckAdded(const StateObjectImpl& added, const StateObjectImpl& parent) {
                      ", but the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes,
                      ", ", p.max_recursion_depth);
   }
-  return CheckAddedNames(added, parent);
+  return check_added_names(added, parent);
 }
 
 }  // namespace
 
 Result<StateObject> Device::CreateStateObject(const StateObjectDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateStateObject on an empty device handle");
-  auto made = Make(impl_, desc, true);
+  auto made = make_state_object(impl_, desc, true);
   if (!made.ok()) return made.error();
   return StateObject(std::move(*made));
 }
@@ -149,18 +149,18 @@ Result<StateObject> Device::CreateStateObject(const StateObjectDesc& desc) const
 Result<StateObject> Device::AddToStateObject(const StateObjectDesc& addition,
                                              const StateObject& parent) const {
   if (!impl_) return MakeError(Id::kNullHandle, "AddToStateObject on an empty device handle");
-  if (Status s = CheckAddition(impl_, addition, parent); !s.ok()) return s.error();
+  if (Status s = check_addition(impl_, addition, parent); !s.ok()) return s.error();
   // The addition must be valid by itself, since it sees nothing of the parent.
-  auto added = Make(impl_, addition, false);
+  auto added = make_state_object(impl_, addition, false);
   if (!added.ok()) return added.error();
-  if (Status s = CheckAdded(**added, *parent.impl()); !s.ok()) return s.error();
+  if (Status s = check_added(**added, *parent.impl()); !s.ok()) return s.error();
   Parts merged;
   merged.device = impl_;
   merged.flags = parent.impl()->flags;
   for (const StateObjectImpl* source : {parent.impl().get(), added->get()}) {
     merged.subjects.insert(merged.subjects.end(), source->subjects.begin(), source->subjects.end());
   }
-  auto made = LinkStateObject(std::move(merged), true);
+  auto made = link_state_object(std::move(merged), true);
   if (!made.ok()) return made.error();
   (*made)->stack_bytes = parent.impl()->stack_bytes.load();
   (*made)->ancestors = parent.impl()->ancestors;

@@ -20,72 +20,73 @@ namespace rtapi::detail {
 class Gatherer {
  public:
   Gatherer(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc);
-  Result<Parts> Run();
+  Result<Parts> run();
 
  private:
-  static std::string Where(size_t index) { return Text("subobject ", index); }
-  Status GatherConfigs();
-  Status TakeFlags(StateObjectFlags value, const std::string& where,
-                   std::optional<StateObjectFlags>& flags);
+  static std::string where_of(size_t index) { return Text("subobject ", index); }
+  Status gather_configs();
+  Status take_flags(StateObjectFlags value, const std::string& where,
+                    std::optional<StateObjectFlags>& flags);
 
   // --- subobjects of the description ---
 
-  Status Gather(const StateObjectConfig&, size_t) { return {}; }  // see GatherConfigs
-  Status Gather(const NodeMask& mask, size_t i);
-  Status Gather(const GlobalRootSignature& sub, size_t i);
-  Status Gather(const LocalRootSignature& sub, size_t i);
-  Status Gather(const RaytracingShaderConfig& sub, size_t i);
-  Status Gather(const RaytracingPipelineConfig& sub, size_t i);
-  Status Gather(const RaytracingPipelineConfig1& sub, size_t i);
-  Status Gather(const HitGroupDesc& sub, size_t i) { return AddHitGroup(sub, -1, Where(i)); }
-  Status Gather(const SubobjectToExportsAssociation&, size_t) { return {}; }
-  Status Gather(const DxilSubobjectToExportsAssociation&, size_t) { return {}; }
-  Status Gather(const ExistingCollectionDesc& sub, size_t i);
-  Status Gather(const DxilLibraryDesc& sub, size_t i);
+  Status gather(const StateObjectConfig&, size_t) { return {}; }  // see gather_configs
+  Status gather(const NodeMask& mask, size_t i);
+  Status gather(const GlobalRootSignature& sub, size_t i);
+  Status gather(const LocalRootSignature& sub, size_t i);
+  Status gather(const RaytracingShaderConfig& sub, size_t i);
+  Status gather(const RaytracingPipelineConfig& sub, size_t i);
+  Status gather(const RaytracingPipelineConfig1& sub, size_t i);
+  Status gather(const HitGroupDesc& sub, size_t i) { return add_hit_group(sub, -1, where_of(i)); }
+  Status gather(const SubobjectToExportsAssociation&, size_t) { return {}; }
+  Status gather(const DxilSubobjectToExportsAssociation&, size_t) { return {}; }
+  Status gather(const ExistingCollectionDesc& sub, size_t i);
+  Status gather(const DxilLibraryDesc& sub, size_t i);
 
   // --- definitions ---
 
-  Status DefineRootSignature(const RootSignature& signature, bool local, const std::string& where,
-                             DefinitionPtr& out);
-  Status DefineShaderConfig(const RaytracingShaderConfig& config, const std::string& where,
-                            DefinitionPtr& out);
-  Status DefinePipelineConfig(const RaytracingPipelineConfig1& config, bool config1,
-                              const std::string& where, DefinitionPtr& out);
+  Status define_root_signature(const RootSignature& signature, bool local, const std::string& where,
+                               DefinitionPtr& out);
+  Status define_shader_config(const RaytracingShaderConfig& config, const std::string& where,
+                              DefinitionPtr& out);
+  Status define_pipeline_config(const RaytracingPipelineConfig1& config, bool config1,
+                                const std::string& where, DefinitionPtr& out);
 
   // --- libraries ---
 
-  static bool IsListed(const DxilLibraryDesc& sub, const char* name);
-  void AddShader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
-                 const std::string& renamed);
-  Status GatherExports(const DxilLibraryDesc& sub, int scope, const std::string& where);
-  static bool IsSubobject(const shader::LibraryDesc& table, const std::string& name);
-  static std::string ListExports(const shader::LibraryDesc& table);
-  Status GatherLibrarySubobjects(const DxilLibraryDesc& sub, int scope);
-  Status DefineFromText(const char* text, bool local, const std::string& where, DefinitionPtr& out);
-  Status AddHitGroup(const HitGroupDesc& group, int scope, const std::string& where);
+  static bool is_listed(const DxilLibraryDesc& sub, const char* name);
+  void add_shader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
+                  const std::string& renamed);
+  Status gather_exports(const DxilLibraryDesc& sub, int scope, const std::string& where);
+  static bool is_subobject(const shader::LibraryDesc& table, const std::string& name);
+  static std::string list_exports(const shader::LibraryDesc& table);
+  Status gather_library_subobjects(const DxilLibraryDesc& sub, int scope);
+  Status define_from_text(const char* text, bool local, const std::string& where,
+                          DefinitionPtr& out);
+  Status add_hit_group(const HitGroupDesc& group, int scope, const std::string& where);
 
   // --- collections ---
 
-  Status ImportCollection(const StateObjectImpl& collection, const std::vector<ExportDesc>& exports,
-                          const std::string& where);
+  Status import_collection(const StateObjectImpl& collection,
+                           const std::vector<ExportDesc>& exports, const std::string& where);
   // An export list makes the listed exports visible, under a new name where it gives one.
-  Status ListCollectionExports(const StateObjectImpl& collection,
-                               std::map<const Subject*, SubjectPtr>& copies,
-                               const std::vector<ExportDesc>& exports, const std::string& where);
+  Status list_collection_exports(const StateObjectImpl& collection,
+                                 std::map<const Subject*, SubjectPtr>& copies,
+                                 const std::vector<ExportDesc>& exports, const std::string& where);
 
   // --- associations ---
 
-  Status GatherAssociation(const StateSubobject& sub, size_t i);
-  DefinitionPtr FindInLibraries(const std::string& name) const;
-  void Associate(const DefinitionPtr& definition, const std::vector<std::string>& exports,
+  Status gather_association(const StateSubobject& sub, size_t i);
+  DefinitionPtr find_in_libraries(const std::string& name) const;
+  void associate(const DefinitionPtr& definition, const std::vector<std::string>& exports,
                  int scope, const std::string& where);
-  DefaultScope& ScopeAt(int scope);
-  void GatherDefaults();
+  DefaultScope& scope_at(int scope);
+  void gather_defaults();
 
   // --- names ---
 
-  Status CheckNames();
-  std::string Origin(const Subject& s) const;
+  Status check_names();
+  std::string origin(const Subject& s) const;
 
   struct LibraryAssociation {
     int scope;

@@ -32,7 +32,7 @@ enum class Category : uint8_t {
   kLocalRootSignature,
 };
 inline constexpr size_t kCategories = 4;
-const char* CategoryName(Category category);
+const char* category_name(Category category);
 
 // One config or root signature, as declared.
 struct Definition {
@@ -43,7 +43,7 @@ struct Definition {
   std::string where;  // for messages
 };
 using DefinitionPtr = std::shared_ptr<const Definition>;
-bool SameDefinition(const Definition& a, const Definition& b);
+bool same_definition(const Definition& a, const Definition& b);
 
 enum class Strength : uint8_t { kNone, kDefault, kExplicit };
 struct Associated {
@@ -130,19 +130,19 @@ struct StateObjectImpl {
   // Records by plain and mangled name; null where overloads share a plain name.
   std::map<std::string, const runtime::LinkedRecord*, std::less<>> records_by_name;
 
-  const runtime::LinkedRecord* FindRecord(std::string_view name) const {
+  const runtime::LinkedRecord* find_record(std::string_view name) const {
     auto it = records_by_name.find(name);
     return it == records_by_name.end() ? nullptr : it->second;
   }
 };
 
-Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc);
+Result<Parts> gather_parts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc);
 // Finds the functions that shaders call in other libraries.
-Status LinkFunctions(Parts& parts);
-Status AssociateAll(Parts& parts);
+Status link_functions(Parts& parts);
+Status associate_all(Parts& parts);
 // Without `for_backend` nothing goes to the backend, as for collections and checks of additions.
-Result<std::shared_ptr<StateObjectImpl>> LinkStateObject(Parts&& parts, bool for_backend);
+Result<std::shared_ptr<StateObjectImpl>> link_state_object(Parts&& parts, bool for_backend);
 // [DXR: Default pipeline stack size]
-uint64_t DefaultStackBytes(const runtime::LinkedPipeline& pipeline);
+uint64_t default_stack_bytes(const runtime::LinkedPipeline& pipeline);
 
 }  // namespace rtapi::detail

@@ -22,7 +22,7 @@ using shader::Stage;
 
 constexpr uint32_t kMaxStaticSamplers = 2032;  // [D3D12: root signature limits]
 
-bool IsEntry(const Subject& s) {
+bool is_entry(const Subject& s) {
   return s.code && (s.code->stage == Stage::kRayGeneration || s.code->stage == Stage::kMiss ||
                     s.code->stage == Stage::kCallable);
 }
@@ -30,7 +30,7 @@ bool IsEntry(const Subject& s) {
 // The definitions that apply to one shader or hit group, after the rules for hit groups.
 using Effective = std::array<DefinitionPtr, kCategories>;
 
-RootSignature SignatureOf(const Effective& e, Category category) {
+RootSignature signature_of(const Effective& e, Category category) {
   const DefinitionPtr& d = e[static_cast<size_t>(category)];
   return d ? d->root_signature : RootSignature();
 }
@@ -40,27 +40,27 @@ class Linker {
   explicit Linker(Parts&& parts)
       : parts_(std::move(parts)), linked_(std::make_shared<runtime::LinkedPipeline>()) {}
 
-  Result<std::shared_ptr<StateObjectImpl>> Run(bool for_backend) {
+  Result<std::shared_ptr<StateObjectImpl>> run(bool for_backend) {
     out_ = std::make_shared<StateObjectImpl>();
     out_->device = parts_.device;
     out_->type = parts_.type;
     out_->flags = parts_.flags;
     for (const SubjectPtr& s : parts_.subjects) {
       if (!s->is_group()) continue;
-      if (Status st = ResolveMembers(*s); !st.ok() && !Tolerates(st.error())) return st.error();
+      if (Status st = resolve_members(*s); !st.ok() && !tolerates(st.error())) return st.error();
     }
-    if (Status s = CheckConfigs(); !s.ok()) return s.error();
+    if (Status s = check_configs(); !s.ok()) return s.error();
     for (const SubjectPtr& s : parts_.subjects) {
-      if (s->hidden || !(s->is_group() || IsEntry(*s))) continue;
-      if (Status st = AddRecord(*s); !st.ok() && !Tolerates(st.error())) return st.error();
+      if (s->hidden || !(s->is_group() || is_entry(*s))) continue;
+      if (Status st = add_record(*s); !st.ok() && !tolerates(st.error())) return st.error();
     }
-    if (Status s = CheckStaticSamplers(); !s.ok()) return s.error();
-    return Finish(for_backend);
+    if (Status s = check_static_samplers(); !s.ok()) return s.error();
+    return finish(for_backend);
   }
 
  private:
   // Errors that a collection may leave to the pipeline that includes it.
-  bool Tolerates(const Error& error) const {
+  bool tolerates(const Error& error) const {
     if (!parts_.may_stay_unresolved()) return false;
     for (Id id : {Id::kHitGroupUnresolved, Id::kShaderConfigMissing, Id::kPipelineConfigMissing,
                   Id::kBindingMissing, Id::kDefaultAmbiguous, Id::kFunctionUnresolved}) {
@@ -71,26 +71,26 @@ class Linker {
 
   // --- hit groups ---
 
-  Status ResolveMembers(Subject& group) {
+  Status resolve_members(Subject& group) {
     const std::string* names[3] = {&group.group.AnyHitShaderImport,
                                    &group.group.ClosestHitShaderImport,
                                    &group.group.IntersectionShaderImport};
     static constexpr Stage kStages[3] = {Stage::kAnyHit, Stage::kClosestHit, Stage::kIntersection};
     for (size_t i = 0; i < 3; ++i) {
       if (names[i]->empty() || group.members[i]) continue;
-      auto found = FindShader(*names[i], group);
+      auto found = find_shader(*names[i], group);
       if (!found.ok()) return found.error();
       if ((*found)->code->stage != kStages[i]) {
-        return MakeError(Id::kHitGroupStage, Describe(group), " imports ", Quoted(*names[i]),
-                         " as its ", StageName(kStages[i]), " shader, but it is a ",
-                         StageName((*found)->code->stage), " shader");
+        return MakeError(Id::kHitGroupStage, describe(group), " imports ", Quoted(*names[i]),
+                         " as its ", stage_name(kStages[i]), " shader, but it is a ",
+                         stage_name((*found)->code->stage), " shader");
       }
       group.members[i] = *found;
     }
-    return CheckAttributes(*parts_.device, group);
+    return check_attributes(*parts_.device, group);
   }
 
-  Result<SubjectPtr> FindShader(const std::string& name, const Subject& group) {
+  Result<SubjectPtr> find_shader(const std::string& name, const Subject& group) {
     SubjectPtr found;
     for (const SubjectPtr& s : parts_.subjects) {
       const bool visible = !s->hidden || s->collection_scope == group.collection_scope;
@@ -100,17 +100,17 @@ class Linker {
         break;
       }
       if (found) {
-        return MakeError(Id::kExportAmbiguous, Describe(group), " imports ", Quoted(name),
+        return MakeError(Id::kExportAmbiguous, describe(group), " imports ", Quoted(name),
                          ", which has several overloads; use the mangled name");
       }
       found = s;
     }
     if (!found) {
-      return MakeError(Id::kHitGroupUnresolved, Describe(group), " imports ", Quoted(name),
+      return MakeError(Id::kHitGroupUnresolved, describe(group), " imports ", Quoted(name),
                        ", which this state object does not export");
     }
     if (!found->referable && found->collection_scope != group.collection_scope) {
-      return MakeError(Id::kCollectionNotReferable, Describe(group), " imports ", Quoted(name),
+      return MakeError(Id::kCollectionNotReferable, describe(group), " imports ", Quoted(name),
                        " from a collection that lacks flag 0x2 "
                        "(kAllowExternalDependenciesOnLocalDefinitions)");
     }
@@ -120,7 +120,7 @@ class Linker {
   // [DXR: Subobject associations for hit groups] Associations that name the group or one of its
   // shaders must agree, and they override defaults. Without any, the defaults of the shaders must
   // agree.
-  Result<DefinitionPtr> EffectiveOfGroup(const Subject& group, size_t category) const {
+  Result<DefinitionPtr> effective_of_group(const Subject& group, size_t category) const {
     std::vector<std::pair<const Subject*, Associated>> all;
     all.emplace_back(&group, group.associations[category]);
     for (const SubjectPtr& m : group.members) {
@@ -140,10 +140,11 @@ class Linker {
           (group_explicit || subject == &group)) {
         continue;
       }
-      if (result && !SameDefinition(*result, *associated.definition)) {
-        return MakeError(Id::kHitGroupAssociationMismatch, Describe(group), ": ", Describe(*first),
-                         " has ", CategoryName(static_cast<Category>(category)), " ", result->where,
-                         ", but ", Describe(*subject), " has ", associated.definition->where,
+      if (result && !same_definition(*result, *associated.definition)) {
+        return MakeError(Id::kHitGroupAssociationMismatch, describe(group), ": ", describe(*first),
+                         " has ", category_name(static_cast<Category>(category)), " ",
+                         result->where, ", but ", describe(*subject), " has ",
+                         associated.definition->where,
                          "; a hit group and its shaders must have the same");
       }
       if (!result) {
@@ -154,14 +155,14 @@ class Linker {
     return result;
   }
 
-  Result<Effective> GetEffective(const Subject& s) const {
+  Result<Effective> get_effective(const Subject& s) const {
     Effective effective;
     for (size_t c = 0; c < kCategories; ++c) {
       if (!s.is_group()) {
         effective[c] = s.associations[c].definition;
         continue;
       }
-      auto d = EffectiveOfGroup(s, c);
+      auto d = effective_of_group(s, c);
       if (!d.ok()) return d.error();
       effective[c] = *d;
     }
@@ -170,54 +171,54 @@ class Linker {
 
   // --- configs ---
 
-  Status CheckConfigs() {
+  Status check_configs() {
     for (const SubjectPtr& s : parts_.subjects) {
       if (s->code && s->code->stage == Stage::kLibrary) continue;
-      auto effective = GetEffective(*s);
+      auto effective = get_effective(*s);
       if (!effective.ok()) return effective.error();
       for (Category c : {Category::kShaderConfig, Category::kPipelineConfig}) {
         const DefinitionPtr& d = (*effective)[static_cast<size_t>(c)];
-        const bool required = !s->hidden && (s->is_group() || IsEntry(*s));
+        const bool required = !s->hidden && (s->is_group() || is_entry(*s));
         if (!d && required) {
-          Status missing = MissingConfig(*s, c);
-          if (!Tolerates(missing.error())) return missing;
+          Status missing = missing_config(*s, c);
+          if (!tolerates(missing.error())) return missing;
         }
         if (!d) continue;
         DefinitionPtr& common = common_[static_cast<size_t>(c)];
-        if (common && !SameDefinition(*common, *d)) return DifferentConfigs(*s, c, *common, *d);
+        if (common && !same_definition(*common, *d)) return different_configs(*s, c, *common, *d);
         common = d;
       }
     }
     return {};
   }
 
-  Status MissingConfig(const Subject& s, Category c) const {
+  Status missing_config(const Subject& s, Category c) const {
     const auto is_category = [c](const DefinitionPtr& d) { return d->category == c; };
     std::vector<DefinitionPtr> candidates;
     for (const auto* list : {&parts_.own_scope.by_empty, &parts_.own_scope.implicit}) {
       std::copy_if(list->begin(), list->end(), std::back_inserter(candidates), is_category);
     }
     if (candidates.size() > 1) {
-      return MakeError(Id::kDefaultAmbiguous, Describe(s), " has no ", CategoryName(c), ": ",
+      return MakeError(Id::kDefaultAmbiguous, describe(s), " has no ", category_name(c), ": ",
                        candidates[0]->where, " and ", candidates[1]->where,
                        " differ, so neither is the default; associate one of them explicitly");
     }
     return MakeError(
         c == Category::kShaderConfig ? Id::kShaderConfigMissing : Id::kPipelineConfigMissing,
-        Describe(s), " has no ", CategoryName(c), " associated with it, explicitly or by default");
+        describe(s), " has no ", category_name(c), " associated with it, explicitly or by default");
   }
 
-  Status DifferentConfigs(const Subject& s, Category c, const Definition& a,
-                          const Definition& b) const {
+  Status different_configs(const Subject& s, Category c, const Definition& a,
+                           const Definition& b) const {
     if (c == Category::kShaderConfig) {
-      return MakeError(Id::kShaderConfigsDiffer, Describe(s), " has a payload of ",
+      return MakeError(Id::kShaderConfigsDiffer, describe(s), " has a payload of ",
                        b.shader_config.MaxPayloadSizeInBytes, " and attributes of ",
                        b.shader_config.MaxAttributeSizeInBytes, " bytes (", b.where,
                        "), but another export has ", a.shader_config.MaxPayloadSizeInBytes, " and ",
                        a.shader_config.MaxAttributeSizeInBytes, " (", a.where,
                        "); all exports must have the same");
     }
-    return MakeError(Id::kPipelineConfigsDiffer, Describe(s), " has recursion depth ",
+    return MakeError(Id::kPipelineConfigsDiffer, describe(s), " has recursion depth ",
                      b.pipeline_config.MaxTraceRecursionDepth, ", flags ",
                      Hex(static_cast<uint32_t>(b.pipeline_config.Flags)), " (", b.where,
                      "), but another export has ", a.pipeline_config.MaxTraceRecursionDepth, ", ",
@@ -227,42 +228,42 @@ class Linker {
 
   // --- records ---
 
-  Status AddRecord(Subject& s) {
-    auto effective = GetEffective(s);
+  Status add_record(Subject& s) {
+    auto effective = get_effective(s);
     if (!effective.ok()) return effective.error();
     // A record without a config is unresolved and has no identifier. [DXR: GetShaderIdentifier]
     for (Category c : {Category::kShaderConfig, Category::kPipelineConfig}) {
-      if (!(*effective)[static_cast<size_t>(c)]) return MissingConfig(s, c);
+      if (!(*effective)[static_cast<size_t>(c)]) return missing_config(s, c);
     }
     auto record = std::make_unique<LinkedRecord>();
     record->name = s.name;
     if (s.is_group()) {
       record->kind = RecordKind::kHitGroup;
       record->hit_group_type = s.group.Type;
-      if (Status st = LinkMembers(s, *effective, *record); !st.ok()) return st;
+      if (Status st = link_members(s, *effective, *record); !st.ok()) return st;
     } else {
       record->kind = s.code->stage == Stage::kRayGeneration ? RecordKind::kRayGeneration
                      : s.code->stage == Stage::kMiss        ? RecordKind::kMiss
                                                             : RecordKind::kCallable;
-      auto linked = LinkShader(s, *effective, Describe(s));
+      auto linked = link_shader(s, *effective, describe(s));
       if (!linked.ok()) return linked.error();
       record->shader = *linked;
     }
-    record->local_root_signature = SignatureOf(*effective, Category::kLocalRootSignature);
+    record->local_root_signature = signature_of(*effective, Category::kLocalRootSignature);
     record->local_argument_bytes = record->local_root_signature.GetArgumentBytes();
-    if (!s.identifier) s.identifier = parts_.device->MakeIdentifier(s.name);
+    if (!s.identifier) s.identifier = parts_.device->make_identifier(s.name);
     record->identifier = *s.identifier;
     if (record->kind == RecordKind::kRayGeneration) {
       out_->global_root_signatures.push_back(
-          SignatureOf(*effective, Category::kGlobalRootSignature));
+          signature_of(*effective, Category::kGlobalRootSignature));
     }
-    AddNames(s, record.get());
+    add_names(s, record.get());
     linked_->identifiers.insert(record.get());
     linked_->records.push_back(std::move(record));
     return {};
   }
 
-  void AddNames(const Subject& s, const LinkedRecord* record) {
+  void add_names(const Subject& s, const LinkedRecord* record) {
     auto add = [&](const std::string& name) {
       auto [it, is_new] = out_->records_by_name.emplace(name, record);
       if (!is_new) it->second = nullptr;
@@ -271,7 +272,7 @@ class Linker {
     if (!s.mangled.empty() && s.mangled != s.name) add(s.mangled);
   }
 
-  Status LinkMembers(const Subject& group, const Effective& effective, LinkedRecord& record) {
+  Status link_members(const Subject& group, const Effective& effective, LinkedRecord& record) {
     const LinkedShader** slots[3] = {&record.any_hit, &record.closest_hit, &record.intersection};
     const std::string* names[3] = {&group.group.AnyHitShaderImport,
                                    &group.group.ClosestHitShaderImport,
@@ -279,18 +280,18 @@ class Linker {
     for (size_t i = 0; i < 3; ++i) {
       if (!group.members[i]) {
         if (names[i]->empty()) continue;
-        return MakeError(Id::kHitGroupUnresolved, Describe(group), " imports ", Quoted(*names[i]),
+        return MakeError(Id::kHitGroupUnresolved, describe(group), " imports ", Quoted(*names[i]),
                          ", which this state object does not export");
       }
       const Subject& member = *group.members[i];
-      auto linked = LinkShader(member, effective, Text(Describe(member), " in ", Describe(group)));
+      auto linked = link_shader(member, effective, Text(describe(member), " in ", describe(group)));
       if (!linked.ok()) return linked.error();
       *slots[i] = *linked;
     }
     return {};
   }
 
-  Status CheckSizes(const Subject& s, const Effective& effective, const std::string& where) const {
+  Status check_sizes(const Subject& s, const Effective& effective, const std::string& where) const {
     const DefinitionPtr& d = effective[static_cast<size_t>(Category::kShaderConfig)];
     if (!d) return {};
     const RaytracingShaderConfig& config = d->shader_config;
@@ -311,8 +312,8 @@ class Linker {
 
   // [DXR: D3D12_LOCAL_ROOT_SIGNATURE] A library function may not have another root signature than
   // the shaders that call it. Defaults do not apply to functions.
-  Status CheckCallGraph(const Subject& s, const Effective& effective,
-                        const std::string& where) const {
+  Status check_call_graph(const Subject& s, const Effective& effective,
+                          const std::string& where) const {
     const shader::LibraryDesc* library = (s.written ? s.written_library : s.library).impl()->desc;
     const auto index = static_cast<uint32_t>((s.written ? s.written : s.code) - library->exports);
     const auto calls = [&](const SubjectPtr& f) {
@@ -332,9 +333,9 @@ class Linker {
         const Associated& own = f->associations[static_cast<size_t>(c)];
         if (own.strength != Strength::kExplicit || !own.definition) continue;
         const DefinitionPtr& callers_own = effective[static_cast<size_t>(c)];
-        if (callers_own && SameDefinition(*callers_own, *own.definition)) continue;
+        if (callers_own && same_definition(*callers_own, *own.definition)) continue;
         return MakeError(Id::kCallGraphSignatures, "function ", Quoted(f->name), " has ",
-                         CategoryName(c), " ", own.definition->where, ", but its caller ", where,
+                         category_name(c), " ", own.definition->where, ", but its caller ", where,
                          " has ", callers_own ? callers_own->where : "none",
                          "; a function must have the same as its callers, or none of its own");
       }
@@ -342,23 +343,24 @@ class Linker {
     return {};
   }
 
-  Result<const LinkedShader*> LinkShader(const Subject& s, const Effective& effective,
-                                         const std::string& where) {
+  Result<const LinkedShader*> link_shader(const Subject& s, const Effective& effective,
+                                          const std::string& where) {
     if (s.code->import_count != 0) {
       return MakeError(Id::kFunctionUnresolved, where, " calls ",
                        Quoted(s.library.impl()->desc->imports[s.code->imports[0]].signature),
                        ", which has no body");
     }
-    if (Status st = CheckSizes(s, effective, where); !st.ok()) return st.error();
-    if (Status st = CheckCallGraph(s, effective, where); !st.ok()) return st.error();
-    const RootSignature global = SignatureOf(effective, Category::kGlobalRootSignature);
-    const RootSignature local = SignatureOf(effective, Category::kLocalRootSignature);
+    if (Status st = check_sizes(s, effective, where); !st.ok()) return st.error();
+    if (Status st = check_call_graph(s, effective, where); !st.ok()) return st.error();
+    const RootSignature global = signature_of(effective, Category::kGlobalRootSignature);
+    const RootSignature local = signature_of(effective, Category::kLocalRootSignature);
     const auto key = std::make_tuple(s.code, global.impl().get(), local.impl().get());
     if (auto it = cache_.find(key); it != cache_.end()) return it->second;
-    if (Status st = CheckRootSignaturesDisjoint(global, local, where); !st.ok()) return st.error();
-    if (Status st = CheckTier(*parts_.device, *s.code, where); !st.ok()) return st.error();
+    if (Status st = check_root_signatures_disjoint(global, local, where); !st.ok())
+      return st.error();
+    if (Status st = check_tier(*parts_.device, *s.code, where); !st.ok()) return st.error();
     const auto& library = *s.library.impl()->desc;
-    auto slots = ResolveBindings(library, *s.code, global, local, where);
+    auto slots = resolve_bindings(library, *s.code, global, local, where);
     if (!slots.ok()) return slots.error();
     auto linked = std::make_unique<LinkedShader>();
     linked->name = s.name;
@@ -378,7 +380,7 @@ class Linker {
   }
 
   // [DXR: Local root signatures vs global root signatures]
-  Status CheckStaticSamplers() const {
+  Status check_static_samplers() const {
     std::map<std::pair<uint32_t, uint32_t>, const StaticSamplerDesc*> local_samplers;
     std::vector<const StaticSamplerDesc*> unique;
     std::set<const void*> seen;
@@ -389,16 +391,16 @@ class Linker {
           if (signature->is_local()) {
             auto [it, is_new] = local_samplers.emplace(
                 std::pair(sampler.RegisterSpace, sampler.ShaderRegister), &sampler);
-            if (!is_new && !SameSampler(*it->second, sampler)) {
+            if (!is_new && !same_sampler(*it->second, sampler)) {
               return MakeError(Id::kStaticSamplerConflict,
                                "two local root signatures define static sampler ",
-                               RegisterText(shader::RegisterClass::kSampler, sampler.ShaderRegister,
-                                            sampler.RegisterSpace),
+                               register_text(shader::RegisterClass::kSampler,
+                                             sampler.ShaderRegister, sampler.RegisterSpace),
                                " differently (one is for ", Quoted(s->name), "); they must agree");
             }
           }
           const bool known = std::any_of(unique.begin(), unique.end(),
-                                         [&](const auto* u) { return SameSampler(*u, sampler); });
+                                         [&](const auto* u) { return same_sampler(*u, sampler); });
           if (!known) unique.push_back(&sampler);
         }
       }
@@ -410,7 +412,7 @@ class Linker {
 
   // --- the result ---
 
-  Result<std::shared_ptr<StateObjectImpl>> Finish(bool for_backend) {
+  Result<std::shared_ptr<StateObjectImpl>> finish(bool for_backend) {
     if (const auto& d = common_[static_cast<size_t>(Category::kShaderConfig)]) {
       linked_->max_payload_bytes = d->shader_config.MaxPayloadSizeInBytes;
       linked_->max_attribute_bytes = d->shader_config.MaxAttributeSizeInBytes;
@@ -420,7 +422,7 @@ class Linker {
       linked_->flags = d->pipeline_config.Flags;
     }
     out_->linked = linked_;
-    if (!parts_.is_collection()) out_->stack_bytes = DefaultStackBytes(*linked_);
+    if (!parts_.is_collection()) out_->stack_bytes = default_stack_bytes(*linked_);
     if (for_backend && !parts_.is_collection()) {
       auto pipeline = parts_.device->backend->create_raytracing_pipeline(out_->linked);
       if (!pipeline.ok()) return pipeline.error();
@@ -443,7 +445,7 @@ class Linker {
 
 }  // namespace
 
-uint64_t DefaultStackBytes(const runtime::LinkedPipeline& pipeline) {
+uint64_t default_stack_bytes(const runtime::LinkedPipeline& pipeline) {
   uint64_t raygen = 0, closest = 0, miss = 0, intersection = 0, any = 0, callable = 0;
   for (const auto& s : pipeline.shaders) {
     uint64_t* largest = nullptr;
@@ -476,8 +478,8 @@ uint64_t DefaultStackBytes(const runtime::LinkedPipeline& pipeline) {
          std::max(closest, miss) * (depth > 0 ? depth - 1 : 0) + 2 * callable;
 }
 
-Result<std::shared_ptr<StateObjectImpl>> LinkStateObject(Parts&& parts, bool for_backend) {
-  return Linker(std::move(parts)).Run(for_backend);
+Result<std::shared_ptr<StateObjectImpl>> link_state_object(Parts&& parts, bool for_backend) {
+  return Linker(std::move(parts)).run(for_backend);
 }
 
 }  // namespace rtapi::detail

@@ -62,7 +62,7 @@ Gatherer::Gatherer(const std::shared_ptr<DeviceImpl>& device, const StateObjectD
   parts_.type = desc.Type;
 }
 
-Result<Parts> Gatherer::Run() {
+Result<Parts> Gatherer::run() {
   if (desc_.Type != StateObjectType::kCollection &&
       desc_.Type != StateObjectType::kRaytracingPipeline) {
     return MakeError(Id::kStateObjectInvalidSubobject, "state object type ",
@@ -71,26 +71,26 @@ Result<Parts> Gatherer::Run() {
   }
   definitions_.resize(desc_.Subobjects.size());
   // Read the flags first: they decide whether a collection may be included.
-  if (Status s = GatherConfigs(); !s.ok()) return s.error();
+  if (Status s = gather_configs(); !s.ok()) return s.error();
   for (size_t i = 0; i < desc_.Subobjects.size(); ++i) {
-    Status s = std::visit([&](const auto& sub) { return Gather(sub, i); }, desc_.Subobjects[i]);
+    Status s = std::visit([&](const auto& sub) { return gather(sub, i); }, desc_.Subobjects[i]);
     if (!s.ok()) return s.error();
   }
   for (size_t i = 0; i < desc_.Subobjects.size(); ++i) {
-    Status s = GatherAssociation(desc_.Subobjects[i], i);
+    Status s = gather_association(desc_.Subobjects[i], i);
     if (!s.ok()) return s.error();
   }
-  GatherDefaults();
-  if (Status s = CheckNames(); !s.ok()) return s.error();
+  gather_defaults();
+  if (Status s = check_names(); !s.ok()) return s.error();
   return std::move(parts_);
 }
 
-Status Gatherer::GatherConfigs() {
+Status Gatherer::gather_configs() {
   std::optional<StateObjectFlags> flags;
   for (size_t i = 0; i < desc_.Subobjects.size(); ++i) {
     const auto* config = std::get_if<StateObjectConfig>(&desc_.Subobjects[i]);
     if (!config) continue;
-    if (Status s = TakeFlags(config->Flags, Where(i), flags); !s.ok()) return s;
+    if (Status s = take_flags(config->Flags, where_of(i), flags); !s.ok()) return s;
   }
   const bool declared_here = flags.has_value();  // overrides the libraries' flags
   for (const StateSubobject& sub : desc_.Subobjects) {
@@ -99,8 +99,8 @@ Status Gatherer::GatherConfigs() {
     const auto& table = *library->DXILLibrary.impl()->desc;
     for (uint32_t i = 0; i < table.subobject_count; ++i) {
       const auto& s = table.subobjects[i];
-      if (s.type != 0 || !IsListed(*library, s.name)) continue;
-      if (Status st = TakeFlags(
+      if (s.type != 0 || !is_listed(*library, s.name)) continue;
+      if (Status st = take_flags(
               static_cast<StateObjectFlags>(s.values[0]),
               Text(Quoted(s.name ? s.name : ""), " of ", Quoted(library->DXILLibrary.name())),
               flags);
@@ -113,8 +113,8 @@ Status Gatherer::GatherConfigs() {
   return {};
 }
 
-Status Gatherer::TakeFlags(StateObjectFlags value, const std::string& where,
-                           std::optional<StateObjectFlags>& flags) {
+Status Gatherer::take_flags(StateObjectFlags value, const std::string& where,
+                            std::optional<StateObjectFlags>& flags) {
   if ((value & ~kDefinedObjectFlags) != StateObjectFlags::kNone) {
     return MakeError(Id::kConfigFlags, where, ": undefined state object flags ",
                      Hex(static_cast<uint32_t>(value)), "; only 0x1, 0x2 and 0x4 are defined");
@@ -128,34 +128,34 @@ Status Gatherer::TakeFlags(StateObjectFlags value, const std::string& where,
   return {};
 }
 
-Status Gatherer::Gather(const NodeMask& mask, size_t i) {
+Status Gatherer::gather(const NodeMask& mask, size_t i) {
   if (mask.Mask <= 1) return {};
-  return MakeError(Id::kStateObjectInvalidSubobject, Where(i), ": node mask ", Hex(mask.Mask),
+  return MakeError(Id::kStateObjectInvalidSubobject, where_of(i), ": node mask ", Hex(mask.Mask),
                    "; there is a single node, so it must be 0 or 1");
 }
 
-Status Gatherer::Gather(const GlobalRootSignature& sub, size_t i) {
-  return DefineRootSignature(sub.pGlobalRootSignature, false, Where(i), definitions_[i]);
+Status Gatherer::gather(const GlobalRootSignature& sub, size_t i) {
+  return define_root_signature(sub.pGlobalRootSignature, false, where_of(i), definitions_[i]);
 }
 
-Status Gatherer::Gather(const LocalRootSignature& sub, size_t i) {
-  return DefineRootSignature(sub.pLocalRootSignature, true, Where(i), definitions_[i]);
+Status Gatherer::gather(const LocalRootSignature& sub, size_t i) {
+  return define_root_signature(sub.pLocalRootSignature, true, where_of(i), definitions_[i]);
 }
 
-Status Gatherer::Gather(const RaytracingShaderConfig& sub, size_t i) {
-  return DefineShaderConfig(sub, Where(i), definitions_[i]);
+Status Gatherer::gather(const RaytracingShaderConfig& sub, size_t i) {
+  return define_shader_config(sub, where_of(i), definitions_[i]);
 }
 
-Status Gatherer::Gather(const RaytracingPipelineConfig& sub, size_t i) {
-  return DefinePipelineConfig({sub.MaxTraceRecursionDepth, RaytracingPipelineFlags::kNone}, false,
-                              Where(i), definitions_[i]);
+Status Gatherer::gather(const RaytracingPipelineConfig& sub, size_t i) {
+  return define_pipeline_config({sub.MaxTraceRecursionDepth, RaytracingPipelineFlags::kNone}, false,
+                                where_of(i), definitions_[i]);
 }
 
-Status Gatherer::Gather(const RaytracingPipelineConfig1& sub, size_t i) {
-  return DefinePipelineConfig(sub, true, Where(i), definitions_[i]);
+Status Gatherer::gather(const RaytracingPipelineConfig1& sub, size_t i) {
+  return define_pipeline_config(sub, true, where_of(i), definitions_[i]);
 }
 
-Status Gatherer::CheckNames() {
+Status Gatherer::check_names() {
   // Overloads share a plain name, so shaders clash only if their mangled names do, where they have
   // one.
   std::map<std::string, const Subject*> seen;
@@ -165,7 +165,7 @@ Status Gatherer::CheckNames() {
     auto [it, is_new] = seen.emplace(key, s.get());
     if (!is_new) {
       return MakeError(Id::kExportDuplicate, Quoted(s->name), " is exported twice",
-                       Origin(*it->second), Origin(*s),
+                       origin(*it->second), origin(*s),
                        "; rename one of them in its export list, or leave it out");
     }
   }
@@ -178,21 +178,21 @@ Status Gatherer::CheckNames() {
     if (s->hidden || !s->is_group()) continue;
     if (auto it = shaders.find(s->name); it != shaders.end()) {
       return MakeError(Id::kExportDuplicate, "hit group ", Quoted(s->name),
-                       " has the same name as a shader", Origin(*it->second));
+                       " has the same name as a shader", origin(*it->second));
     }
   }
   return {};
 }
 
-std::string Gatherer::Origin(const Subject& s) const {
+std::string Gatherer::origin(const Subject& s) const {
   if (s.collection_scope >= 0) return Text(", from collection ", s.collection_scope);
   if (s.library_scope < 0) return {};
   return Text(", from ", Quoted(parts_.libraries[static_cast<size_t>(s.library_scope)].name()));
 }
-Status Gatherer::GatherAssociation(const StateSubobject& sub, size_t i) {
+Status Gatherer::gather_association(const StateSubobject& sub, size_t i) {
   if (const auto* a = std::get_if<SubobjectToExportsAssociation>(&sub)) {
     if (a->SubobjectToAssociate >= desc_.Subobjects.size()) {
-      return MakeError(Id::kAssociationBadSubobject, Where(i), " associates subobject ",
+      return MakeError(Id::kAssociationBadSubobject, where_of(i), " associates subobject ",
                        a->SubobjectToAssociate, ", but there are only ", desc_.Subobjects.size());
     }
     const auto type = GetSubobjectType(desc_.Subobjects[a->SubobjectToAssociate]);
@@ -201,50 +201,50 @@ Status Gatherer::GatherAssociation(const StateSubobject& sub, size_t i) {
     }
     const DefinitionPtr& definition = definitions_[a->SubobjectToAssociate];
     if (!definition) {
-      return MakeError(Id::kAssociationBadSubobject, Where(i), " associates subobject ",
+      return MakeError(Id::kAssociationBadSubobject, where_of(i), " associates subobject ",
                        a->SubobjectToAssociate, " of type ", static_cast<uint32_t>(type),
                        "; only configs and root signatures can be associated with exports");
     }
-    Associate(definition, a->Exports, -1, Where(i));
+    associate(definition, a->Exports, -1, where_of(i));
   } else if (const auto* d = std::get_if<DxilSubobjectToExportsAssociation>(&sub)) {
-    const DefinitionPtr definition = FindInLibraries(d->SubobjectToAssociate);
+    const DefinitionPtr definition = find_in_libraries(d->SubobjectToAssociate);
     if (!definition && !parts_.is_collection()) {
-      return MakeError(Id::kAssociationBadSubobject, Where(i), " associates ",
+      return MakeError(Id::kAssociationBadSubobject, where_of(i), " associates ",
                        Quoted(d->SubobjectToAssociate),
                        ", which no included library declares as a config or root signature");
     }
-    if (definition) Associate(definition, d->Exports, -1, Where(i));
+    if (definition) associate(definition, d->Exports, -1, where_of(i));
   }
   return {};
 }
 
-DefinitionPtr Gatherer::FindInLibraries(const std::string& name) const {
+DefinitionPtr Gatherer::find_in_libraries(const std::string& name) const {
   for (const auto& definitions : library_definitions_) {
     if (auto it = definitions.find(name); it != definitions.end()) return it->second;
   }
   return nullptr;
 }
 
-void Gatherer::Associate(const DefinitionPtr& definition, const std::vector<std::string>& exports,
+void Gatherer::associate(const DefinitionPtr& definition, const std::vector<std::string>& exports,
                          int scope, const std::string& where) {
   associated_.insert(definition.get());
   if (exports.empty()) {
-    ScopeAt(scope).by_empty.push_back(definition);
+    scope_at(scope).by_empty.push_back(definition);
   } else {
     parts_.explicit_associations.push_back({definition, exports, scope, where});
   }
 }
 
-DefaultScope& Gatherer::ScopeAt(int scope) {
+DefaultScope& Gatherer::scope_at(int scope) {
   return scope < 0 ? parts_.own_scope : parts_.library_scopes[static_cast<size_t>(scope)];
 }
 
-void Gatherer::GatherDefaults() {
+void Gatherer::gather_defaults() {
   for (const LibraryAssociation& a : library_associations_) {
     const auto& own = library_definitions_[static_cast<size_t>(a.scope)];
     auto it = own.find(a.subobject);
-    const DefinitionPtr definition = it != own.end() ? it->second : FindInLibraries(a.subobject);
-    if (definition) Associate(definition, a.exports, a.scope, a.where);
+    const DefinitionPtr definition = it != own.end() ? it->second : find_in_libraries(a.subobject);
+    if (definition) associate(definition, a.exports, a.scope, a.where);
   }
   for (const DefinitionPtr& d : definitions_) {
     if (d && !associated_.count(d.get())) parts_.own_scope.implicit.push_back(d);
@@ -255,20 +255,20 @@ void Gatherer::GatherDefaults() {
     }
   }
 }
-Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc) {
-  if (!device->desc.Checked) return Gatherer(device, desc).Run();
+Result<Parts> gather_parts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc) {
+  if (!device->desc.Checked) return Gatherer(device, desc).run();
   StateObjectDesc checked = desc;
   bool all = true;
   for (StateSubobject& sub : checked.Subobjects) {
     auto* library = std::get_if<DxilLibraryDesc>(&sub);
     if (!library || !library->DXILLibrary) continue;
-    library->DXILLibrary = device->LibraryToRun(library->DXILLibrary);
+    library->DXILLibrary = device->library_to_run(library->DXILLibrary);
     all &= (library->DXILLibrary.impl()->desc->flags & kaamos::shader::kLibraryChecked) != 0;
   }
   // In SPIR-V the checked mode's payload header is part of the payload's type, so checked and
   // unchecked shaders cannot exchange payloads.
   const bool mixed_is_safe = device->desc.Backend != "vulkan";
-  return Gatherer(device, all || mixed_is_safe ? checked : desc).Run();
+  return Gatherer(device, all || mixed_is_safe ? checked : desc).run();
 }
 
 }  // namespace detail

@@ -36,14 +36,14 @@ constexpr VertexFormatInfo kVertexFormats[] = {
     {Format::kR8G8B8A8Snorm, 1, 3, 0, true},
 };
 
-const VertexFormatInfo* FindVertexFormat(Format format) {
+const VertexFormatInfo* find_vertex_format(Format format) {
   for (const auto& f : kVertexFormats) {
     if (f.format == format) return &f;
   }
   return nullptr;
 }
 
-std::string GeometryText(size_t index) {
+std::string geometry_text(size_t index) {
   return Text("geometry ", index);
 }
 
@@ -51,8 +51,8 @@ std::string GeometryText(size_t index) {
 // [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
 enum class Purpose { kSize, kBuild };
 
-Status CheckAddresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_unit,
-                      const std::string& where) {
+Status check_addresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_unit,
+                       const std::string& where) {
   if (t.VertexBuffer.StartAddress % vertex_unit != 0) {
     return MakeError(Id::kVertexBufferAlignment, where, ": vertices are at ",
                      Hex(t.VertexBuffer.StartAddress),
@@ -77,10 +77,10 @@ Status CheckAddresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_
   return {};
 }
 
-Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTrianglesDesc& t,
-                      size_t index, Purpose purpose) {
-  const std::string where = GeometryText(index);
-  const VertexFormatInfo* format = FindVertexFormat(t.VertexFormat);
+Status check_triangles(const DeviceImpl& device, const RaytracingGeometryTrianglesDesc& t,
+                       size_t index, Purpose purpose) {
+  const std::string where = geometry_text(index);
+  const VertexFormatInfo* format = find_vertex_format(t.VertexFormat);
   if (!format || (format->tier_1_1 && device.desc.Tier < RaytracingTier::kTier1_1)) {
     return MakeError(Id::kVertexFormat, where, ": vertex format ",
                      static_cast<uint32_t>(t.VertexFormat),
@@ -107,34 +107,34 @@ Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTriangle
                      t.IndexBuffer ? std::string("an index buffer is given")
                                    : Text("IndexCount is ", t.IndexCount));
   }
-  return purpose == Purpose::kBuild ? CheckAddresses(t, unit, where) : Status();
+  return purpose == Purpose::kBuild ? check_addresses(t, unit, where) : Status();
 }
 
-Status CheckAabbs(const RaytracingGeometryAabbsDesc& a, size_t index, Purpose purpose) {
+Status check_aabbs(const RaytracingGeometryAabbsDesc& a, size_t index, Purpose purpose) {
   const uint64_t address = purpose == Purpose::kBuild ? a.AABBs.StartAddress : 0;
   if (address % kRaytracingAabbByteAlignment == 0 &&
       a.AABBs.StrideInBytes % kRaytracingAabbByteAlignment == 0) {
     return {};
   }
-  return MakeError(Id::kAabbAlignment, GeometryText(index), ": AABBs at ",
+  return MakeError(Id::kAabbAlignment, geometry_text(index), ": AABBs at ",
                    Hex(a.AABBs.StartAddress), " with stride ", a.AABBs.StrideInBytes,
                    "; both must be multiples of 8");
 }
 
-uint64_t PrimitiveCount(const RaytracingGeometryDesc& g) {
+uint64_t primitive_count(const RaytracingGeometryDesc& g) {
   if (g.Type != RaytracingGeometryType::kTriangles) return g.AABBs.AABBCount;
   const auto& t = g.Triangles;
   return (t.IndexFormat == Format::kUnknown ? t.VertexCount : t.IndexCount) / 3;
 }
 
-const RaytracingGeometryDesc* GeometryAt(const BuildRaytracingAccelerationStructureInputs& inputs,
-                                         uint32_t i) {
+const RaytracingGeometryDesc* geometry_at(const BuildRaytracingAccelerationStructureInputs& inputs,
+                                          uint32_t i) {
   return inputs.DescsLayout == ElementsLayout::kArray ? inputs.pGeometryDescs + i
                                                       : inputs.ppGeometryDescs[i];
 }
 
-Status CheckGeometries(const DeviceImpl& device,
-                       const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
+Status check_geometries(const DeviceImpl& device,
+                        const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (inputs.NumDescs > kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure) {
     return MakeError(Id::kGeometryLimits, inputs.NumDescs, " geometries; at most 2^24 are allowed");
   }
@@ -145,15 +145,15 @@ Status CheckGeometries(const DeviceImpl& device,
   uint64_t primitives = 0;
   RaytracingGeometryType type = RaytracingGeometryType::kTriangles;
   for (uint32_t i = 0; i < inputs.NumDescs; ++i) {
-    const RaytracingGeometryDesc* g = GeometryAt(inputs, i);
-    if (!g) return MakeError(Id::kGeometryDescsNull, GeometryText(i), " is a null pointer");
+    const RaytracingGeometryDesc* g = geometry_at(inputs, i);
+    if (!g) return MakeError(Id::kGeometryDescsNull, geometry_text(i), " is a null pointer");
     if (g->Type > RaytracingGeometryType::kProceduralPrimitiveAabbs) {
-      return MakeError(Id::kBuildInputs, GeometryText(i), " has type ",
+      return MakeError(Id::kBuildInputs, geometry_text(i), " has type ",
                        static_cast<uint32_t>(g->Type), "; it must be 0 or 1");
     }
     if (i == 0) type = g->Type;
     if (g->Type != type) {
-      return MakeError(Id::kGeometryMixed, GeometryText(i), " holds ",
+      return MakeError(Id::kGeometryMixed, geometry_text(i), " holds ",
                        type == RaytracingGeometryType::kTriangles
                            ? "AABBs but geometry 0 holds triangles"
                            : "triangles but geometry 0 holds AABBs",
@@ -162,14 +162,14 @@ Status CheckGeometries(const DeviceImpl& device,
     const auto known =
         RaytracingGeometryFlags::kOpaque | RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
     if ((g->Flags & ~known) != RaytracingGeometryFlags::kNone) {
-      return MakeError(Id::kBuildInputs, GeometryText(i), " has undefined flags ",
+      return MakeError(Id::kBuildInputs, geometry_text(i), " has undefined flags ",
                        Hex(static_cast<uint32_t>(g->Flags)));
     }
     Status s = type == RaytracingGeometryType::kTriangles
-                   ? CheckTriangles(device, g->Triangles, i, purpose)
-                   : CheckAabbs(g->AABBs, i, purpose);
+                   ? check_triangles(device, g->Triangles, i, purpose)
+                   : check_aabbs(g->AABBs, i, purpose);
     if (!s.ok()) return s;
-    const uint64_t count = PrimitiveCount(*g);
+    const uint64_t count = primitive_count(*g);
     primitives = std::min(primitives, UINT64_MAX - count) + count;
   }
   if (primitives > kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
@@ -179,70 +179,72 @@ Status CheckGeometries(const DeviceImpl& device,
 }
 
 // Checks that every byte of [address, address + bytes) lies in one live buffer.
-Status CheckLive(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
-                 const std::string& what) {
+Status check_live(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                  const std::string& what) {
   if (bytes == 0) return {};
   const uint64_t available = device.addresses.bytes_from(address);
   if (available == 0) {
     return MakeError(Id::kBuildAddress, what, ": needs ", bytes, " bytes at ",
-                     device.DescribeAddress(address));
+                     device.describe_address(address));
   }
   if (available < bytes) {
     return MakeError(Id::kBuildMemoryTooSmall, what, ": needs ", bytes, " bytes from ",
-                     device.DescribeAddress(address), ", but the buffer has only ", available,
+                     device.describe_address(address), ", but the buffer has only ", available,
                      " left there");
   }
   return {};
 }
 
 // Bytes from the start of the first element to the end of the last; UINT64_MAX on overflow.
-uint64_t Extent(uint64_t count, uint64_t stride, uint64_t element) {
+uint64_t extent_bytes(uint64_t count, uint64_t stride, uint64_t element) {
   if (count == 0) return 0;
   if (stride != 0 && count - 1 > (UINT64_MAX - element) / stride) return UINT64_MAX;
   return (count - 1) * stride + element;
 }
 
-Status CheckGeometryMemory(const DeviceImpl& device, const RaytracingGeometryDesc& g,
-                           size_t index) {
-  const std::string where = GeometryText(index);
+Status check_geometry_memory(const DeviceImpl& device, const RaytracingGeometryDesc& g,
+                             size_t index) {
+  const std::string where = geometry_text(index);
   if (g.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
-    return CheckLive(device, g.AABBs.AABBs.StartAddress,
-                     Extent(g.AABBs.AABBCount, g.AABBs.AABBs.StrideInBytes, sizeof(RaytracingAabb)),
-                     where + " AABBs");
+    return check_live(
+        device, g.AABBs.AABBs.StartAddress,
+        extent_bytes(g.AABBs.AABBCount, g.AABBs.AABBs.StrideInBytes, sizeof(RaytracingAabb)),
+        where + " AABBs");
   }
   const auto& t = g.Triangles;
   const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
-  Status s = CheckLive(device, t.VertexBuffer.StartAddress,
-                       Extent(t.VertexCount, stride, FindVertexFormat(t.VertexFormat)->read_bytes),
-                       where + " vertices");
+  Status s = check_live(
+      device, t.VertexBuffer.StartAddress,
+      extent_bytes(t.VertexCount, stride, find_vertex_format(t.VertexFormat)->read_bytes),
+      where + " vertices");
   if (!s.ok()) return s;
   const uint64_t index_bytes = t.IndexFormat == Format::kR16Uint ? 2 : 4;
-  s = CheckLive(device, t.IndexBuffer, t.IndexCount * index_bytes, where + " indices");
+  s = check_live(device, t.IndexBuffer, t.IndexCount * index_bytes, where + " indices");
   if (!s.ok() || t.Transform3x4 == 0) return s;
-  return CheckLive(device, t.Transform3x4, 48, where + " Transform3x4");
+  return check_live(device, t.Transform3x4, 48, where + " Transform3x4");
 }
 
-Status CheckInstanceMemory(const DeviceImpl& device,
-                           const BuildRaytracingAccelerationStructureInputs& inputs) {
+Status check_instance_memory(const DeviceImpl& device,
+                             const BuildRaytracingAccelerationStructureInputs& inputs) {
   const bool array = inputs.DescsLayout == ElementsLayout::kArray;
   const uint32_t alignment = array ? kRaytracingInstanceDescsByteAlignment : 8;
   if (inputs.NumDescs != 0 && inputs.InstanceDescs % alignment != 0) {
     return MakeError(Id::kInstanceDescs, array ? "instance descs" : "instance desc pointers",
-                     " at ", device.DescribeAddress(inputs.InstanceDescs),
+                     " at ", device.describe_address(inputs.InstanceDescs),
                      "; the address must be a multiple of ", alignment);
   }
-  return CheckLive(device, inputs.InstanceDescs,
-                   uint64_t{inputs.NumDescs} * (array ? sizeof(RaytracingInstanceDesc) : 8),
-                   "instance descs");
+  return check_live(device, inputs.InstanceDescs,
+                    uint64_t{inputs.NumDescs} * (array ? sizeof(RaytracingInstanceDesc) : 8),
+                    "instance descs");
 }
 
-Status CheckScratch(const DeviceImpl& device, const BuildRaytracingAccelerationStructureDesc& desc,
-                    uint64_t bytes) {
+Status check_scratch(const DeviceImpl& device, const BuildRaytracingAccelerationStructureDesc& desc,
+                     uint64_t bytes) {
   if (bytes == 0) return {};
   const GpuVirtualAddress scratch = desc.ScratchAccelerationStructureData;
   if (scratch % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureAlignment, "scratch is at ",
-                     device.DescribeAddress(scratch), "; its address must be a multiple of 256");
+                     device.describe_address(scratch), "; its address must be a multiple of 256");
   }
   const auto allocation = device.addresses.find(scratch);
   if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
@@ -250,11 +252,11 @@ Status CheckScratch(const DeviceImpl& device, const BuildRaytracingAccelerationS
                      Named("buffer", allocation->name),
                      ", which was created without kAllowUnorderedAccess");
   }
-  return CheckLive(device, scratch, bytes, "scratch");
+  return check_live(device, scratch, bytes, "scratch");
 }
 
-Status CheckInputs(const DeviceImpl& device,
-                   const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
+Status check_inputs(const DeviceImpl& device,
+                    const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (inputs.Type > StructureType::kBottomLevel) {
     return MakeError(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
                      "; it must be kTopLevel (0) or kBottomLevel (1)");
@@ -272,7 +274,7 @@ Status CheckInputs(const DeviceImpl& device,
     return MakeError(Id::kBuildFlagsExclusive,
                      "kPreferFastTrace and kPreferFastBuild are both set");
   }
-  if (inputs.Type == StructureType::kBottomLevel) return CheckGeometries(device, inputs, purpose);
+  if (inputs.Type == StructureType::kBottomLevel) return check_geometries(device, inputs, purpose);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
     return MakeError(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
   }
@@ -281,30 +283,30 @@ Status CheckInputs(const DeviceImpl& device,
 
 }  // namespace
 
-Status CheckBuildInputs(const DeviceImpl& device,
-                        const BuildRaytracingAccelerationStructureInputs& inputs) {
-  return CheckInputs(device, inputs, Purpose::kBuild);
+Status check_build_inputs(const DeviceImpl& device,
+                          const BuildRaytracingAccelerationStructureInputs& inputs) {
+  return check_inputs(device, inputs, Purpose::kBuild);
 }
 
-std::vector<RaytracingGeometryDesc> CopyGeometryDescs(
+std::vector<RaytracingGeometryDesc> copy_geometry_descs(
     const BuildRaytracingAccelerationStructureInputs& inputs) {
   std::vector<RaytracingGeometryDesc> out;
   if (inputs.Type != StructureType::kBottomLevel) return out;
   out.reserve(inputs.NumDescs);
-  for (uint32_t i = 0; i < inputs.NumDescs; ++i) out.push_back(*GeometryAt(inputs, i));
+  for (uint32_t i = 0; i < inputs.NumDescs; ++i) out.push_back(*geometry_at(inputs, i));
   return out;
 }
 
-Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address,
-                             std::string_view what) {
+Status check_structure_address(const DeviceImpl& device, GpuVirtualAddress address,
+                               std::string_view what) {
   if (address == 0 || address % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
-                     device.DescribeAddress(address),
+                     device.describe_address(address),
                      "; its address must be a multiple of 256 and not 0");
   }
   const auto allocation = device.addresses.find(address);
   if (!allocation) {
-    return MakeError(Id::kBuildAddress, what, " is at ", device.DescribeAddress(address));
+    return MakeError(Id::kBuildAddress, what, " is at ", device.describe_address(address));
   }
   if (!allocation->acceleration_structure) {
     return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
@@ -314,20 +316,20 @@ Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address
   return {};
 }
 
-Status CheckBuildAddresses(const DeviceImpl& device,
-                           const BuildRaytracingAccelerationStructureDesc& desc,
-                           const std::vector<RaytracingGeometryDesc>& geometries) {
+Status check_build_addresses(const DeviceImpl& device,
+                             const BuildRaytracingAccelerationStructureDesc& desc,
+                             const std::vector<RaytracingGeometryDesc>& geometries) {
   const auto& inputs = desc.Inputs;
   const bool update = HasAny(inputs.Flags, BuildFlags::kPerformUpdate);
-  Status s = CheckStructureAddress(device, desc.DestAccelerationStructureData, "dest");
+  Status s = check_structure_address(device, desc.DestAccelerationStructureData, "dest");
   if (!s.ok()) return s;
   if (!update && desc.SourceAccelerationStructureData != 0) {
     return MakeError(Id::kBuildUpdate, "source is ",
-                     device.DescribeAddress(desc.SourceAccelerationStructureData),
+                     device.describe_address(desc.SourceAccelerationStructureData),
                      ", but it must be 0 without kPerformUpdate");
   }
   if (update) {
-    s = CheckStructureAddress(device, desc.SourceAccelerationStructureData, "source");
+    s = check_structure_address(device, desc.SourceAccelerationStructureData, "source");
     if (!s.ok()) return s;
   }
   const bool top = inputs.Type == StructureType::kTopLevel;
@@ -336,24 +338,24 @@ Status CheckBuildAddresses(const DeviceImpl& device,
   // An update writes as much memory as its source holds. The source may have been compacted, so
   // only the backend knows how much that is.
   if (!update) {
-    s = CheckLive(device, desc.DestAccelerationStructureData, sizes.ResultDataMaxSizeInBytes,
-                  "dest");
+    s = check_live(device, desc.DestAccelerationStructureData, sizes.ResultDataMaxSizeInBytes,
+                   "dest");
     if (!s.ok()) return s;
   }
-  s = CheckScratch(device, desc,
-                   update ? sizes.UpdateScratchDataSizeInBytes : sizes.ScratchDataSizeInBytes);
+  s = check_scratch(device, desc,
+                    update ? sizes.UpdateScratchDataSizeInBytes : sizes.ScratchDataSizeInBytes);
   if (!s.ok()) return s;
   for (size_t i = 0; i < geometries.size(); ++i) {
-    if (s = CheckGeometryMemory(device, geometries[i], i); !s.ok()) return s;
+    if (s = check_geometry_memory(device, geometries[i], i); !s.ok()) return s;
   }
-  return top ? CheckInstanceMemory(device, inputs) : Status();
+  return top ? check_instance_memory(device, inputs) : Status();
 }
 
-Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
-                           bool written, std::string_view what) {
+Status check_structure_bytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                             bool written, std::string_view what) {
   if (address % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
-                     device.DescribeAddress(address), "; its address must be a multiple of 256");
+                     device.describe_address(address), "; its address must be a multiple of 256");
   }
   const auto allocation = device.addresses.find(address);
   if (allocation && allocation->acceleration_structure) {
@@ -367,12 +369,12 @@ Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, 
                      Named("buffer", allocation->name),
                      ", which was created without kAllowUnorderedAccess");
   }
-  return CheckLive(device, address, bytes, std::string(what));
+  return check_live(device, address, bytes, std::string(what));
 }
 
-Status CheckPostbuildInfo(const DeviceImpl& device,
-                          const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
-                          size_t count) {
+Status check_postbuild_info(const DeviceImpl& device,
+                            const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
+                            size_t count) {
   using Type = RaytracingAccelerationStructurePostbuildInfoType;
   if (desc.InfoType > Type::kCurrentSize) {
     return MakeError(Id::kPostbuildInfo, "InfoType is ", static_cast<uint32_t>(desc.InfoType),
@@ -380,7 +382,7 @@ Status CheckPostbuildInfo(const DeviceImpl& device,
   }
   if (desc.DestBuffer % 8 != 0) {
     return MakeError(Id::kPostbuildInfo, "DestBuffer is at ",
-                     device.DescribeAddress(desc.DestBuffer),
+                     device.describe_address(desc.DestBuffer),
                      "; its address must be a multiple of 8");
   }
   const auto allocation = device.addresses.find(desc.DestBuffer);
@@ -388,8 +390,8 @@ Status CheckPostbuildInfo(const DeviceImpl& device,
     return MakeError(Id::kPostbuildInfo, "DestBuffer is in ", Named("buffer", allocation->name),
                      ", which was created without kAllowUnorderedAccess");
   }
-  return CheckLive(device, desc.DestBuffer,
-                   count * (desc.InfoType == Type::kSerialization ? 16 : 8), "postbuild info");
+  return check_live(device, desc.DestBuffer,
+                    count * (desc.InfoType == Type::kSerialization ? 16 : 8), "postbuild info");
 }
 
 }  // namespace detail
@@ -409,9 +411,9 @@ Device::GetRaytracingAccelerationStructurePrebuildInfo(
     return MakeError(Id::kNullHandle,
                      "GetRaytracingAccelerationStructurePrebuildInfo "
                      "on an empty device handle");
-  if (Status s = CheckInputs(*impl_, inputs, Purpose::kSize); !s.ok()) return s.error();
+  if (Status s = check_inputs(*impl_, inputs, Purpose::kSize); !s.ok()) return s.error();
   const bool top = inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
-  return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, CopyGeometryDescs(inputs),
+  return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, copy_geometry_descs(inputs),
                                        top ? inputs.NumDescs : 0);
 }
 

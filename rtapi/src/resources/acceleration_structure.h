@@ -14,24 +14,24 @@
 namespace rtapi::detail {
 
 // Checks a description whose addresses must be there.
-Status CheckBuildInputs(const DeviceImpl& device,
-                        const BuildRaytracingAccelerationStructureInputs& inputs);
+Status check_build_inputs(const DeviceImpl& device,
+                          const BuildRaytracingAccelerationStructureInputs& inputs);
 // Copies the geometry descs of bottom-level inputs that passed the checks, from either layout.
-std::vector<RaytracingGeometryDesc> CopyGeometryDescs(
+std::vector<RaytracingGeometryDesc> copy_geometry_descs(
     const BuildRaytracingAccelerationStructureInputs& inputs);
 // Checks alignment, liveness and extent of every address.
-Status CheckBuildAddresses(const DeviceImpl& device,
-                           const BuildRaytracingAccelerationStructureDesc& desc,
-                           const std::vector<RaytracingGeometryDesc>& geometries);
-Status CheckPostbuildInfo(const DeviceImpl& device,
-                          const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
-                          size_t count);
+Status check_build_addresses(const DeviceImpl& device,
+                             const BuildRaytracingAccelerationStructureDesc& desc,
+                             const std::vector<RaytracingGeometryDesc>& geometries);
+Status check_postbuild_info(const DeviceImpl& device,
+                            const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
+                            size_t count);
 // Checks that the address is 256-aligned and inside a buffer made for acceleration structures.
-Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address,
-                             std::string_view what);
+Status check_structure_address(const DeviceImpl& device, GpuVirtualAddress address,
+                               std::string_view what);
 // Checks that the address is 256-aligned and that `bytes` from it are inside a plain buffer; if
 // `written`, one that shaders may write.
-Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
-                           bool written, std::string_view what);
+Status check_structure_bytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                             bool written, std::string_view what);
 
 }  // namespace rtapi::detail

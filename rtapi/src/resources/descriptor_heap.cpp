@@ -17,11 +17,11 @@ namespace {
 constexpr uint32_t kMaxViews = 1'000'000;  // [D3D12: hardware tiers]
 const DescriptorHeapDesc kEmptyHeap;
 
-bool HoldsTargets(DescriptorHeapType type) {
+bool holds_targets(DescriptorHeapType type) {
   return type == DescriptorHeapType::kRtv || type == DescriptorHeapType::kDsv;
 }
 
-Status CheckHeap(const DescriptorHeapDesc& desc) {
+Status check_heap(const DescriptorHeapDesc& desc) {
   const std::string name = Named("descriptor heap", desc.Name);
   const bool samplers = desc.Type == DescriptorHeapType::kSampler;
   if (desc.Type > DescriptorHeapType::kDsv) {
@@ -33,7 +33,7 @@ Status CheckHeap(const DescriptorHeapDesc& desc) {
     return MakeError(Id::kHeapType, name, " has undefined flags ",
                      Hex(static_cast<uint32_t>(desc.Flags)));
   }
-  if (visible && HoldsTargets(desc.Type)) {
+  if (visible && holds_targets(desc.Type)) {
     return MakeError(Id::kHeapType, name,
                      " has kShaderVisible, but shaders do not read heaps of RTVs and DSVs");
   }
@@ -48,7 +48,7 @@ Status CheckHeap(const DescriptorHeapDesc& desc) {
 }  // namespace
 
 detail::DescriptorHeapImpl::~DescriptorHeapImpl() {
-  if (memory) device->UnregisterHeap(memory->host());
+  if (memory) device->unregister_heap(memory->host());
 }
 
 const DescriptorHeapDesc& DescriptorHeap::GetDesc() const {
@@ -65,7 +65,7 @@ GpuDescriptorHandle DescriptorHeap::GetGPUDescriptorHandleForHeapStart() const {
 Result<DescriptorHeap> Device::CreateDescriptorHeap(const DescriptorHeapDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateDescriptorHeap on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
-  if (Status s = CheckHeap(desc); !s.ok()) return s.error();
+  if (Status s = check_heap(desc); !s.ok()) return s.error();
   BufferDesc memory_desc;
   memory_desc.SizeInBytes = uint64_t{desc.NumDescriptors} * kDescriptorHandleIncrementSize;
   memory_desc.Heap = HeapType::kUpload;
@@ -76,9 +76,9 @@ Result<DescriptorHeap> Device::CreateDescriptorHeap(const DescriptorHeapDesc& de
   heap->device = impl_;
   heap->desc = desc;
   heap->memory = std::move(*memory);
-  if (HoldsTargets(desc.Type)) heap->targets.resize(desc.NumDescriptors);
-  impl_->RegisterHeap(heap->memory->host(), heap->memory->address(), desc,
-                      heap->targets.empty() ? nullptr : heap->targets.data());
+  if (holds_targets(desc.Type)) heap->targets.resize(desc.NumDescriptors);
+  impl_->register_heap(heap->memory->host(), heap->memory->address(), desc,
+                       heap->targets.empty() ? nullptr : heap->targets.data());
   return DescriptorHeap(std::move(heap));
 }
 
@@ -86,8 +86,8 @@ Status Device::CopyDescriptorsSimple(uint32_t count, CpuDescriptorHandle dest,
                                      CpuDescriptorHandle source, DescriptorHeapType type) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CopyDescriptorsSimple on an empty device handle");
   if (count == 0) return {};
-  const auto to = impl_->FindSlot(dest);
-  const auto from = impl_->FindSlot(source);
+  const auto to = impl_->find_slot(dest);
+  const auto from = impl_->find_slot(source);
   if (!to || !from) {
     return MakeError(Id::kDescriptorHandle, to ? "source " : "dest ",
                      Hex(to ? source.ptr : dest.ptr), " is not in a live descriptor heap");

@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 40;
 
-Status CheckBuffer(const BufferDesc& desc) {
+Status check_buffer(const BufferDesc& desc) {
   const std::string name = Named("buffer", desc.Name);
   if (desc.SizeInBytes == 0 || desc.SizeInBytes > kMaxBufferBytes) {
     return MakeError(Id::kBufferSize, name, " has ", desc.SizeInBytes,
@@ -57,7 +57,7 @@ Status CheckBuffer(const BufferDesc& desc) {
   return {};
 }
 
-uint32_t AxisLimit(const TextureDesc& desc) {
+uint32_t axis_limit(const TextureDesc& desc) {
   switch (desc.Dimension) {
     case ResourceDimension::kTexture1D:
       return kReqTexture1DUDimension;
@@ -69,7 +69,7 @@ uint32_t AxisLimit(const TextureDesc& desc) {
 }
 
 // [D3D12: D3D12_RESOURCE_FLAGS]
-Status CheckTextureFlags(const TextureDesc& desc, const std::string& name) {
+Status check_texture_flags(const TextureDesc& desc, const std::string& name) {
   using F = ResourceFlags;
   constexpr F kKnown = F::kAllowRenderTarget | F::kAllowDepthStencil | F::kAllowUnorderedAccess |
                        F::kDenyShaderResource;
@@ -102,7 +102,7 @@ Status CheckTextureFlags(const TextureDesc& desc, const std::string& name) {
 }
 
 // Whether draws can write to a texture as its flags say. Typeless formats are tried by their views.
-Status CheckTargetSupport(const DeviceImpl& device, const TextureDesc& desc) {
+Status check_target_support(const DeviceImpl& device, const TextureDesc& desc) {
   const bool depth = HasAny(desc.Flags, ResourceFlags::kAllowDepthStencil);
   if (!depth && !HasAny(desc.Flags, ResourceFlags::kAllowRenderTarget)) return {};
   const Format format = depth ? GetDepthFormat(desc.Format) : desc.Format;
@@ -113,7 +113,7 @@ Status CheckTargetSupport(const DeviceImpl& device, const TextureDesc& desc) {
 }
 
 // Sides need not be multiples of 4: as with UnalignedBlockTexturesSupported.
-Status CheckBlockTexture(const TextureDesc& desc, const std::string& name) {
+Status check_block_texture(const TextureDesc& desc, const std::string& name) {
   if (GetFormatInfo(desc.Format).block_side == 1) return {};
   if (HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
     return MakeError(Id::kBlockAccess, name, " has block-compressed DXGI format ",
@@ -128,7 +128,7 @@ Status CheckBlockTexture(const TextureDesc& desc, const std::string& name) {
   return {};
 }
 
-Status CheckTexture(const TextureDesc& desc) {
+Status check_texture(const TextureDesc& desc) {
   const std::string name = Named("texture", desc.Name);
   const auto d = desc.Dimension;
   if (d != ResourceDimension::kTexture1D && d != ResourceDimension::kTexture2D &&
@@ -136,7 +136,7 @@ Status CheckTexture(const TextureDesc& desc) {
     return MakeError(Id::kTextureSize, name, " has dimension ", static_cast<uint32_t>(d),
                      "; it must be kTexture1D, kTexture2D or kTexture3D");
   }
-  const uint32_t limit = AxisLimit(desc);
+  const uint32_t limit = axis_limit(desc);
   const uint32_t depth_limit = d == ResourceDimension::kTexture3D ? kReqTexture3DUVOrWDimension
                                                                   : kReqTexture2DArrayAxisDimension;
   const uint32_t height_limit = d == ResourceDimension::kTexture1D ? 1 : limit;
@@ -146,17 +146,17 @@ Status CheckTexture(const TextureDesc& desc) {
                      desc.DepthOrArraySize, "; it must be 1x1x1 to ", limit, "x", height_limit, "x",
                      depth_limit);
   }
-  if (desc.MipLevels > FullMipCount(desc)) {
+  if (desc.MipLevels > full_mip_count(desc)) {
     return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels, but ",
-                     desc.Width, "x", desc.Height, " texels allow at most ", FullMipCount(desc));
+                     desc.Width, "x", desc.Height, " texels allow at most ", full_mip_count(desc));
   }
   if (GetFormatInfo(desc.Format).type == FormatClass::kUnsupported) {
     return MakeError(Id::kTextureFormat, name, " has DXGI format ",
                      static_cast<uint32_t>(desc.Format),
                      "; only the colour formats of rtapi/format.h are supported");
   }
-  if (Status s = CheckBlockTexture(desc, name); !s.ok()) return s;
-  if (Status s = CheckTextureFlags(desc, name); !s.ok()) return s;
+  if (Status s = check_block_texture(desc, name); !s.ok()) return s;
+  if (Status s = check_texture_flags(desc, name); !s.ok()) return s;
   if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
     return MakeError(Id::kAccelerationStructureBuffer, name,
                      " is a texture; only buffers hold acceleration structures");
@@ -166,19 +166,19 @@ Status CheckTexture(const TextureDesc& desc) {
 
 }  // namespace
 
-MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip) {
+MipExtent get_mip_extent(const TextureDesc& desc, uint32_t mip) {
   auto at = [mip](uint32_t size) { return std::max(1u, mip < 32 ? size >> mip : 0u); };
   const bool volume = desc.Dimension == ResourceDimension::kTexture3D;
   return {at(desc.Width), at(desc.Height), volume ? at(desc.DepthOrArraySize) : 1};
 }
 
-MipExtent GetMipElements(const TextureDesc& desc, uint32_t mip) {
+MipExtent get_mip_elements(const TextureDesc& desc, uint32_t mip) {
   const uint32_t side = GetFormatInfo(desc.Format).block_side;
-  const MipExtent texels = GetMipExtent(desc, mip);
+  const MipExtent texels = get_mip_extent(desc, mip);
   return {(texels.width + side - 1) / side, (texels.height + side - 1) / side, texels.depth};
 }
 
-uint32_t FullMipCount(const TextureDesc& desc) {
+uint32_t full_mip_count(const TextureDesc& desc) {
   uint32_t size = std::max(desc.Width, desc.Height);
   if (desc.Dimension == ResourceDimension::kTexture3D) {
     size = std::max<uint32_t>(size, desc.DepthOrArraySize);
@@ -188,11 +188,11 @@ uint32_t FullMipCount(const TextureDesc& desc) {
   return count;
 }
 
-uint32_t ArraySize(const TextureDesc& desc) {
+uint32_t array_size(const TextureDesc& desc) {
   return desc.Dimension == ResourceDimension::kTexture3D ? 1 : desc.DepthOrArraySize;
 }
 
-uint32_t FormatFamily(Format format) {
+uint32_t format_family(Format format) {
   const auto f = static_cast<uint32_t>(format);
   // First and last number of each DXGI format family, including its typeless member.
   static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18}, {19, 22},
@@ -259,7 +259,7 @@ const TextureDesc& Texture::GetDesc() const {
   return impl_ ? impl_->desc : kEmptyTexture;
 }
 uint32_t Texture::subresource_count() const {
-  return impl_ ? impl_->desc.MipLevels * ArraySize(impl_->desc) : 0;
+  return impl_ ? impl_->desc.MipLevels * array_size(impl_->desc) : 0;
 }
 void Texture::SetName(std::string name) {
   if (!impl_) return;
@@ -270,7 +270,7 @@ void Texture::SetName(std::string name) {
 Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateBuffer on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
-  if (Status s = CheckBuffer(desc); !s.ok()) return s.error();
+  if (Status s = check_buffer(desc); !s.ok()) return s.error();
   auto memory = impl_->backend->create_buffer(desc);
   if (!memory.ok()) return memory.error();
   auto buffer = std::make_shared<BufferImpl>();
@@ -286,10 +286,10 @@ Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
 Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateTexture on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
-  if (Status s = CheckTexture(desc); !s.ok()) return s.error();
-  if (Status s = CheckTargetSupport(*impl_, desc); !s.ok()) return s.error();
+  if (Status s = check_texture(desc); !s.ok()) return s.error();
+  if (Status s = check_target_support(*impl_, desc); !s.ok()) return s.error();
   TextureDesc resolved = desc;
-  if (resolved.MipLevels == 0) resolved.MipLevels = static_cast<uint16_t>(FullMipCount(desc));
+  if (resolved.MipLevels == 0) resolved.MipLevels = static_cast<uint16_t>(full_mip_count(desc));
   auto memory = impl_->backend->create_texture(resolved);
   if (!memory.ok()) return memory.error();
   auto texture = std::make_shared<TextureImpl>();
@@ -307,9 +307,9 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
                                                std::vector<PlacedSubresourceFootprint>* layouts,
                                                std::vector<uint32_t>* row_counts,
                                                std::vector<uint64_t>* row_bytes) const {
-  if (Status s = CheckTexture(desc); !s.ok()) return s.error();
-  const uint32_t mips = desc.MipLevels ? desc.MipLevels : FullMipCount(desc);
-  const uint64_t total = uint64_t{mips} * detail::ArraySize(desc);
+  if (Status s = check_texture(desc); !s.ok()) return s.error();
+  const uint32_t mips = desc.MipLevels ? desc.MipLevels : full_mip_count(desc);
+  const uint64_t total = uint64_t{mips} * detail::array_size(desc);
   if (uint64_t{first} + count > total) {
     return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
                      " do not exist in ", Named("texture", desc.Name), ", which has ", total);
@@ -318,10 +318,10 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
   uint64_t offset = base_offset;
   uint64_t end = base_offset;
   for (uint32_t i = first; i < first + count; ++i) {
-    const MipExtent extent = GetMipElements(desc, i % mips);
+    const MipExtent extent = get_mip_elements(desc, i % mips);
     const uint64_t row = uint64_t{extent.width} * format.bytes;
-    const uint64_t pitch = AlignUp(row, kTextureDataPitchAlignment);
-    offset = AlignUp(offset, kTextureDataPlacementAlignment);
+    const uint64_t pitch = align_up(row, kTextureDataPitchAlignment);
+    offset = align_up(offset, kTextureDataPlacementAlignment);
     if (layouts) {
       layouts->push_back(
           {offset,

@@ -39,13 +39,13 @@ struct MipExtent {
   uint32_t width, height, depth;
   bool operator==(const MipExtent&) const = default;
 };
-MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip);
+MipExtent get_mip_extent(const TextureDesc& desc, uint32_t mip);
 // The same in elements of the format: in whole blocks, if it is block-compressed.
-MipExtent GetMipElements(const TextureDesc& desc, uint32_t mip);
-uint32_t FullMipCount(const TextureDesc& desc);
-uint32_t ArraySize(const TextureDesc& desc);  // 1 for 3-D textures
+MipExtent get_mip_elements(const TextureDesc& desc, uint32_t mip);
+uint32_t full_mip_count(const TextureDesc& desc);
+uint32_t array_size(const TextureDesc& desc);  // 1 for 3-D textures
 
 // Formats of one family share their texel layout; 0 for formats that belong to none.
-uint32_t FormatFamily(Format format);
+uint32_t format_family(Format format);
 
 }  // namespace rtapi::detail

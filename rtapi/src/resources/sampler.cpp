@@ -13,12 +13,12 @@ namespace detail {
 
 namespace {
 
-bool IsAddressMode(TextureAddressMode mode) {
+bool is_address_mode(TextureAddressMode mode) {
   return mode >= TextureAddressMode::kWrap && mode <= TextureAddressMode::kMirrorOnce;
 }
 
 // Bits of D3D12_FILTER: 0, 2, 4 linear; 6 anisotropic (with all three linear); 7-8 reduction.
-bool IsFilter(Filter filter) {
+bool is_filter(Filter filter) {
   const auto f = static_cast<uint32_t>(filter);
   if (f & ~0x1D5u) return false;
   return !(f & 0x40u) || (f & 0x55u) == 0x55u;
@@ -26,13 +26,13 @@ bool IsFilter(Filter filter) {
 
 }  // namespace
 
-Status CheckSampler(const SamplerDesc& desc, Id id, std::string_view what) {
-  if (!IsFilter(desc.Filter)) {
+Status check_sampler(const SamplerDesc& desc, Id id, std::string_view what) {
+  if (!is_filter(desc.Filter)) {
     return MakeError(id, what, ": Filter is ", Hex(static_cast<uint32_t>(desc.Filter)),
                      ", which is not a D3D12_FILTER");
   }
   for (auto mode : {desc.AddressU, desc.AddressV, desc.AddressW}) {
-    if (!IsAddressMode(mode)) {
+    if (!is_address_mode(mode)) {
       return MakeError(id, what, ": an address mode is ", static_cast<uint32_t>(mode),
                        "; it must be 1 to 5");
     }
@@ -56,7 +56,7 @@ Status CheckSampler(const SamplerDesc& desc, Id id, std::string_view what) {
   return {};
 }
 
-SamplerDesc ToSamplerDesc(const StaticSamplerDesc& desc) {
+SamplerDesc to_sampler_desc(const StaticSamplerDesc& desc) {
   SamplerDesc out;
   out.Filter = desc.Filter;
   out.AddressU = desc.AddressU;
@@ -79,15 +79,15 @@ using namespace detail;
 
 Status Device::CreateSampler(const SamplerDesc& desc, CpuDescriptorHandle dest) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateSampler on an empty device handle");
-  if (Status s = CheckSampler(desc, Id::kSamplerInvalid, "sampler"); !s.ok()) return s;
-  const auto slot = impl_->FindSlot(dest);
+  if (Status s = check_sampler(desc, Id::kSamplerInvalid, "sampler"); !s.ok()) return s;
+  const auto slot = impl_->find_slot(dest);
   if (!slot || slot->type != DescriptorHeapType::kSampler) {
-    return MakeError(Id::kDescriptorHandle, "CreateSampler: ", Hex(dest.ptr), DescribeHeap(slot),
+    return MakeError(Id::kDescriptorHandle, "CreateSampler: ", Hex(dest.ptr), describe_heap(slot),
                      "; it must be in one of kSampler");
   }
   auto object = impl_->backend->create_sampler(desc);
   if (!object.ok()) return object.error();
-  impl_->views.AddSampler(*object, desc);
+  impl_->views.add_sampler(*object, desc);
   shader::Descriptor descriptor;
   descriptor.kind = shader::DescriptorKind::kSampler;
   descriptor.access = shader::DescriptorAccess::kOther;

@@ -10,8 +10,8 @@
 namespace rtapi::detail {
 
 // Checks that numbers are in range and not NaN; `id` and `what` go into the message.
-Status CheckSampler(const SamplerDesc& desc, Id id, std::string_view what);
+Status check_sampler(const SamplerDesc& desc, Id id, std::string_view what);
 
-SamplerDesc ToSamplerDesc(const StaticSamplerDesc& desc);
+SamplerDesc to_sampler_desc(const StaticSamplerDesc& desc);
 
 }  // namespace rtapi::detail

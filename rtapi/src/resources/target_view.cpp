@@ -18,8 +18,8 @@ struct AskedTarget {
   TargetSlices slices;
 };
 
-Status CheckTexture(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
-                    bool depth_stencil) {
+Status check_texture(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
+                     bool depth_stencil) {
   if (Status s = CheckHandle(device, texture, "the viewed texture"); !s.ok()) return s;
   const ResourceFlags needed =
       depth_stencil ? ResourceFlags::kAllowDepthStencil : ResourceFlags::kAllowRenderTarget;
@@ -29,8 +29,8 @@ Status CheckTexture(const std::shared_ptr<DeviceImpl>& device, const Texture& te
                    "; add the flag to its TextureDesc");
 }
 
-Status CheckFormat(const DeviceImpl& device, const Texture& texture, bool depth_stencil,
-                   Format format) {
+Status check_format(const DeviceImpl& device, const Texture& texture, bool depth_stencil,
+                    Format format) {
   const TextureDesc& desc = texture.GetDesc();
   const FormatInfo info = GetFormatInfo(format);
   // RGBA8 and its sRGB twin may stand for each other even in a typed texture.
@@ -38,7 +38,7 @@ Status CheckFormat(const DeviceImpl& device, const Texture& texture, bool depth_
   const FormatInfo own = GetFormatInfo(desc.Format);
   const bool twins = own.type == FormatClass::kUnorm && info.type == FormatClass::kUnorm;
   const bool fits = format == desc.Format || ((own.type == FormatClass::kTypeless || twins) &&
-                                              FormatFamily(format) == FormatFamily(desc.Format));
+                                              format_family(format) == format_family(desc.Format));
   const bool right_kind = depth_stencil
                               ? IsDepthFormat(format)
                               : !IsDepthFormat(format) && info.type != FormatClass::kTypeless &&
@@ -54,7 +54,7 @@ Status CheckFormat(const DeviceImpl& device, const Texture& texture, bool depth_
                    Named("texture", desc.Name), ", which this backend cannot draw to");
 }
 
-Result<runtime::TargetView> Resolve(const Texture& texture, const AskedTarget& asked) {
+Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& asked) {
   const TextureDesc& desc = texture.GetDesc();
   TargetSlices slices = asked.whole ? TargetSlices() : asked.slices;
   if (asked.one_element) {
@@ -66,7 +66,7 @@ Result<runtime::TargetView> Resolve(const Texture& texture, const AskedTarget& a
     return MakeError(Id::kTargetView, "mip ", slices.MipSlice, " is outside ", name, ", which has ",
                      desc.MipLevels, " mips");
   }
-  const uint32_t total = detail::ArraySize(desc);
+  const uint32_t total = detail::array_size(desc);
   const uint32_t left = slices.FirstArraySlice < total ? total - slices.FirstArraySlice : 0;
   if (slices.ArraySize == 0xFFFFFFFFu) slices.ArraySize = left;
   if (slices.ArraySize == 0 || slices.ArraySize > left) {
@@ -74,7 +74,7 @@ Result<runtime::TargetView> Resolve(const Texture& texture, const AskedTarget& a
                      uint64_t{slices.FirstArraySlice} + slices.ArraySize, " are outside ", name,
                      ", which has ", total);
   }
-  const MipExtent extent = GetMipExtent(desc, slices.MipSlice);
+  const MipExtent extent = get_mip_extent(desc, slices.MipSlice);
   runtime::TargetView view;
   view.format = asked.format;
   view.mip = slices.MipSlice;
@@ -85,22 +85,22 @@ Result<runtime::TargetView> Resolve(const Texture& texture, const AskedTarget& a
   return view;
 }
 
-Result<TargetSlot*> FindTarget(const DeviceImpl& device, CpuDescriptorHandle handle,
-                               bool depth_stencil, const std::string& where) {
-  const auto slot = device.FindSlot(handle);
+Result<TargetSlot*> find_target(const DeviceImpl& device, CpuDescriptorHandle handle,
+                                bool depth_stencil, const std::string& where) {
+  const auto slot = device.find_slot(handle);
   const DescriptorHeapType type =
       depth_stencil ? DescriptorHeapType::kDsv : DescriptorHeapType::kRtv;
   if (slot && slot->type == type) return slot->target;
-  return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), DescribeHeap(slot),
+  return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), describe_heap(slot),
                    "; it must be in one of ", depth_stencil ? "kDsv" : "kRtv");
 }
 
-Status WriteTarget(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
-                   const AskedTarget& asked_as_given, bool depth_stencil, DsvFlags flags,
-                   CpuDescriptorHandle dest) {
+Status write_target(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
+                    const AskedTarget& asked_as_given, bool depth_stencil, DsvFlags flags,
+                    CpuDescriptorHandle dest) {
   const std::string call = depth_stencil ? "CreateDepthStencilView" : "CreateRenderTargetView";
   if (!device) return MakeError(Id::kNullHandle, call, " on an empty device");
-  auto slot = FindTarget(*device, dest, depth_stencil, call);
+  auto slot = find_target(*device, dest, depth_stencil, call);
   if (!slot.ok()) return slot.error();
   AskedTarget asked = asked_as_given;
   TargetSlot value;
@@ -111,11 +111,11 @@ Status WriteTarget(const std::shared_ptr<DeviceImpl>& device, const Texture& tex
     **slot = std::move(value);
     return {};
   }
-  if (Status s = CheckTexture(device, texture, depth_stencil); !s.ok()) return s;
+  if (Status s = check_texture(device, texture, depth_stencil); !s.ok()) return s;
   const Format own = texture.GetDesc().Format;
   if (asked.format == Format::kUnknown) asked.format = depth_stencil ? GetDepthFormat(own) : own;
-  if (Status s = CheckFormat(*device, texture, depth_stencil, asked.format); !s.ok()) return s;
-  auto view = Resolve(texture, asked);
+  if (Status s = check_format(*device, texture, depth_stencil, asked.format); !s.ok()) return s;
+  auto view = resolve(texture, asked);
   if (!view.ok()) return view.error();
   value.view = *view;
   value.view.read_only_depth = HasAny(flags, DsvFlags::kReadOnlyDepth);
@@ -128,9 +128,9 @@ Status WriteTarget(const std::shared_ptr<DeviceImpl>& device, const Texture& tex
 
 }  // namespace
 
-Result<ReadTarget> ReadTargetSlot(const DeviceImpl& device, CpuDescriptorHandle handle,
-                                  bool depth_stencil, const std::string& where) {
-  auto found = FindTarget(device, handle, depth_stencil, where);
+Result<ReadTarget> read_target_slot(const DeviceImpl& device, CpuDescriptorHandle handle,
+                                    bool depth_stencil, const std::string& where) {
+  auto found = find_target(device, handle, depth_stencil, where);
   if (!found.ok()) return found.error();
   const TargetSlot& slot = **found;
   if (!slot.written) {
@@ -161,7 +161,7 @@ Status Device::CreateRenderTargetView(const Texture& texture, const RenderTarget
   }
   const AskedTarget asked = {desc.Format, desc.ViewDimension == RtvDimension::kUnknown,
                              desc.ViewDimension == RtvDimension::kTexture2D, desc.Texture2DArray};
-  return WriteTarget(impl_, texture, asked, false, DsvFlags::kNone, dest);
+  return write_target(impl_, texture, asked, false, DsvFlags::kNone, dest);
 }
 
 Status Device::CreateRenderTargetView(const Texture& texture, CpuDescriptorHandle dest) const {
@@ -182,7 +182,7 @@ Status Device::CreateDepthStencilView(const Texture& texture, const DepthStencil
   }
   const AskedTarget asked = {desc.Format, desc.ViewDimension == DsvDimension::kUnknown,
                              desc.ViewDimension == DsvDimension::kTexture2D, desc.Texture2DArray};
-  return WriteTarget(impl_, texture, asked, true, desc.Flags, dest);
+  return write_target(impl_, texture, asked, true, desc.Flags, dest);
 }
 
 Status Device::CreateDepthStencilView(const Texture& texture, CpuDescriptorHandle dest) const {

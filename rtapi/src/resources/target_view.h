@@ -22,7 +22,7 @@ struct ReadTarget {
   std::string texture_name;
 };
 // KA0731 unless it is a descriptor of a living texture in a heap of that type.
-Result<ReadTarget> ReadTargetSlot(const DeviceImpl& device, CpuDescriptorHandle handle,
-                                  bool depth_stencil, const std::string& where);
+Result<ReadTarget> read_target_slot(const DeviceImpl& device, CpuDescriptorHandle handle,
+                                    bool depth_stencil, const std::string& where);
 
 }  // namespace rtapi::detail

@@ -7,7 +7,7 @@ namespace rtapi::detail {
 
 namespace {
 
-bool FitsDimension(SrvDimension view, ResourceDimension resource) {
+bool fits_dimension(SrvDimension view, ResourceDimension resource) {
   switch (view) {
     case SrvDimension::kTexture1D:
     case SrvDimension::kTexture1DArray:
@@ -24,11 +24,12 @@ bool FitsDimension(SrvDimension view, ResourceDimension resource) {
   }
 }
 
-Status CheckViewFormat(const DeviceImpl& device, const Texture& texture, const TextureView& view) {
+Status check_view_format(const DeviceImpl& device, const Texture& texture,
+                         const TextureView& view) {
   const Format own = texture.GetDesc().Format;
   const FormatInfo info = GetFormatInfo(view.format);
   const bool castable = view.format == own || (GetFormatInfo(own).type == FormatClass::kTypeless &&
-                                               FormatFamily(own) == FormatFamily(view.format));
+                                               format_family(own) == format_family(view.format));
   if (IsDepthFormat(view.format)) {
     return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
                      Named("texture", texture.name()),
@@ -49,7 +50,7 @@ Status CheckViewFormat(const DeviceImpl& device, const Texture& texture, const T
   return {};
 }
 
-Status CheckSubresources(const Texture& texture, TextureView& view) {
+Status check_subresources(const Texture& texture, TextureView& view) {
   const TextureDesc& desc = texture.GetDesc();
   const std::string name = Named("texture", desc.Name);
   if (view.first_mip >= desc.MipLevels) {
@@ -63,7 +64,7 @@ Status CheckSubresources(const Texture& texture, TextureView& view) {
   }
   const bool volume = view.dimension == SrvDimension::kTexture3D;
   const uint32_t total =
-      volume ? GetMipExtent(desc, view.first_mip).depth : detail::ArraySize(desc);
+      volume ? get_mip_extent(desc, view.first_mip).depth : detail::array_size(desc);
   const bool cube = view.dimension == SrvDimension::kTextureCube ||
                     view.dimension == SrvDimension::kTextureCubeArray;
   if (view.slices == 0xFFFFFFFFu && view.first_slice < total) {
@@ -83,7 +84,7 @@ Status CheckSubresources(const Texture& texture, TextureView& view) {
 }
 
 // As shader::texture_shape() counts.
-uint32_t NumberClass(Format format) {
+uint32_t number_class(Format format) {
   switch (GetFormatInfo(format).type) {
     case FormatClass::kSint:
       return 1;
@@ -96,12 +97,12 @@ uint32_t NumberClass(Format format) {
 
 }  // namespace
 
-Result<shader::Descriptor> MakeTextureDescriptor(const std::shared_ptr<DeviceImpl>& device,
-                                                 const Texture& texture, TextureView view,
-                                                 uint32_t mapping) {
+Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceImpl>& device,
+                                                   const Texture& texture, TextureView view,
+                                                   uint32_t mapping) {
   if (Status s = CheckHandle(device, texture, "the viewed texture"); !s.ok()) return s.error();
   const TextureDesc& desc = texture.GetDesc();
-  if (!FitsDimension(view.dimension, desc.Dimension)) {
+  if (!fits_dimension(view.dimension, desc.Dimension)) {
     return MakeError(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
                      " does not fit ", Named("texture", desc.Name), ", whose dimension is ",
                      static_cast<uint32_t>(desc.Dimension));
@@ -119,8 +120,8 @@ Result<shader::Descriptor> MakeTextureDescriptor(const std::shared_ptr<DeviceImp
                      " was created with kDenyShaderResource; shaders cannot read it");
   }
   if (view.format == Format::kUnknown) view.format = desc.Format;
-  if (Status s = CheckViewFormat(*device, texture, view); !s.ok()) return s.error();
-  if (Status s = CheckSubresources(texture, view); !s.ok()) return s.error();
+  if (Status s = check_view_format(*device, texture, view); !s.ok()) return s.error();
+  if (Status s = check_subresources(texture, view); !s.ok()) return s.error();
   runtime::TextureViewDesc resolved;
   resolved.format = view.format;
   resolved.dimension = view.dimension;
@@ -140,7 +141,7 @@ Result<shader::Descriptor> MakeTextureDescriptor(const std::shared_ptr<DeviceImp
   }
   auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);
   if (!object.ok()) return object.error();
-  device->views.AddView(*object, {desc.Name, desc, resolved, texture.impl()->memory});
+  device->views.add_view(*object, {desc.Name, desc, resolved, texture.impl()->memory});
   const uint64_t key = kaamos::shader::view_key(*object, view.uav);
   device->addresses.insert_view(key, texture.impl()->memory);
   if (device->checks) {
@@ -152,13 +153,13 @@ Result<shader::Descriptor> MakeTextureDescriptor(const std::shared_ptr<DeviceImp
   descriptor.access = view.uav ? shader::DescriptorAccess::kUnorderedAccess
                                : shader::DescriptorAccess::kShaderResource;
   descriptor.stride_bytes = kaamos::shader::texture_shape(static_cast<uint32_t>(view.dimension),
-                                                          NumberClass(view.format));
+                                                          number_class(view.format));
   descriptor.address = *object;
   descriptor.format = static_cast<uint32_t>(view.format);
   return descriptor;
 }
 
-TextureView FromSrv(const ShaderResourceViewDesc& d) {
+TextureView from_srv(const ShaderResourceViewDesc& d) {
   TextureView v;
   v.format = d.Format;
   v.dimension = d.ViewDimension;
@@ -212,7 +213,7 @@ TextureView FromSrv(const ShaderResourceViewDesc& d) {
   return v;
 }
 
-TextureView FromUav(const UnorderedAccessViewDesc& d) {
+TextureView from_uav(const UnorderedAccessViewDesc& d) {
   TextureView v;
   v.format = d.Format;
   v.dimension = static_cast<SrvDimension>(d.ViewDimension);  // the numbers agree
@@ -245,7 +246,7 @@ TextureView FromUav(const UnorderedAccessViewDesc& d) {
   return v;
 }
 
-SrvDimension WholeDimension(const TextureDesc& desc) {
+SrvDimension whole_dimension(const TextureDesc& desc) {
   switch (desc.Dimension) {
     case ResourceDimension::kTexture1D:
       return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture1DArray : SrvDimension::kTexture1D;

@@ -19,15 +19,15 @@ struct TextureView {
   float min_lod = 0;
 };
 
-TextureView FromSrv(const ShaderResourceViewDesc& desc);
-TextureView FromUav(const UnorderedAccessViewDesc& desc);
+TextureView from_srv(const ShaderResourceViewDesc& desc);
+TextureView from_uav(const UnorderedAccessViewDesc& desc);
 // The dimension of a view of the whole texture. As in D3D12, 2-D textures with several elements get
 // an array view.
-SrvDimension WholeDimension(const TextureDesc& desc);
+SrvDimension whole_dimension(const TextureDesc& desc);
 
 // Checks the view and lets the backend make it. `mapping` is a Shader4ComponentMapping.
-Result<shader::Descriptor> MakeTextureDescriptor(const std::shared_ptr<DeviceImpl>& device,
-                                                 const Texture& texture, TextureView view,
-                                                 uint32_t mapping);
+Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceImpl>& device,
+                                                   const Texture& texture, TextureView view,
+                                                   uint32_t mapping);
 
 }  // namespace rtapi::detail

@@ -30,10 +30,10 @@ struct BufferView {
   uint64_t counter_offset = 0;
 };
 
-Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descriptor& value) {
-  const auto slot = device.FindSlot(dest);
+Status write_slot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descriptor& value) {
+  const auto slot = device.find_slot(dest);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
-    return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr), DescribeHeap(slot),
+    return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr), describe_heap(slot),
                      "; it must be in one of kCbvSrvUav");
   }
   std::memcpy(slot->slot, &value, sizeof value);
@@ -41,8 +41,8 @@ Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descr
 }
 
 // Determines element size and kind by the rules of format and stride. [D3D12: D3D12_BUFFER_SRV]
-Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
-                              const std::string& name, Descriptor& out) {
+Result<uint32_t> check_element(const DeviceImpl& device, const BufferView& view,
+                               const std::string& name, Descriptor& out) {
   const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
   if (view.raw) {
     if (view.format != Format::kR32Typeless || view.stride != 0) {
@@ -73,7 +73,7 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
   }
   const FormatInfo info = GetFormatInfo(view.format);
   // Formats of textures with depth, or depth and stencil, are none of buffers.
-  const uint32_t family = FormatFamily(view.format);
+  const uint32_t family = format_family(view.format);
   const bool of_depth = IsDepthFormat(view.format) ||
                         family == static_cast<uint32_t>(Format::kR32G8X24Typeless) ||
                         family == static_cast<uint32_t>(Format::kR24G8Typeless);
@@ -94,8 +94,8 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
 
 constexpr uint64_t kCounterAlignment = 4096;  // D3D12_UAV_COUNTER_PLACEMENT_ALIGNMENT
 
-Status WriteCounter(const std::shared_ptr<DeviceImpl>& device, const BufferView& view,
-                    Descriptor& descriptor) {
+Status write_counter(const std::shared_ptr<DeviceImpl>& device, const BufferView& view,
+                     Descriptor& descriptor) {
   const uint64_t offset = view.counter_offset;
   if (view.counter == nullptr) {
     if (offset == 0) return {};
@@ -122,8 +122,8 @@ Status WriteCounter(const std::shared_ptr<DeviceImpl>& device, const BufferView&
   return {};
 }
 
-Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer,
-                       const BufferView& view, CpuDescriptorHandle dest) {
+Status write_buffer_view(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer,
+                         const BufferView& view, CpuDescriptorHandle dest) {
   if (Status s = CheckHandle(device, buffer, "the viewed buffer"); !s.ok()) return s;
   const std::string name = Named("buffer", buffer.name());
   const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
@@ -132,7 +132,7 @@ Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& 
                      " was created without kAllowUnorderedAccess; add the flag to its BufferDesc");
   }
   Descriptor descriptor;
-  const auto element = CheckElement(*device, view, name, descriptor);
+  const auto element = check_element(*device, view, name, descriptor);
   if (!element.ok()) return element.error();
   // Compare counts first, so that the products below cannot overflow.
   const uint64_t total = buffer.size() / *element;
@@ -145,40 +145,40 @@ Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& 
   descriptor.access = view.access;
   descriptor.address = buffer.GetGPUVirtualAddress() + view.first * *element;
   descriptor.size_bytes = count * *element;
-  if (Status s = WriteCounter(device, view, descriptor); !s.ok()) return s;
-  return WriteSlot(*device, dest, descriptor);
+  if (Status s = write_counter(device, view, descriptor); !s.ok()) return s;
+  return write_slot(*device, dest, descriptor);
 }
 
-Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
-                        const TextureView& view, uint32_t mapping, CpuDescriptorHandle dest) {
-  auto descriptor = MakeTextureDescriptor(device, texture, view, mapping);
+Status write_texture_view(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
+                          const TextureView& view, uint32_t mapping, CpuDescriptorHandle dest) {
+  auto descriptor = make_texture_descriptor(device, texture, view, mapping);
   if (!descriptor.ok()) return descriptor.error();
-  return WriteSlot(*device, dest, *descriptor);
+  return write_slot(*device, dest, *descriptor);
 }
 
-Status WriteAccelerationStructureView(const DeviceImpl& device, const Resource& resource,
-                                      GpuVirtualAddress location, CpuDescriptorHandle dest) {
+Status write_acceleration_structure_view(const DeviceImpl& device, const Resource& resource,
+                                         GpuVirtualAddress location, CpuDescriptorHandle dest) {
   if (!std::holds_alternative<std::monostate>(resource)) {
     return MakeError(Id::kAccelerationStructureView,
                      "the resource must be empty: the view's Location names the structure");
   }
   if (location % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureView, "Location is ",
-                     device.DescribeAddress(location), "; it must be a multiple of 256");
+                     device.describe_address(location), "; it must be a multiple of 256");
   }
   Descriptor descriptor;
   if (location != 0) {
     if (!device.addresses.find(location)) {
       return MakeError(Id::kAccelerationStructureView, "Location is ",
-                       device.DescribeAddress(location));
+                       device.describe_address(location));
     }
     descriptor.kind = DescriptorKind::kAccelerationStructure;
     descriptor.address = location;
   }
-  return WriteSlot(device, dest, descriptor);
+  return write_slot(device, dest, descriptor);
 }
 
-const char* KindName(const Resource& resource) {
+const char* kind_name(const Resource& resource) {
   return std::holds_alternative<Buffer>(resource) ? "a buffer" : "a texture";
 }
 
@@ -189,31 +189,31 @@ Status Device::CreateShaderResourceView(const Resource& resource,
                                         CpuDescriptorHandle dest) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateShaderResourceView on an empty device");
   if (desc.ViewDimension == SrvDimension::kRaytracingAccelerationStructure) {
-    return WriteAccelerationStructureView(*impl_, resource,
-                                          desc.RaytracingAccelerationStructure.Location, dest);
+    return write_acceleration_structure_view(*impl_, resource,
+                                             desc.RaytracingAccelerationStructure.Location, dest);
   }
-  if (std::holds_alternative<std::monostate>(resource)) return WriteSlot(*impl_, dest, {});
+  if (std::holds_alternative<std::monostate>(resource)) return write_slot(*impl_, dest, {});
   const bool wants_buffer = desc.ViewDimension == SrvDimension::kBuffer;
   if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
     return MakeError(Id::kViewResource, "view dimension ",
                      static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
-                     KindName(resource));
+                     kind_name(resource));
   }
   if (wants_buffer) {
     const BufferSrv& b = desc.Buffer;
-    return WriteBufferView(
+    return write_buffer_view(
         impl_, std::get<Buffer>(resource),
         {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
          HasAny(b.Flags, BufferSrvFlags::kRaw), DescriptorAccess::kShaderResource},
         dest);
   }
-  return WriteTextureView(impl_, std::get<Texture>(resource), FromSrv(desc),
-                          desc.Shader4ComponentMapping, dest);
+  return write_texture_view(impl_, std::get<Texture>(resource), from_srv(desc),
+                            desc.Shader4ComponentMapping, dest);
 }
 
 Status Device::CreateShaderResourceView(const Texture& texture, CpuDescriptorHandle dest) const {
   ShaderResourceViewDesc desc;
-  desc.ViewDimension = WholeDimension(texture.GetDesc());
+  desc.ViewDimension = whole_dimension(texture.GetDesc());
   return CreateShaderResourceView(Resource(texture), desc, dest);
 }
 
@@ -227,16 +227,16 @@ Status Device::CreateUnorderedAccessView(const Resource& resource, const Buffer&
                                          const UnorderedAccessViewDesc& desc,
                                          CpuDescriptorHandle dest) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateUnorderedAccessView on an empty device");
-  if (std::holds_alternative<std::monostate>(resource)) return WriteSlot(*impl_, dest, {});
+  if (std::holds_alternative<std::monostate>(resource)) return write_slot(*impl_, dest, {});
   const bool wants_buffer = desc.ViewDimension == UavDimension::kBuffer;
   if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
     return MakeError(Id::kViewResource, "view dimension ",
                      static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
-                     KindName(resource));
+                     kind_name(resource));
   }
   if (wants_buffer) {
     const BufferUav& b = desc.Buffer;
-    return WriteBufferView(
+    return write_buffer_view(
         impl_, std::get<Buffer>(resource),
         {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
          HasAny(b.Flags, BufferUavFlags::kRaw), DescriptorAccess::kUnorderedAccess,
@@ -247,13 +247,13 @@ Status Device::CreateUnorderedAccessView(const Resource& resource, const Buffer&
     return MakeError(Id::kViewCounter, "a counter in ", Named("buffer", counter.name()),
                      " is given for a view of a texture");
   }
-  return WriteTextureView(impl_, std::get<Texture>(resource), FromUav(desc),
-                          kDefaultShader4ComponentMapping, dest);
+  return write_texture_view(impl_, std::get<Texture>(resource), from_uav(desc),
+                            kDefaultShader4ComponentMapping, dest);
 }
 
 Status Device::CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHandle dest) const {
   UnorderedAccessViewDesc desc;
-  desc.ViewDimension = static_cast<UavDimension>(WholeDimension(texture.GetDesc()));
+  desc.ViewDimension = static_cast<UavDimension>(whole_dimension(texture.GetDesc()));
   return CreateUnorderedAccessView(Resource(texture), desc, dest);
 }
 
@@ -266,19 +266,19 @@ Status Device::CreateConstantBufferView(const ConstantBufferViewDesc& desc,
     if (desc.BufferLocation % 256 != 0 || desc.SizeInBytes % 256 != 0 || desc.SizeInBytes == 0 ||
         desc.SizeInBytes > 65536) {
       return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
-                       impl_->DescribeAddress(desc.BufferLocation),
+                       impl_->describe_address(desc.BufferLocation),
                        "; address and size must be multiples of 256, the size at most 65536");
     }
     if (!impl_->addresses.contains(desc.BufferLocation, desc.SizeInBytes)) {
       return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
-                       impl_->DescribeAddress(desc.BufferLocation),
+                       impl_->describe_address(desc.BufferLocation),
                        " are not inside one live buffer");
     }
     descriptor.kind = DescriptorKind::kConstantBuffer;
     descriptor.address = desc.BufferLocation;
     descriptor.size_bytes = desc.SizeInBytes;
   }
-  return WriteSlot(*impl_, dest, descriptor);
+  return write_slot(*impl_, dest, descriptor);
 }
 
 }  // namespace rtapi

@@ -58,7 +58,7 @@ bool is_text(std::string_view head) {
 
 }  // namespace
 
-std::string DescribeFile(const std::string& path) {
+std::string describe_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return "no file";

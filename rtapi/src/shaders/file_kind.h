@@ -9,6 +9,6 @@ namespace rtapi::detail {
 
 // "a DXIL container, which dxc makes for Direct3D drivers", "HLSL or other text", .. by the first
 // bytes of the file.
-std::string DescribeFile(const std::string& path);
+std::string describe_file(const std::string& path);
 
 }  // namespace rtapi::detail

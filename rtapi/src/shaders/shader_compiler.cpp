@@ -193,7 +193,7 @@ ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
                                    hlsl::render_all(diagnostics, sources));
     return out;
   }
-  out.Reflection = detail::Reflect(*module);
+  out.Reflection = detail::reflect(*module);
   if (options.CheckOnly) return out;
   if (options.Interpret) {
     interpret(options, std::move(module), out);

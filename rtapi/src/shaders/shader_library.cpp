@@ -17,14 +17,14 @@ namespace {
 const std::string kEmptyString;
 const std::vector<ShaderExportInfo> kNoExports;
 
-bool IsStage(shader::Stage stage) {
+bool is_stage(shader::Stage stage) {
   const auto s = static_cast<uint32_t>(stage);
   return s <= 1 || (s >= 5 && s <= 12);
 }
 
 // A foreign library's tables are trusted no further than their version. Every index is checked
 // here, once, so that linking need not.
-Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
+Status check_table(const shader::LibraryDesc& desc, const std::string& name) {
   auto broken = [&name](const auto&... parts) {
     return MakeError(Id::kShaderLibrary, Quoted(name), ": ", parts...);
   };
@@ -49,7 +49,7 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
   }
   for (uint32_t i = 0; i < desc.export_count; ++i) {
     const auto& e = desc.exports[i];
-    if (!e.name || !*e.name || !IsStage(e.stage)) {
+    if (!e.name || !*e.name || !is_stage(e.stage)) {
       return broken("export ", i, " has no name or an invalid stage");
     }
     const bool draws = e.stage == shader::Stage::kVertex || e.stage == shader::Stage::kPixel;
@@ -89,7 +89,7 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
   return {};
 }
 
-ShaderExportInfo MakeInfo(const shader::LibraryDesc& desc, const shader::ExportDesc& e) {
+ShaderExportInfo make_info(const shader::LibraryDesc& desc, const shader::ExportDesc& e) {
   ShaderExportInfo info;
   info.Name = e.name;
   info.MangledName = e.mangled_name ? e.mangled_name : e.name;
@@ -106,7 +106,7 @@ ShaderExportInfo MakeInfo(const shader::LibraryDesc& desc, const shader::ExportD
   return info;
 }
 
-Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<const void> owner,
+Result<ShaderLibrary> load(const shader::LibraryDesc* desc, std::shared_ptr<const void> owner,
                            const std::string& where) {
   if (!desc) return MakeError(Id::kShaderLibrary, where, ": the library table is null");
   if (desc->abi_version != shader::kAbiVersion ||
@@ -119,11 +119,11 @@ Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<cons
   auto impl = std::make_shared<ShaderLibraryImpl>();
   impl->name = desc->name ? desc->name : where;
   impl->target = desc->target ? desc->target : "";
-  if (Status s = CheckTable(*desc, impl->name); !s.ok()) return s.error();
+  if (Status s = check_table(*desc, impl->name); !s.ok()) return s.error();
   impl->desc = desc;
   impl->owner = std::move(owner);
   for (uint32_t i = 0; i < desc->export_count; ++i) {
-    impl->exports.push_back(MakeInfo(*desc, desc->exports[i]));
+    impl->exports.push_back(make_info(*desc, desc->exports[i]));
   }
   return ShaderLibrary(std::move(impl));
 }
@@ -153,7 +153,7 @@ const ShaderExportInfo* ShaderLibrary::FindExport(const std::string& name) const
 
 Result<ShaderLibrary> LoadShaderLibrary(const shader::LibraryDesc* desc,
                                         std::shared_ptr<const void> owner) {
-  return Load(desc, std::move(owner), "built-in library");
+  return load(desc, std::move(owner), "built-in library");
 }
 
 Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
@@ -162,18 +162,18 @@ Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* reason = dlerror();
-    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::DescribeFile(file),
+    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::describe_file(file),
                      " and cannot be loaded: ", reason ? reason : "unknown reason");
   }
   std::shared_ptr<void> owner(handle, [](void* h) { dlclose(h); });
   auto entry =
       reinterpret_cast<shader::LibraryEntryPointFn>(dlsym(handle, shader::kLibraryEntryPoint));
   if (!entry) {
-    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::DescribeFile(file),
+    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::describe_file(file),
                      " without the symbol ", shader::kLibraryEntryPoint,
                      ", so it is not a shader library made by kaamos-hlsl");
   }
-  return Load(entry(), std::move(owner), path);
+  return load(entry(), std::move(owner), path);
 }
 
 }  // namespace rtapi

@@ -9,7 +9,7 @@ namespace {
 namespace ir = kaamos::hlsl::ir;
 namespace shader = kaamos::shader;
 
-ShaderScalarType ScalarOf(ir::Scalar scalar) {
+ShaderScalarType scalar_of(ir::Scalar scalar) {
   switch (scalar) {
     case ir::Scalar::kBool:
       return ShaderScalarType::kBool;
@@ -35,27 +35,27 @@ ShaderScalarType ScalarOf(ir::Scalar scalar) {
   return ShaderScalarType::kFloat32;
 }
 
-const char* NameOf(ShaderScalarType type) {
+const char* name_of(ShaderScalarType type) {
   constexpr const char* kNames[] = {"bool",    "int16_t",  "uint16_t",  "int",   "uint",
                                     "int64_t", "uint64_t", "float16_t", "float", "double"};
   return kNames[static_cast<uint32_t>(type)];
 }
 
-ShaderTypeInfo Describe(const ir::Type* type, ir::Layout layout, bool row_major);
+ShaderTypeInfo describe(const ir::Type* type, ir::Layout layout, bool row_major);
 
-std::vector<ShaderVariableInfo> MembersOf(const ir::Struct& structure, ir::Layout layout) {
+std::vector<ShaderVariableInfo> members_of(const ir::Struct& structure, ir::Layout layout) {
   std::vector<ShaderVariableInfo> out;
   const std::vector<uint32_t> offsets = ir::field_offsets(structure, layout);
   for (size_t i = 0; i < structure.fields.size(); ++i) {
     const ir::Field& field = structure.fields[i];
     const auto size = ir::extent_of(field.type, layout, field.row_major).size;
     out.push_back({field.name, offsets[i], static_cast<uint32_t>(size),
-                   Describe(field.type, layout, field.row_major)});
+                   describe(field.type, layout, field.row_major)});
   }
   return out;
 }
 
-ShaderTypeInfo Describe(const ir::Type* type, ir::Layout layout, bool row_major) {
+ShaderTypeInfo describe(const ir::Type* type, ir::Layout layout, bool row_major) {
   ShaderTypeInfo out;
   for (; type->kind == ir::TypeKind::kArray; type = type->element) {
     out.Elements.push_back(type->count);
@@ -63,11 +63,11 @@ ShaderTypeInfo Describe(const ir::Type* type, ir::Layout layout, bool row_major)
   if (type->kind == ir::TypeKind::kStruct) {
     out.Name = type->structure->name;
     out.IsStruct = true;
-    out.Members = MembersOf(*type->structure, layout);
+    out.Members = members_of(*type->structure, layout);
     return out;
   }
-  out.Scalar = ScalarOf(type->scalar);
-  out.Name = NameOf(out.Scalar);
+  out.Scalar = scalar_of(type->scalar);
+  out.Name = name_of(out.Scalar);
   out.Columns = type->columns;
   out.IsVector = type->kind == ir::TypeKind::kVector;
   out.IsMatrix = type->kind == ir::TypeKind::kMatrix;
@@ -80,7 +80,7 @@ ShaderTypeInfo Describe(const ir::Type* type, ir::Layout layout, bool row_major)
   return out;
 }
 
-ShaderResourceType ResourceOf(ir::ResourceKind kind) {
+ShaderResourceType resource_of(ir::ResourceKind kind) {
   using K = ir::ResourceKind;
   using T = ShaderResourceType;
   switch (kind) {
@@ -134,34 +134,34 @@ ShaderResourceType ResourceOf(ir::ResourceKind kind) {
 }
 
 // A `cbuffer` has a structure of its own, which has its name.
-bool IsCBuffer(const ir::Binding& binding) {
+bool is_cbuffer(const ir::Binding& binding) {
   if (binding.type->resource != ir::ResourceKind::kConstantBuffer) return false;
   const std::string& name = binding.type->element->structure->name;
   const size_t colon = name.rfind(':');
   return name.substr(colon == std::string::npos ? 0 : colon + 1) == binding.name;
 }
 
-ShaderBindingInfo Describe(const ir::Binding& binding) {
+ShaderBindingInfo describe(const ir::Binding& binding) {
   ShaderBindingInfo out;
   out.Name = binding.name;
-  out.Type = ResourceOf(binding.type->resource);
+  out.Type = resource_of(binding.type->resource);
   out.IsWritable = binding.register_class == 1;
   out.RegisterClass = "tubs"[binding.register_class & 3];
   out.Register = binding.register_index;
   out.Space = binding.space;
   out.Count = binding.count;
   out.SizeInBytes = binding.size_bytes;
-  out.IsCBuffer = IsCBuffer(binding);
+  out.IsCBuffer = is_cbuffer(binding);
   if (binding.type->element != nullptr) {
     const bool is_constant = out.Type == ShaderResourceType::kConstantBuffer;
     out.Element =
-        Describe(binding.type->element,
+        describe(binding.type->element,
                  is_constant ? ir::Layout::kConstantBuffer : ir::Layout::kStructured, false);
   }
   return out;
 }
 
-ShaderStage StageOf(uint32_t stage) {
+ShaderStage stage_of(uint32_t stage) {
   switch (stage) {
     case ir::kStageRayGeneration:
       return ShaderStage::kRayGeneration;
@@ -186,7 +186,7 @@ ShaderStage StageOf(uint32_t stage) {
   }
 }
 
-std::vector<ShaderSignatureElement> Describe(const std::vector<ir::SignatureElement>& elements) {
+std::vector<ShaderSignatureElement> describe(const std::vector<ir::SignatureElement>& elements) {
   std::vector<ShaderSignatureElement> out;
   for (const ir::SignatureElement& element : elements) {
     const ShaderScalarType type =
@@ -198,11 +198,11 @@ std::vector<ShaderSignatureElement> Describe(const std::vector<ir::SignatureElem
   return out;
 }
 
-ShaderEntryInfo Describe(const ir::EntryPoint& entry, const ir::Module& module) {
+ShaderEntryInfo describe(const ir::EntryPoint& entry, const ir::Module& module) {
   ShaderEntryInfo out;
   out.Export.Name = entry.name;
   out.Export.MangledName = entry.function->mangled;
-  out.Export.Stage = StageOf(entry.stage);
+  out.Export.Stage = stage_of(entry.stage);
   out.Export.PayloadSizeInBytes = entry.payload_bytes;
   out.Export.AttributeSizeInBytes = entry.attribute_bytes;
   if (entry.stage == ir::kStageCompute) {
@@ -212,28 +212,28 @@ ShaderEntryInfo Describe(const ir::EntryPoint& entry, const ir::Module& module) 
   for (const uint32_t index : entry.bindings) {
     out.Export.Resources.push_back(module.bindings[index].name);
   }
-  out.Inputs = Describe(entry.inputs);
-  out.Outputs = Describe(entry.outputs);
+  out.Inputs = describe(entry.inputs);
+  out.Outputs = describe(entry.outputs);
   out.RootSignature = entry.root_signature.value_or("");
   return out;
 }
 
 }  // namespace
 
-ShaderReflection Reflect(const ir::Module& module) {
+ShaderReflection reflect(const ir::Module& module) {
   ShaderReflection out;
   for (const ir::EntryPoint& entry : module.entry_points) {
-    out.Entries.push_back(Describe(entry, module));
+    out.Entries.push_back(describe(entry, module));
   }
   for (const ir::EntryPoint& entry : module.unlinked_entry_points) {
-    out.Entries.push_back(Describe(entry, module));
+    out.Entries.push_back(describe(entry, module));
   }
   for (const ir::LibraryFunction& function : module.library_functions) {
     ShaderEntryInfo& entry = out.Entries.emplace_back();
     entry.Export.Name = function.name;
     entry.Export.MangledName = function.mangled;
   }
-  for (const ir::Binding& binding : module.bindings) out.Bindings.push_back(Describe(binding));
+  for (const ir::Binding& binding : module.bindings) out.Bindings.push_back(describe(binding));
   return out;
 }
 

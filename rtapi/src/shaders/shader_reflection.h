@@ -8,6 +8,6 @@
 
 namespace rtapi::detail {
 
-ShaderReflection Reflect(const kaamos::hlsl::ir::Module& module);
+ShaderReflection reflect(const kaamos::hlsl::ir::Module& module);
 
 }  // namespace rtapi::detail
