@@ -228,24 +228,11 @@ std::optional<HostCompiler> find_host_compiler(std::string& error, const std::st
   return std::nullopt;
 }
 
-fs::path cache_folder() {
-  if (const std::string folder = environment("KAAMOS_CACHE_DIR"); !folder.empty()) {
-    return folder;
-  }
-  if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty()) {
-    return fs::path(folder) / "kaamos";
-  }
-  if (const std::string home = environment("HOME"); !home.empty()) {
-    return fs::path(home) / ".cache" / "kaamos";
-  }
-  return fs::path("/tmp") / ("kaamos-cache-" + std::to_string(getuid()));
-}
-
 fs::path find_shared_object(const HostCompiler& compiler, const std::string& content,
                             Optimisation optimisation, const fs::path& cache) {
-  std::error_code failed;
+  if (!open_cache(cache).empty()) return {};
   const fs::path object = cache / (cache_key(compiler, content, optimisation) + ".so");
-  return fs::exists(object, failed) ? object : fs::path();
+  return may_load(object) ? object : fs::path();
 }
 
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,
@@ -258,11 +245,12 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
                                  const std::function<std::string(BuildFailure& error)>& make_source,
                                  Optimisation optimisation, const fs::path& cache) {
   SharedObject out;
-  std::error_code failed;
-  fs::create_directories(cache, failed);
-  const std::string key = cache_key(compiler, content, optimisation);
-  const fs::path object = cache / (key + ".so");
-  if (fs::exists(object, failed)) {
+  out.error.text = open_cache(cache);
+  if (out.error) {
+    return out;
+  }
+  const fs::path object = cache / (cache_key(compiler, content, optimisation) + ".so");
+  if (may_load(object)) {
     out.path = object;
     out.from_cache = true;
     return out;
@@ -279,6 +267,7 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
                      "; set $KAAMOS_CACHE_DIR to a folder that can be written";
     return out;
   }
+  std::error_code failed;
   const fs::path folder = work;
   const fs::path source_path = folder / "shader.cpp";
   const fs::path built = folder / "shader.so";
@@ -299,7 +288,10 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
                                built.string(), "-lm"});
     const int code = run_program(words, log);
     if (code == 0) {
-      fs::rename(built, object, failed);
+      // Whatever the umask is, may_load() takes it.
+      fs::permissions(built, fs::perms::group_write | fs::perms::others_write,
+                      fs::perm_options::remove, failed);
+      if (!failed) fs::rename(built, object, failed);
       if (failed) {
         out.error.text = "cannot write " + object.string() + ": " + failed.message();
       } else {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "runtime/hlsl/driver/shader_cache.h"
 #include "runtime/hlsl/ir/build_failure.h"
 
 namespace kaamos::hlsl {
@@ -31,17 +32,14 @@ struct SharedObject {
 // folder. Sets `error` if either is missing.
 std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& wanted = {});
 
-// $KAAMOS_CACHE_DIR, else $XDG_CACHE_HOME/kaamos, else ~/.cache/kaamos, else a per-user folder in
-// /tmp.
-std::filesystem::path cache_folder();
-
-// The object that build_shared_object() would find in the cache; empty if it would build.
+// The object that build_shared_object() would find in the cache; empty if it would build or fail.
 std::filesystem::path find_shared_object(const HostCompiler& compiler, const std::string& content,
                                          Optimisation optimisation,
                                          const std::filesystem::path& cache);
 
-// Builds `source` unless it is in the cache. Many processes and threads may call it at once: the
-// object appears under its name only when it is complete.
+// Builds `source` unless it is in the cache; a cached object that may not be loaded
+// (shader_cache.h) is built anew. Many processes and threads may call it at once: the object
+// appears under its name only when it is complete.
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,
                                  Optimisation optimisation,
                                  const std::filesystem::path& cache = cache_folder());
