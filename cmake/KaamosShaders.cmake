@@ -2,21 +2,29 @@
 # kaamos_add_shader_library: HLSL compiled at build time. Part of the installed package too.
 include_guard()
 
-# Options that make emitted code mean the same on every compiler. runtime/hlsl/driver/host_compiler.cpp has
-# the same list for libraries compiled at run time.
+# How emitted code is compiled: here, and with the same lists at run time
+# (runtime/hlsl/driver/compiler_options.cpp). The first makes it mean the same on every compiler.
+# -fwrapv: HLSL's integers wrap. -ffp-contract=off: no fused operations that the source does not ask
+# for. -fno-math-errno, -fno-trapping-math: nothing looks at errno or the exception flags.
+# -fstack-clash-protection: variables that do not fit the stack hit its guard page.
 set(KAAMOS_SHADER_COMPILE_OPTIONS
   -w -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
   -fno-strict-aliasing -fstack-clash-protection)
+# The level of release builds; those for debugging have their own.
+set(KAAMOS_SHADER_OPTIMISATION -O3)
+# For AVX2, whose registers hold the eight threads that a compute shader runs at once. g++ has to be
+# told from version 12 on that whole registers may be copied: by itself it copies and clears eight
+# threads' values in halves, which a load of the whole waits for. Other compilers lack these options.
+set(KAAMOS_SHADER_AVX2_OPTIONS -mavx2)
+set(KAAMOS_SHADER_GNU_AVX2_OPTIONS -mmove-max=256 -mstore-max=256)
 
-# Shader libraries are compiled for any x86-64 and a second time for AVX2, whose registers hold the
-# eight threads that a compute shader runs at once. The program picks what its processor can run
-# (kaamos/shader/cpu_level.h); both give the same bits. -fno-weak keeps inline functions local to
-# their object, so the linker cannot pick the AVX2 version of one for code that runs everywhere.
-# Only g++ has this option. From version 12 on it has to be told that whole registers may be copied:
-# by itself it copies and clears eight threads' values in halves, which a load of the whole waits for.
-set(KAAMOS_SHADER_AVX2_OPTIONS -mavx2 -fno-weak)
-if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
-  list(APPEND KAAMOS_SHADER_AVX2_OPTIONS -mmove-max=256 -mstore-max=256)
+# A build compiles shader libraries for any x86-64 and a second time for AVX2. The program picks what
+# its processor can run (kaamos/shader/cpu_level.h); both give the same bits. -fno-weak keeps inline
+# functions local to their object, so the linker cannot pick the AVX2 version of one for code that runs
+# everywhere. Only g++ has this option.
+set(KAAMOS_SECOND_VERSION_OPTIONS ${KAAMOS_SHADER_AVX2_OPTIONS} -fno-weak)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+  list(APPEND KAAMOS_SECOND_VERSION_OPTIONS ${KAAMOS_SHADER_GNU_AVX2_OPTIONS})
 endif()
 set(_kaamos_shader_avx2 OFF)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$"
@@ -53,6 +61,7 @@ function(kaamos_add_shader_library target)
   foreach(define IN LISTS arg_DEFINES)
     list(APPEND flags -D "${define}")
   endforeach()
+  set(optimisation "$<$<NOT:$<CONFIG:Debug,RelWithDebInfo>>:${KAAMOS_SHADER_OPTIMISATION}>")
   set(levels sse2)
   if(KAAMOS_SHADER_AVX2 AND NOT arg_BASELINE_ONLY)
     list(APPEND levels avx2)
@@ -112,13 +121,13 @@ extern \"C\" const kaamos::shader::LibraryDesc* kaamos_shaders_@name@() {
       target_compile_definitions(${target}-${level} PRIVATE ${names})
       target_link_libraries(${target}-${level} PRIVATE kaamos::shader)
       target_compile_features(${target}-${level} PRIVATE cxx_std_20)
-      target_compile_options(${target}-${level} PRIVATE ${KAAMOS_SHADER_COMPILE_OPTIONS})
+      target_compile_options(${target}-${level} PRIVATE ${KAAMOS_SHADER_COMPILE_OPTIONS} "${optimisation}")
       target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}-${level}>)
     endforeach()
-    target_compile_options(${target}-avx2 PRIVATE ${KAAMOS_SHADER_AVX2_OPTIONS})
+    target_compile_options(${target}-avx2 PRIVATE ${KAAMOS_SECOND_VERSION_OPTIONS})
   endif()
   target_link_libraries(${target} PUBLIC kaamos::shader)
   target_include_directories(${target} PUBLIC "${folder}")
   target_compile_features(${target} PRIVATE cxx_std_20)
-  target_compile_options(${target} PRIVATE ${KAAMOS_SHADER_COMPILE_OPTIONS})
+  target_compile_options(${target} PRIVATE ${KAAMOS_SHADER_COMPILE_OPTIONS} "${optimisation}")
 endfunction()

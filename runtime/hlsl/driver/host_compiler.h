@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "runtime/hlsl/driver/compiler_options.h"
 #include "runtime/hlsl/driver/shader_cache.h"
 #include "runtime/hlsl/ir/build_failure.h"
 
@@ -18,8 +19,6 @@ struct HostCompiler {
   std::filesystem::path program;
   std::filesystem::path include_folder;  // holds kaamos/shader/prelude.h
 };
-
-enum class Optimisation { kNone, kDebug, kQuick, kFull };  // -O0, -Og -g, -O1, -O2
 
 struct SharedObject {
   std::filesystem::path path;  // empty: error says why

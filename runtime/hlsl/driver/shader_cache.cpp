@@ -6,9 +6,10 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <system_error>
+
+#include "runtime/hlsl/driver/process.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -17,11 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kOnlyOwner = S_IRWXU;
 constexpr mode_t kOthersWrite = S_IWGRP | S_IWOTH;
-
-std::string setting(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
 
 // lstat() follows a link whose name ends in a slash.
 fs::path without_slash(const fs::path& folder) {
@@ -42,13 +38,13 @@ std::string mode_text(mode_t mode) {
 }  // namespace
 
 fs::path cache_folder() {
-  if (const std::string folder = setting("KAAMOS_CACHE_DIR"); !folder.empty()) {
+  if (const std::string folder = environment("KAAMOS_CACHE_DIR"); !folder.empty()) {
     return folder;
   }
-  if (const std::string folder = setting("XDG_CACHE_HOME"); !folder.empty()) {
+  if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty()) {
     return fs::path(folder) / "kaamos";
   }
-  if (const std::string home = setting("HOME"); !home.empty()) {
+  if (const std::string home = environment("HOME"); !home.empty()) {
     return fs::path(home) / ".cache" / "kaamos";
   }
   return fs::path("/tmp") / ("kaamos-cache-" + std::to_string(geteuid()));
@@ -61,8 +57,7 @@ std::string open_cache(const fs::path& wanted) {
   struct stat found = {};
   if ((mkdir(folder.c_str(), kOnlyOwner) != 0 && errno != EEXIST) ||
       lstat(folder.c_str(), &found) != 0) {
-    return "cannot make the shader cache " + folder.string() + ": " + std::strerror(errno) +
-           "; set $KAAMOS_CACHE_DIR to a folder that can be written";
+    return cannot_write(folder);
   }
   const std::string other = "set $KAAMOS_CACHE_DIR to a folder of yours";
   if (S_ISLNK(found.st_mode)) {
@@ -89,6 +84,11 @@ bool may_load(const fs::path& object) {
   struct stat found = {};
   return lstat(object.c_str(), &found) == 0 && S_ISREG(found.st_mode) &&
          found.st_uid == geteuid() && (found.st_mode & kOthersWrite) == 0;
+}
+
+std::string cannot_write(const fs::path& path) {
+  return "cannot write " + path.string() + " of the shader cache: " + std::strerror(errno) +
+         "; set $KAAMOS_CACHE_DIR to a folder that can be written";
 }
 
 }  // namespace kaamos::hlsl

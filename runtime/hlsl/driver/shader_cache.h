@@ -21,4 +21,7 @@ std::string open_cache(const std::filesystem::path& folder);
 // False unless `object` is a file of this user, no link, that nobody else can write to.
 bool may_load(const std::filesystem::path& object);
 
+// The error of a call that could not write `path` in the cache and left its reason in errno.
+std::string cannot_write(const std::filesystem::path& path);
+
 }  // namespace kaamos::hlsl
