@@ -57,14 +57,15 @@ bool ShaderWatcher::wait(const std::atomic<bool>& stop) const {
 }
 
 fs::path find_effects_folder() {
-  const char* wanted = std::getenv("KAAMOS_EFFECTS");
   std::error_code ignored;
-  for (const char* folder : {wanted, KAAMOS_EFFECTS_SOURCE, KAAMOS_EFFECTS_INSTALLED}) {
-    if (folder != nullptr && fs::exists(fs::path(folder) / "shaders" / "frame.hlsli", ignored)) {
-      return folder;
-    }
+  const fs::path programs = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  fs::path folder = (programs / KAAMOS_INSTALLED_EFFECTS).lexically_normal();
+  if (const char* wanted = std::getenv("KAAMOS_EFFECTS")) {
+    folder = wanted;
+  } else if (fs::equivalent(programs, KAAMOS_BUILD_PROGRAMS, ignored)) {
+    folder = KAAMOS_SOURCE_EFFECTS;
   }
-  return {};
+  return fs::exists(folder / "shaders" / "frame.hlsli", ignored) ? folder : fs::path();
 }
 
 }  // namespace northlight

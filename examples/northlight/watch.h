@@ -33,8 +33,8 @@ class ShaderWatcher {
   std::map<std::string, std::filesystem::file_time_type> files_;
 };
 
-// The folder of the effects' shaders: $KAAMOS_EFFECTS, else the source or the installed folder.
-// Empty if there is none.
+// The folder of the effects' shaders: $KAAMOS_EFFECTS, else the one that was installed with the
+// program; for the program of the build folder, that of the source tree. Empty if it is not there.
 std::filesystem::path find_effects_folder();
 
 }  // namespace northlight

@@ -61,8 +61,9 @@ struct ShaderCompileOptions {
   bool CheckOnly = false;           ///< -check: nothing is made; Library stays empty
   bool Debug = false;               ///< -Od -Zi: for gdb
   std::string CacheDirectory = {};  ///< empty: $KAAMOS_CACHE_DIR, else the user's cache directory
-  std::string CxxCompiler = {};     ///< empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
-  bool Spirv = true;                ///< false: without what Vulkan devices need (KA0954)
+  /// Empty: $KAAMOS_CXX, else the compiler that built Kaamos, c++, g++ or clang++.
+  std::string CxxCompiler = {};
+  bool Spirv = true;  ///< false: without what Vulkan devices need (KA0954)
   /// While a shader is being edited: half the C++ compiler's time, for code that runs one thread
   /// after another with fewer optimisations and gives the same results. If the cache has the
   /// library without this option, that is loaded.

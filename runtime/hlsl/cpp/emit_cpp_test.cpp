@@ -182,8 +182,9 @@ TEST_F(EmitTest, TheCacheKnowsWhatItBuilt) {
   EXPECT_FALSE(other.from_cache);
   EXPECT_NE(other.path, first.path);
   size_t entries = 0;
-  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(cache_)) {
-    ++entries;  // two objects, and nothing left over from building them
+  for (const auto& entry : fs::directory_iterator(cache_)) {
+    // Two objects and the headers, and nothing left over from building them.
+    if (!entry.path().filename().string().starts_with("headers-")) ++entries;
   }
   EXPECT_EQ(entries, 2u);
 }

@@ -8,12 +8,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "runtime/hlsl/driver/files.h"
 #include "runtime/hlsl/driver/process.h"
+#include "runtime/hlsl/driver/shader_headers.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -32,16 +32,7 @@ std::string cache_key(const HostCompiler& compiler, const std::string& source,
   const fs::path program = fs::canonical(compiler.program, ignored);
   all += '\0' + program.string() + '\0' + std::to_string(fs::file_size(program, ignored)) + '\0' +
          std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count());
-  std::vector<fs::path> headers;
-  for (const auto& entry :
-       fs::directory_iterator(compiler.include_folder / "kaamos/shader", ignored)) {
-    headers.push_back(entry.path());
-  }
-  std::sort(headers.begin(), headers.end());
-  for (const fs::path& header : headers) {
-    all += '\0' + header.filename().string() + '\0' + read_file(header);
-  }
-  return content_hash(all);
+  return content_hash(all + shader_headers_text(compiler.include_folder));
 }
 
 std::string first_lines(const std::string& text, int count) {
@@ -54,13 +45,13 @@ std::string first_lines(const std::string& text, int count) {
 
 // Compiles `source` to `object`. Returns why it failed, or nothing.
 std::string compile(const HostCompiler& compiler, Optimisation optimisation, const fs::path& source,
-                    const fs::path& object, const fs::path& log) {
+                    const fs::path& headers, const fs::path& object, const fs::path& log) {
   const std::string program = compiler.program.string();
   const auto run_with = [&](const std::vector<std::string>& options) {
     std::vector<std::string> words = {program};
     words.insert(words.end(), options.begin(), options.end());
-    words.insert(words.end(), {"-I" + compiler.include_folder.string(), source.string(), "-o",
-                               object.string(), "-lm"});
+    words.insert(words.end(),
+                 {"-I" + headers.string(), source.string(), "-o", object.string(), "-lm"});
     return run_program(words, log);
   };
   const auto options = compiler_options(optimisation, OptionSet::kGnu);
@@ -99,20 +90,16 @@ std::optional<HostCompiler> find_host_compiler(std::string& error, const std::st
                       "none";
     return std::nullopt;
   }
-  const std::string folder = environment("KAAMOS_SHADER_INCLUDE");
-  const std::string looked = folder.empty() ? KAAMOS_SHADER_INCLUDE_DIRS : folder;
-  std::stringstream candidates(looked);
-  for (std::string candidate; std::getline(candidates, candidate, ':');) {
-    std::error_code ignored;
-    if (fs::exists(fs::path(candidate) / "kaamos/shader/prelude.h", ignored)) {
-      out.include_folder = candidate;
-      return out;
-    }
+  out.include_folder = environment("KAAMOS_SHADER_INCLUDE");
+  std::error_code ignored;
+  if (!out.include_folder.empty() &&
+      !fs::exists(out.include_folder / "kaamos/shader/prelude.h", ignored)) {
+    error = "$KAAMOS_SHADER_INCLUDE names " + out.include_folder.string() +
+            ", which has no kaamos/shader/prelude.h: unset it, or name the include folder of this "
+            "version";
+    return std::nullopt;
   }
-  error = "the shader headers are missing: no kaamos/shader/prelude.h in " +
-          (looked.empty() ? "any known folder" : looked) +
-          ": install Kaamos or name their folder in $KAAMOS_SHADER_INCLUDE";
-  return std::nullopt;
+  return out;
 }
 
 fs::path find_shared_object(const HostCompiler& compiler, const std::string& content,
@@ -157,8 +144,10 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
   const fs::path source_path = folder / "shader.cpp";
   const fs::path built = folder / "shader.so";
   if (!replace_file(source_path, source)) out.error.text = cannot_write(source_path);
+  fs::path headers = compiler.include_folder;
+  if (!out.error && headers.empty()) headers = write_shader_headers(cache, out.error.text);
   if (!out.error) {
-    out.error.text = compile(compiler, optimisation, source_path, built, folder / "log");
+    out.error.text = compile(compiler, optimisation, source_path, headers, built, folder / "log");
   }
   if (!out.error) {
     // Whatever the umask is, may_load() takes it.

@@ -17,7 +17,8 @@ namespace kaamos::hlsl {
 
 struct HostCompiler {
   std::filesystem::path program;
-  std::filesystem::path include_folder;  // holds kaamos/shader/prelude.h
+  // Holds kaamos/shader/prelude.h; empty: the library's own headers (shader_headers.h).
+  std::filesystem::path include_folder;
 };
 
 struct SharedObject {
@@ -27,8 +28,8 @@ struct SharedObject {
 };
 
 // The compiler is `wanted`, else $KAAMOS_CXX, else the one that built Kaamos, else c++, g++ or
-// clang++ in $PATH. The headers are in $KAAMOS_SHADER_INCLUDE, else in the installed or the source
-// folder. Sets `error` if either is missing.
+// clang++ in $PATH. $KAAMOS_SHADER_INCLUDE is the include folder, if it is set. Sets `error` if the
+// compiler or the headers of that folder are missing.
 std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& wanted = {});
 
 // The object that build_shared_object() would find in the cache; empty if it would build or fail.

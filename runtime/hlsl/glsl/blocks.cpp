@@ -2,11 +2,12 @@
 #include "runtime/hlsl/glsl/blocks.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace kaamos::hlsl {
 
-// The files of runtime/hlsl/glsl/prelude; an empty one marks the end.
-extern const std::string_view kGlslPreludeSources[];
+// The files of runtime/hlsl/glsl/prelude, names and texts (cmake/KaamosEmbed.cmake).
+extern const std::pair<std::string_view, std::string_view> kGlslPreludeSources[];
 
 namespace glsl_blocks {
 
@@ -183,8 +184,8 @@ const Library& Library::get() {
 }
 
 Library::Library() {
-  for (const std::string_view* source = kGlslPreludeSources; !source->empty(); ++source) {
-    read(*source);
+  for (const auto* source = kGlslPreludeSources; !source->first.empty(); ++source) {
+    read(source->second);
   }
 }
 

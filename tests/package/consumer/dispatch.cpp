@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Dispatches squares.hlsl with an installed Kaamos and checks every number that it wrote.
+// Dispatches squares.hlsl with an installed Kaamos and checks every number that it wrote. Before
+// that, it compiles another shader by itself.
 #include <rtapi/rtapi.h>
+#include <rtapi/shader_compiler.h>
 #include <shaders/squares.h>
 
 #include <cstdint>
@@ -53,6 +55,20 @@ std::vector<uint32_t> RunSquares() {
   return numbers;
 }
 
+// Compiles a library at run time, with the machine's C++ compiler.
+bool CompilesShaders() {
+  rtapi::ShaderCompileOptions options;
+  options.File = "one.hlsl";
+  options.Source =
+      "RWByteAddressBuffer results : register(u0);\n"
+      "[shader(\"raygeneration\")] void One() { results.Store(0, 1); }\n";
+  const rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
+  if (compiled.Status.ok() && compiled.Library.FindExport("One") != nullptr) return true;
+  std::fprintf(stderr, "%s\n",
+               compiled.Status.ok() ? "no One" : compiled.Status.error().message.c_str());
+  return false;
+}
+
 // The library, its headers and its package are of one installation.
 bool VersionsAgree() {
   const std::string headers = std::to_string(rtapi::kVersionMajor) + "." +
@@ -67,7 +83,7 @@ bool VersionsAgree() {
 }  // namespace
 
 int main() try {
-  if (!VersionsAgree()) return 1;
+  if (!VersionsAgree() || !CompilesShaders()) return 1;
   const std::vector<uint32_t> numbers = RunSquares();
   for (uint32_t i = 0; i < kCount; ++i) {
     if (numbers.at(i) != i * i) {
