@@ -11,7 +11,9 @@ namespace kaamos::d3d12 {
 
 enum class ErrorId : uint16_t {
 #define KAAMOS_D3D12_ERROR(number, name, code, title, rule, cure) name = number,
+#define KAAMOS_D3D12_WARNING(number, name, title, rule, cure) name = number,
 #include "d3d12/com/errors.inc"
+#undef KAAMOS_D3D12_WARNING
 #undef KAAMOS_D3D12_ERROR
 };
 

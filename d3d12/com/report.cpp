@@ -26,6 +26,7 @@ struct Sinks {
   std::map<uint64_t, std::shared_ptr<Sink>> sinks;
   uint64_t next = 1;
   int muted = 0;
+  bool printed_once = false;  // that shaders are interpreted
 };
 
 Sinks& all_sinks() {
@@ -57,6 +58,30 @@ const char* severity_name(D3D12_MESSAGE_SEVERITY severity) {
   return "MESSAGE";
 }
 
+// How often a process prints a message that is not severe enough.
+enum class Printed { kNever, kOnce };
+
+void send(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error, Printed otherwise) {
+  Sinks& all = all_sinks();
+  std::vector<std::shared_ptr<Sink>> sinks;
+  {
+    // One message at a time, so that lines of several threads do not mix.
+    std::lock_guard lock(all.mutex);
+    const int least = printed_severity();
+    const bool once = otherwise == Printed::kOnce && least >= 0 && !all.printed_once;
+    if (all.muted == 0 && (severity <= least || once)) {
+      std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), error.message.c_str());
+      if (otherwise == Printed::kOnce) all.printed_once = true;
+    }
+    for (auto& [id, sink] : all.sinks) sinks.push_back(sink);
+  }
+  // Without the lock: a callback may meet another error, or release its device.
+  for (const auto& sink : sinks) {
+    std::lock_guard lock(sink->mutex);
+    if (!sink->removed) sink->call(severity, error);
+  }
+}
+
 }  // namespace
 
 HRESULT to_hresult(rtapi::ErrorCode code) {
@@ -80,21 +105,11 @@ HRESULT to_hresult(rtapi::ErrorCode code) {
 }
 
 void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-  Sinks& all = all_sinks();
-  std::vector<std::shared_ptr<Sink>> sinks;
-  {
-    // One message at a time, so that lines of several threads do not mix.
-    std::lock_guard lock(all.mutex);
-    if (all.muted == 0 && severity <= printed_severity()) {
-      std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), error.message.c_str());
-    }
-    for (auto& [id, sink] : all.sinks) sinks.push_back(sink);
-  }
-  // Without the lock: a callback may meet another error, or release its device.
-  for (const auto& sink : sinks) {
-    std::lock_guard lock(sink->mutex);
-    if (!sink->removed) sink->call(severity, error);
-  }
+  send(severity, error, Printed::kNever);
+}
+
+void report_interpreted(const rtapi::Error& error) {
+  send(D3D12_MESSAGE_SEVERITY_WARNING, error, Printed::kOnce);
 }
 
 void print(D3D12_MESSAGE_SEVERITY severity, const std::string& text) {

@@ -21,6 +21,10 @@ HRESULT to_hresult(rtapi::ErrorCode code);
 /// are printed: "none", "errors" (the default), or "all".
 void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error);
 
+/// Reports the warning that shaders are interpreted. The process prints the first one unless
+/// nothing is printed at all: a program that runs a hundred times slower says why.
+void report_interpreted(const rtapi::Error& error);
+
 /// Prints what a program asked for, unless nothing is printed at all.
 void print(D3D12_MESSAGE_SEVERITY severity, const std::string& text);
 

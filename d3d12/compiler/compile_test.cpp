@@ -3,14 +3,19 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
+#include "d3d12/com/report.h"
 #include "d3d12/compiler/shader_bytecode.h"
 #include "d3d12/compiler/shader_source.h"
 
 namespace kaamos::d3d12 {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -133,6 +138,44 @@ TEST(CompileSource, HashIsOfTheContent) {
   EXPECT_EQ(one.hash.digest, same.hash.digest);
   EXPECT_EQ(one.container, same.container);
   EXPECT_NE(one.hash.digest, compile_source(other).hash.digest);
+}
+
+// A compiler that fails, and then none at all.
+TEST(LoadShader, IsInterpretedWhereItCannotBeBuiltAndSaysSoOnce) {
+  std::string folder = (fs::temp_directory_path() / "kaamos-load-XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const fs::path broken = fs::path(folder) / "broken-c++";
+  std::ofstream(broken) << "#!/bin/sh\necho 'In file included from x:1:' >&2\n"
+                           "echo \"error: unrecognized option '-std=c++20'\" >&2\nexit 1\n";
+  fs::permissions(broken, fs::perms::owner_all);
+  int warnings = 0;
+  const uint64_t sink = add_sink([&](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+    if (severity == D3D12_MESSAGE_SEVERITY_WARNING && error.id.number == 4025) ++warnings;
+  });
+  const auto loaded = [&](const char* compiler, const std::string& colour) {
+    setenv("KAAMOS_CXX", compiler, 1);
+    const CompiledSource compiled = compile_source(
+        arguments_of(("struct Payload { float3 color; };\n[shader(\"miss\")] void Sky("
+                      "inout Payload p) { p.color = " +
+                      colour + "; }\n")
+                         .c_str()));
+    testing::internal::CaptureStderr();
+    const auto library = load_shader(compiled.container.data(), compiled.container.size());
+    const std::string said = testing::internal::GetCapturedStderr();
+    unsetenv("KAAMOS_CXX");
+    EXPECT_TRUE(library) << library.error().message;
+    return said;
+  };
+  EXPECT_THAT(loaded(broken.c_str(), "11"),
+              testing::AllOf(testing::StartsWith("D3D12 WARNING: KA4025 shader is interpreted: "
+                                                 "\"shaders/sky.hlsl\""),
+                             HasSubstr("KA2751"), HasSubstr(broken.string() + " failed"),
+                             HasSubstr("\nerror: unrecognized option"), HasSubstr("$KAAMOS_CXX"),
+                             testing::Not(HasSubstr("In file included"))));
+  EXPECT_EQ(loaded("no-such-compiler", "12"), "");
+  remove_sink(sink);
+  EXPECT_EQ(warnings, 2);
+  fs::remove_all(folder);
 }
 
 TEST(LoadShader, DxilSaysWhatToDo) {

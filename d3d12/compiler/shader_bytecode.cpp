@@ -14,15 +14,25 @@ namespace kaamos::d3d12 {
 
 namespace {
 
+// rtapi's errors of a source that compiles and cannot be built on this machine.
 constexpr uint16_t kNoCompiler = 2750;
+constexpr uint16_t kCompilerFailed = 2751;
+
+bool cannot_be_built(const rtapi::Status& status) {
+  return !status.ok() &&
+         (status.error().id.number == kNoCompiler || status.error().id.number == kCompilerFailed);
+}
 
 rtapi::Result<rtapi::ShaderLibrary> compile(const void* bytes, size_t size) {
   auto source = source_of_container(bytes, size);
   if (!source) return source.error();
   rtapi::ShaderCompileOptions options = compile_options(*std::move(source));
   rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
-  if (!compiled.Status.ok() && compiled.Status.error().id.number == kNoCompiler) {
-    report(D3D12_MESSAGE_SEVERITY_WARNING, compiled.Status.error());
+  if (cannot_be_built(compiled.Status)) {
+    const std::string who = "\"" + options.File + "\", and what else fails this way, runs about ";
+    report_interpreted(
+        make_error(ErrorId::kInterpreted,
+                   who + "a hundred times slower on the CPU: " + compiled.Status.error().message));
     options.Interpret = true;
     compiled = rtapi::CompileShaderLibrary(options);
   }

@@ -43,6 +43,10 @@ D3D12_MESSAGE_SEVERITY severity_of(rtapi::MessageSeverity severity) {
   return D3D12_MESSAGE_SEVERITY_ERROR;
 }
 
+// rtapi's warnings that checked shaders and linked ones are interpreted.
+constexpr uint16_t kCodeInterpreted = 424;
+constexpr uint16_t kFunctionInterpreted = 565;
+
 HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, void** device) {
   if (device != nullptr) *device = nullptr;
   if (level > D3D_FEATURE_LEVEL_12_1) {
@@ -64,7 +68,12 @@ HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, v
   desc.Backend = backend;
   desc.Checked = debug_layer_enabled();
   desc.OnMessage = [](const rtapi::Message& message) {
-    report(severity_of(message.Severity), {message.Id, rtapi::ErrorCode::kFailed, message.Text});
+    const rtapi::Error error{message.Id, rtapi::ErrorCode::kFailed, message.Text};
+    if (message.Id.number == kCodeInterpreted || message.Id.number == kFunctionInterpreted) {
+      report_interpreted(error);
+    } else {
+      report(severity_of(message.Severity), error);
+    }
   };
   auto made = rtapi::CreateDevice(desc);
   if (!made) return fail(made.error());

@@ -84,7 +84,10 @@ std::vector<Row> d3d12() {
   return {
 #define KAAMOS_D3D12_ERROR(number, name, code, title, rule, cure) \
   {number, "error", #code, title, rule, cure},
+#define KAAMOS_D3D12_WARNING(number, name, title, rule, cure) \
+  {number, "warning", "", title, rule, cure},
 #include "d3d12/com/errors.inc"
+#undef KAAMOS_D3D12_WARNING
 #undef KAAMOS_D3D12_ERROR
   };
 }

@@ -105,12 +105,22 @@ std::string describe_heap(const std::optional<HeapSlot>& slot) {
 ShaderLibrary DeviceImpl::library_to_run(const ShaderLibrary& library) const {
   if (!reporter) return library;
   CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");
-  if (!found.note.empty()) {
+  if (!found.unchecked.empty()) {
     reporter->report(
-        found.checked ? kaamos::checks::Id::kCodeInterpreted : kaamos::checks::Id::kCodeNotChecked,
-        found.note);
+        kaamos::checks::Id::kCodeNotChecked,
+        Text(Quoted(library.name()), " runs without checks of its code: ", found.unchecked));
+  }
+  if (const std::string text = say_interpreted(Quoted(library.name()), found.slow); !text.empty()) {
+    reporter->report(kaamos::checks::Id::kCodeInterpreted, text);
   }
   return found.library;
+}
+
+std::string DeviceImpl::say_interpreted(const std::string& what, const std::string& reason) const {
+  if (reason.empty()) return {};
+  std::lock_guard lock(said_mutex_);
+  if (!said_.insert(reason).second) return {};
+  return Text(what, ", and what else fails this way, runs about a hundred times slower: ", reason);
 }
 
 ShaderIdentifier DeviceImpl::make_identifier(std::string_view name) {

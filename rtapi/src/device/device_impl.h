@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include <rtapi/device.h>
@@ -52,6 +53,10 @@ struct DeviceImpl {
   // Returns the library's checked variant on a checked device, else the library itself.
   ShaderLibrary library_to_run(const ShaderLibrary& library) const;
 
+  // Returns the report that `what` is interpreted for `reason` (ModuleLibrary::slow): each reason
+  // once, with the first that it holds for. Empty if there is nothing to report.
+  std::string say_interpreted(const std::string& what, const std::string& reason) const;
+
   ShaderIdentifier make_identifier(std::string_view name);
 
   // Returns "buffer \"x\" (416 bytes)" for a live address, else "no live buffer".
@@ -70,6 +75,8 @@ struct DeviceImpl {
   std::map<uintptr_t, HeapRange> heaps_;
   mutable std::mutex removed_mutex_;
   Status removed_;
+  mutable std::mutex said_mutex_;
+  mutable std::set<std::string> said_;  // reasons
   std::atomic<uint32_t> next_identifier_{1};
 
  public:

@@ -154,9 +154,9 @@ class FunctionLinker {
     if (!linked.library) {
       return MakeError(Id::kFunctionLink, where, " cannot be linked:\n", linked.error);
     }
-    if (!linked.slow.empty()) {
-      parts_.device->report(MessageSeverity::kWarning, MakeError(Id::kFunctionInterpreted, where,
-                                                                 " is interpreted: ", linked.slow));
+    if (const std::string text = parts_.device->say_interpreted(where, linked.slow);
+        !text.empty()) {
+      parts_.device->report(MessageSeverity::kWarning, MakeError(Id::kFunctionInterpreted, text));
     }
     const shader::LibraryDesc& table = *linked.library.impl()->desc;
     for (const SubjectPtr& s : subjects) {

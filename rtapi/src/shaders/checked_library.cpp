@@ -44,22 +44,10 @@ CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
   std::string error;
   const auto module = checked_module(desc, error);
-  if (module == nullptr) {
-    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
-  }
-  CheckedLibrary out;
-  out.checked = true;
+  if (module == nullptr) return {library, error, {}};
   ModuleLibrary built = library_of(module, desc.flags, spirv);
-  out.library = std::move(built.library);
-  if (!built.slow.empty()) {
-    out.note =
-        "\"" + library.name() + "\" is interpreted, about a hundred times slower: " + built.slow;
-  }
-  error = std::move(built.error);
-  if (!out.library) {
-    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
-  }
-  return out;
+  if (!built.library) return {library, std::move(built.error), {}};
+  return {std::move(built.library), {}, std::move(built.slow)};
 }
 
 // Programs load the same library again and again, and each time it would have to be compiled up to
@@ -68,7 +56,7 @@ constexpr size_t kMostKept = 32;
 
 struct Known {
   std::weak_ptr<const ShaderLibraryImpl> variant;
-  std::string note;
+  std::string slow;
 };
 struct KnownVariants {
   std::mutex mutex;
@@ -80,7 +68,7 @@ struct KnownVariants {
 
 CheckedLibrary checked_variant(const ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
-  if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
+  if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, {}};
   // Never destroyed: at exit, other threads may still be running what it holds.
   static KnownVariants& known = *new KnownVariants;
   const std::lock_guard lock(known.mutex);
@@ -89,11 +77,11 @@ CheckedLibrary checked_variant(const ShaderLibrary& library, bool spirv) {
   Known& entry =
       known.by_source[{std::hash<std::string_view>()(source), source.size(), desc.flags, spirv}];
   if (auto variant = entry.variant.lock()) {
-    return {ShaderLibrary(std::move(variant)), entry.note, true};
+    return {ShaderLibrary(std::move(variant)), {}, entry.slow};
   }
   CheckedLibrary out = make(library, spirv);
-  if (!out.checked) return out;
-  entry = {out.library.impl(), out.note};
+  if (!out.unchecked.empty()) return out;
+  entry = {out.library.impl(), out.slow};
   known.kept.push_back(out.library);
   if (known.kept.size() > kMostKept) known.kept.pop_front();
   return out;

@@ -13,9 +13,8 @@ namespace rtapi::detail {
 
 struct CheckedLibrary {
   ShaderLibrary library;  // the variant; the library itself if there can be none
-  // If not empty: in what the variant falls short, and why, e.g. that there is no C++ compiler.
-  std::string note;
-  bool checked = false;
+  std::string unchecked;  // if not empty: why there can be none
+  std::string slow;       // if not empty: why the variant is interpreted, as in ModuleLibrary
 };
 
 // `spirv`: for a Vulkan device. Built by the machine's C++ compiler and cached by content, like

@@ -22,7 +22,7 @@ struct ModuleLibrary {
 };
 
 // Built by the machine's C++ compiler and cached by content, like libraries compiled at run time;
-// interpreted if there is no compiler. `flags`: kLibraryInterpreted and kLibraryDebug of the
+// interpreted if it cannot be built. `flags`: kLibraryInterpreted and kLibraryDebug of the
 // library that it stands for. `spirv`: for a Vulkan device.
 ModuleLibrary library_of(std::shared_ptr<const kaamos::hlsl::ir::Module> module, uint32_t flags,
                          bool spirv);

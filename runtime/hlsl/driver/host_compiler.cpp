@@ -35,12 +35,15 @@ std::string cache_key(const HostCompiler& compiler, const std::string& source,
   return content_hash(all + shader_headers_text(compiler.include_folder));
 }
 
-std::string first_lines(const std::string& text, int count) {
-  size_t end = 0;
-  for (int i = 0; i < count && end < text.size(); ++i) {
-    end = std::min(text.find('\n', end), text.size() - 1) + 1;
+// The compiler's messages from its first error on, some lines of them.
+std::string first_errors(const std::string& log) {
+  const size_t error = log.find("error");
+  const size_t start = error == std::string::npos ? 0 : log.rfind('\n', error) + 1;
+  size_t end = start;
+  for (int i = 0; i < 8 && end < log.size(); ++i) {
+    end = std::min(log.find('\n', end), log.size() - 1) + 1;
   }
-  return text.substr(0, end);
+  return log.substr(start, end - start);
 }
 
 // Compiles `source` to `object`. Returns why it failed, or nothing.
@@ -61,8 +64,11 @@ std::string compile(const HostCompiler& compiler, Optimisation optimisation, con
   if (code > 0 && fewer != options) code = run_with(fewer);
   if (code == 0) return {};
   if (code < 0) return "cannot run " + program + ": " + std::strerror(errno);
+  const std::string messages = first_errors(read_file(log));
   return program + " failed with exit code " + std::to_string(code) +
-         " on the emitted C++, its first messages:\n" + first_lines(read_file(log), 12);
+         " on the emitted C++. If every shader fails, install g++ or clang++ with C++20's library, "
+         "or name a compiler in $KAAMOS_CXX." +
+         (messages.empty() ? "" : " Its first messages:\n" + messages);
 }
 
 }  // namespace
