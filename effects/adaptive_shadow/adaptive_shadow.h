@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Adaptive ray traced shadows: as many rays as the visibility of a light has varied lately, none
-/// where it has not. [Boksansky, Wimmer & Bittner 2019; effects-spec B2.10]
+/// where it has not. [Boksansky, Wimmer & Bittner 2019]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -17,7 +17,7 @@
 namespace kaamos::effects {
 
 /// Bits of AdaptiveShadowConstants::flags. The first three are what the released code does where it
-/// differs from the text. [effects-spec E3, B2.10]
+/// differs from the text. [Boksansky, Wimmer & Bittner 2019; effects/SOURCES.md: E3]
 enum AdaptiveShadowFlags : std::uint32_t {
   /// Variation is that of this frame and the three before it, these not carried along with the
   /// surfaces, and three equal counts are calm. Else, as the text says, that of the four frames

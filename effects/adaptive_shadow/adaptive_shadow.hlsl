@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Adaptive ray traced shadows: rays go where the visibility of a light varied in the last frames,
-// and frames and neighbours are averaged. [Boksansky, Wimmer & Bittner 2019; effects-spec B2.10]
+// and frames and neighbours are averaged. [Boksansky, Wimmer & Bittner 2019]
 #include "sampling.hlsli"
 #include "visibility.hlsli"
 

@@ -120,7 +120,7 @@ TEST_P(AdaptiveShadow, RaysGoToThePenumbra) {
 }
 
 // At the rays that it took, spread evenly over all pixels and filtered in the same way, the error
-// is larger. [effects-spec B2.10: Measure]
+// is larger.
 TEST(AdaptiveShadowQuality, BeatsAsManyRaysSpreadEvenly) {
   Sequence adaptive("embree", kAdaptiveHighSamples);
   double rays = 0, adaptive_error = 0;

@@ -7,7 +7,7 @@
 
 namespace kaamos::effects {
 
-/// Metres and samples per pixel that the Northlight demo used. [effects-spec B3.6]
+/// Metres and samples per pixel that the Northlight demo used. [GDC 2018 talk]
 ///@{
 inline constexpr float kDefaultAmbientOcclusionRadius = 4.0f;
 inline constexpr std::uint32_t kDefaultAmbientOcclusionSamples = 4;
@@ -15,18 +15,18 @@ inline constexpr std::uint32_t kDefaultAmbientOcclusionSamples = 4;
 
 /// The pass, from the library that is built in or from one compiled at run time. Each dispatch adds
 /// the open ones of its samples to kAmbientOcclusionSum; PassConstants::radius is how far rays
-/// reach, metres. [effects-spec B3]
+/// reach, metres. [GDC 2018 talk; survey 7.4]
 RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library);
 /// The same with directions uniform over the hemisphere, each counted by twice its cosine: right on
 /// average, but noisier; a pixel's mean may be above 1. Register u0 of space3 is
 /// R32G32B32A32_FLOAT, to which the samples are added; b0 is UniformOcclusionConstants.
-/// [effects-spec B3.6: O6]
+/// [survey 7.4]
 RayPassDesc uniform_ambient_occlusion_pass(rtapi::ShaderLibrary library);
 
 /// Constants b0, space3 of the uniform pass.
 struct UniformOcclusionConstants {
   /// 1: the survey's sum, which forgets the density of the directions: an open plane gets
-  /// 1 / (2 pi). To show the error. [effects-spec 0.1: E4]
+  /// 1 / (2 pi). To show the error. [effects/SOURCES.md: E4]
   std::uint32_t survey_rule = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ambient occlusion: the fraction of the hemisphere, weighted by the cosine, that is open up to a
 // radius. Directions are cosine-distributed, so the estimate is simply the mean visibility. Further
-// down, the same with directions that are uniform over the hemisphere. [effects-spec B3.6]
+// down, the same with directions that are uniform over the hemisphere. [GDC 2018 talk; survey 7.4]
 #include "visibility.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
@@ -15,7 +15,7 @@ float3 OcclusionDirection(float2 tile, uint index, float3 shading_normal) {
 void AmbientOcclusionRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
-  // The sky is open, and with a radius of zero nothing can be in the way. [effects-spec E.2]
+  // The sky is open, and with a radius of zero nothing can be in the way.
   if (g_ids[pixel].x == 0 || !(pass_constants.radius > 0.0)) {
     ambient_occlusion_sum[pixel] = SumBefore(ambient_occlusion_sum, pixel) + float(count);
     return;
@@ -62,7 +62,7 @@ ConstantBuffer<UniformOcclusionConstants> uniform_constants : register(b0, space
 
 static const float kPi = 3.14159265359;
 
-// Direction about +Z with density 1 / (2 pi). [effects-spec B0.4]
+// Direction about +Z with density 1 / (2 pi).
 float3 SampleUniformHemisphere(float2 u) {
   const float r = sqrt(max(0.0, 1.0 - u.x * u.x));
   const float phi = 2.0 * kPi * u.y;
@@ -97,7 +97,7 @@ void UniformOcclusionRayGen() {
     }
   }
   // cosine / pi over the density is twice the cosine. Without the density an open plane would get
-  // 1 / (2 pi) instead of 1. [effects-spec 0.1: E4]
+  // 1 / (2 pi) instead of 1. [effects/SOURCES.md: E4]
   open *= uniform_constants.survey_rule != 0 ? 1.0 / kPi : 2.0;
   uniform_sum[pixel] = SumBefore(uniform_sum, pixel) + open;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Uniform and cosine-distributed rays find the same openness; how much noisier the former are.
-// [effects-spec B3.6: O6, B0.7; 0.1: E4]
+// [survey 7.4; effects/SOURCES.md: E4]
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, AmbientOcclusionTest, testing::Values("embree
                          [](const auto& backend) { return backend.param; });
 
 // A wedge leaves a share p of all directions about the normal open, at every height alike: the
-// variances of independent rays. [effects-spec B0.7]
+// variances of independent rays.
 TEST(UniformOcclusion, VarianceBehindAWedge) {
   constexpr std::uint32_t kPoints = 1u << 16;
   for (const double p : {0.25, 0.5, 2.0 / 3, 0.9}) {

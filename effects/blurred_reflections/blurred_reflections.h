@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Screen-space mirrors at a quarter of the pixels, blurred by roughness. [effects-spec B4.7]
+/// Screen-space mirrors at a quarter of the pixels, blurred by roughness. [Valient 2014]
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mirror rays at a quarter of the pixels, spread over frames, and a blur that follows from roughness
-// alone: the picture of mirrors, its mips, and a few taps in between. [effects-spec B4.7; Valient
-// 2014, Killzone Shadow Fall]
+// alone: the picture of mirrors, its mips, and a few taps in between. [Valient 2014, Killzone
+// Shadow Fall]
 #include "../screen_space_reflections/screen_follow.hlsli"
 
 // As those of effects/reflections, but no sum.

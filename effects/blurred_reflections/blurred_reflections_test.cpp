@@ -95,7 +95,7 @@ int fade_width(const FloatImage& seen, const FloatImage& position, double eye_z,
   return width;
 }
 
-// [effects-spec B4.7: no contact hardening]
+// The width of the blur follows from roughness alone: there is no contact hardening. [survey 6.2]
 TEST(BlurredReflectionsBlur, WhatTouchesTheFloorIsAsBlurredAsWhatIsFarFromIt) {
   Scene scene = make_mirror_floor();
   add_shining_box(scene, {1, 1, 0.2}, {0, 1, 0}, {4, 4, 4});

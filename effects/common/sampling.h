@@ -28,7 +28,7 @@ inline float unit_float(std::uint32_t bits) {
   return static_cast<float>(bits >> 8) * (1.0f / 16777216.0f);
 }
 
-/// Unit disk, area preserving. [effects-spec B0.4]
+/// Unit disk, area preserving.
 inline glm::vec2 sample_disk(const glm::vec2& u) {
   const float r = std::sqrt(u.x), phi = 6.2831853f * u.y;
   return {r * std::cos(phi), r * std::sin(phi)};
@@ -50,7 +50,7 @@ inline glm::vec3 to_world(const glm::vec3& local, const glm::vec3& n) {
   return t * local.x + s * local.y + n * local.z;
 }
 
-/// Direction to a point of the sun's disk, uniform over the disk. [effects-spec B0.4]
+/// Direction to a point of the sun's disk, uniform over the disk.
 inline glm::vec3 sample_sun(const glm::vec2& u, const glm::vec3& direction_to_sun,
                             float tan_angular_radius) {
   const glm::vec2 d = sample_disk(u) * tan_angular_radius;

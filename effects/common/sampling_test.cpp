@@ -75,7 +75,8 @@ double edge_error(std::uint32_t n, bool random) {
 }
 
 TEST(Sobol, ErrorFallsFasterThanWithRandomNumbers) {
-  // [effects-spec B0.3]: the slope is -0.77 for an edge; independent random numbers have -0.5.
+  // Over an edge the slope is about -3/4 [Mitchell 1996, Consequences of Stratified Sampling in
+  // Graphics]; independent random numbers have -1/2.
   const double slope = std::log(edge_error(1024, false) / edge_error(16, false)) / std::log(64.0);
   EXPECT_LT(slope, -0.65);
   const double random = std::log(edge_error(1024, true) / edge_error(16, true)) / std::log(64.0);
@@ -135,7 +136,7 @@ std::pair<double, double> power(const std::vector<double>& values, int size, dou
 }
 
 TEST(BlueNoise, HasLittleEnergyAtLowFrequencies) {
-  // [effects-spec B0.3]: at least 10 dB below white noise under a quarter of the Nyquist frequency.
+  // At least 10 dB below white noise under a quarter of the Nyquist frequency.
   const std::vector<std::uint32_t> ranks = void_and_cluster(64, 1);
   std::vector<double> blue, white;
   for (std::size_t i = 0; i < ranks.size(); ++i) {

@@ -2,7 +2,6 @@
 /// @file
 /// Directional albedo of the specular lobe: the part of uniform light that GGX with Schlick's
 /// Fresnel term reflects towards a view direction. The diffuse lobe has the rest.
-/// [effects-spec B0.4]
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ double white(double alpha, double cosine) {
   return split.x + split.y;
 }
 
-// [effects-spec B0.4: white-furnace oracle]
+// A white furnace, F = 1: from quadrature, and from the closed form for alpha 1 seen head-on.
 TEST(SpecularAlbedo, HasTheKnownValues) {
   const auto degrees = [](double angle) { return std::cos(angle * kPi / 180); };
   EXPECT_NEAR(white(0.1, degrees(80)), 0.8955, 0.001);

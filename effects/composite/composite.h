@@ -31,7 +31,7 @@ struct FrameParts {
   bool is_matte = false;
 };
 
-/// The frame's radiance from all effects. [effects-spec C: Co1]
+/// The frame's radiance from all effects.
 class ComposePass {
  public:
   /// Makes the pass for these pictures, which must outlive it.

@@ -47,7 +47,7 @@ void Composite(uint3 id : SV_DispatchThreadID) {
 }
 
 // The whole frame: adds up what the effects have found. An effect that was not rendered is left
-// out; without indirect light, the open sky stands in for it. [effects-spec C: Co1]
+// out; without indirect light, the open sky stands in for it.
 RWTexture2D<float4> sun_visibility : register(u0, space3);
 RWTexture2D<float4> ambient : register(u1, space3);       // ambient visibility
 RWTexture2D<float4> local_lights : register(u2, space3);  // radiance

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The finished radiance of a frame, kept for the next one. Reflections that are found in the
-/// picture may take it from there: it has reflections itself, and glass. [effects-spec A.3: R7]
+/// picture may take it from there: it has reflections itself, and glass. [survey 6.2]
 #pragma once
 
 #include <rtapi/rtapi.h>

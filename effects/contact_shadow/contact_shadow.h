@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Contact shadows of each pixel's strongest point light and strongest spot light, by short rays.
-/// [effects-spec B2.12]
+/// [Control; survey 5.3.1; Northlight deck: Contact Shadows]
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contact shadows: short rays to the two lights that matter most to a pixel. They resolve the
-// places where things touch, for which shadow maps are too coarse. [effects-spec B2.12; Control]
+// places where things touch, for which shadow maps are too coarse. [Control; survey 5.3.1]
 #include "occluder.hlsli"
 #include "sampling.hlsli"
 
@@ -17,7 +17,7 @@ struct ContactConstants {
 ConstantBuffer<ContactConstants> constants : register(b0, space3);
 
 static const uint kNoLight = 0xFFFFFF;
-static const uint kContactPair = 6;  // and 7 [effects-spec B0.3]
+static const uint kContactPair = 6;  // and 7
 
 // What one ray finds out about a light.
 struct Contact {

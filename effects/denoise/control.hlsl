@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reflection denoiser of Control in three stages: clamp fireflies, accumulate over frames,
-// filter twice in rows and columns. [effects-spec B6.5; Control, survey table 1]
+// filter twice in rows and columns. [Control; survey: Table 1]
 //
 // The accumulation is that of svgf.hlsl with the history clipped to the neighbours. Contact shadows
 // and indirect light use the same stages with lobe_scale 0: a fixed radius, and no hit distances.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each stage of Control's denoiser is for. [effects-spec B6.5]
+// What each stage of Control's denoiser is for. [Control]
 #include <random>
 
 #include "effects/denoise/denoise_fixture.h"

@@ -2,7 +2,7 @@
 /// @file
 /// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
 /// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
-/// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
+/// surface's own colour; a scalar signal has three equal channels.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -51,16 +51,16 @@ static_assert(sizeof(DenoiseConstants) == 84);
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
 
-/// How a signal is denoised. [effects-spec B6]
+/// How a signal is denoised.
 enum class DenoiseMethod {
   kNone,            ///< the signal as it is
-  kGaussian,        ///< N1: blurs over edges
-  kBilateral,       ///< N2: rows, then columns
-  kBilateralExact,  ///< N2 in two dimensions: slow
-  kTemporal,        ///< N3: over frames only
-  kSvgf,            ///< N4
-  kControl,         ///< N8: fireflies, accumulation, a filter as wide as the lobe
-  /// N5: SVGF that lets history go where light has changed [temporal_gradients.h]. Where no
+  kGaussian,        ///< blurs edges too
+  kBilateral,       ///< rows, then columns
+  kBilateralExact,  ///< the same in two dimensions: slow
+  kTemporal,        ///< over frames only
+  kSvgf,            ///< over pixels and frames, by the variance [Schied et al. 2017]
+  kControl,         ///< fireflies, accumulation, a filter as wide as the lobe
+  /// SVGF that lets history go where light has changed [temporal_gradients.h]. Where no
   /// gradients are handed over, it is SVGF with as many passes in each frame.
   kAdaptiveSvgf,
 };
@@ -82,9 +82,9 @@ struct DenoiseDesc {
 /// of svgf.hlsl. [Schied et al. 2017]
 inline constexpr std::uint32_t kFramesOfHistory = 4;
 
-/// The settings of a method: those of B6.1 for the bilateral filters, alpha 0.05 for accumulation.
+/// The settings of a method. Bilateral filters look at depths and normals only, not at luminance.
 /// kControl gets a filter of fixed radius; with constants.lobe_scale = 1 it becomes that of
-/// reflections, whose signal holds the mean distance of its hits, metres, in w. [effects-spec B6]
+/// reflections, whose signal holds the mean distance of its hits, metres, in w.
 DenoiseDesc default_denoise(DenoiseMethod method);
 
 /// Pipelines of kernels by name, made when the first denoiser asks; all signals of a frame share
@@ -160,7 +160,7 @@ class Denoiser {
   }
   /// Makes signal `index` = scale * sum at each load; `sum` is a picture of one float or of four.
   /// `step` 2: only one pixel of each 2 x 2 was written (PassConstants::pixel_step), the others are
-  /// worked out from them by joint bilateral upscaling. [effects-spec B7.2]
+  /// worked out from them by joint bilateral upscaling. [Kopf et al. 2007]
   /// @errors those of the device.
   rtapi::Status create_load(const rtapi::Device& device, const Frame& frame,
                             const DenoiseLibraries& libraries, const rtapi::Texture& sum,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What all denoising kernels share: guides (depth and normal) and the edge-stopping weights made
-// from them. [effects-spec B6]
+// from them.
 #ifndef KAAMOS_DENOISE_COMMON_HLSLI
 #define KAAMOS_DENOISE_COMMON_HLSLI
 
@@ -47,7 +47,7 @@ float Luminance(float3 color) { return dot(color, float3(0.2126, 0.7152, 0.0722)
 // A filter sums squares of light; those of anything brighter would not stay finite.
 static const float kMostLight = 1e17;
 
-// NaN and infinite light become 0, so that they cannot spread. [effects-spec E.1]
+// NaN and infinite light become 0, so that they cannot spread.
 float FiniteOrZero(float light) {
   return isfinite(light) ? clamp(light, -kMostLight, kMostLight) : 0.0;
 }

@@ -257,7 +257,7 @@ TEST_F(DenoiseTest, MotionThatIsWildIsNoHistory) {
 
 // E9: the survey scales a weight by the distance in both directions with the factor of one, 1 /
 // (sigma sqrt(2 pi)): all weights together are then sigma sqrt(2 pi), 5 times too bright. Ours add
-// up to 1. [effects-spec 0.1]
+// up to 1. [effects/SOURCES.md]
 TEST_F(DenoiseTest, WeightsOfTheGaussianAddUpToOne) {
   const DenoiseDesc desc = default_denoise(DenoiseMethod::kGaussian);
   const double sigma = desc.constants.sigma_pixels;
@@ -282,7 +282,6 @@ TEST_F(DenoiseTest, WeightsOfTheGaussianAddUpToOne) {
   EXPECT_GT(survey, 4.5);
 }
 
-// [effects-spec E.2: Gaussian and bilateral]
 TEST_F(DenoiseTest, AFilterWithoutWidthIsNone) {
   const auto value = [](auto x, auto y) { return static_cast<float>((7 * x + 3 * y) % 5); };
   for (const DenoiseMethod method :
@@ -325,7 +324,6 @@ TEST_F(DenoiseTest, SigmasThatAreNothingOrEverythingStayFinite) {
   }
 }
 
-// [effects-spec E.2: Temporal/SVGF]
 TEST_F(DenoiseTest, HistoryThatIsBrokenOrTooLongIsLetGo) {
   for (const DenoiseMethod method :
        {DenoiseMethod::kTemporal, DenoiseMethod::kSvgf, DenoiseMethod::kControl}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Half resolution whose traced pixel of each 2 x 2 takes turns. [effects-spec B7.2]
+// Half resolution whose traced pixel of each 2 x 2 takes turns.
 #include <rtapi/upload.h>
 
 #include <algorithm>

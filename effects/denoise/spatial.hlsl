@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Filters within one picture: a separable Gaussian and bilateral filters. [effects-spec B6.1]
+// Filters within one picture: a separable Gaussian and bilateral filters. [survey 4.1]
 #include "denoise_common.hlsli"
 
 RWTexture2D<float4> source : register(u0, space3);

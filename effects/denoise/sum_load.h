@@ -23,7 +23,7 @@ class SumLoad {
   /// Makes the pass. `sum`: a picture of one float or of four; `into`: R32G32B32A32_FLOAT, three
   /// equal channels of one float. `step` 2: only one pixel of each 2 x 2 of `sum` was written
   /// (PassConstants::pixel_step), the others are worked out from them by joint bilateral upscaling.
-  /// Both must outlive it. [effects-spec B7.2]
+  /// Both must outlive it. [Kopf et al. 2007]
   /// @errors those of the device; KA0537 a library without a kernel.
   static rtapi::Result<SumLoad> create(const rtapi::Device& device, const Frame& frame,
                                        const DenoiseLibraries& libraries, const rtapi::Texture& sum,

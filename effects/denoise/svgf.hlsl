@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SVGF: temporal reprojection, then an edge-stopping wavelet filter that adapts to the variance.
-// [effects-spec B6.2, B6.3; Schied et al. 2017, Spatiotemporal Variance-Guided Filtering]
+// [Schied et al. 2017, Spatiotemporal Variance-Guided Filtering]
 //
 // Filters several signals at once, because weights by depth and normal are the same for all of
 // them. Each signal comes out as it would alone.
@@ -207,7 +207,7 @@ float3 ClipToNeighbours(float3 color, int2 pixel, int2 size, int s) {
   return clamp(color, mean - denoise.clip_gamma * deviation, mean + denoise.clip_gamma * deviation);
 }
 
-// 0: light is as it was; 1: none of it is. [effects-spec B6.4]
+// 0: light is as it was; 1: none of it is. [Schied et al. 2018]
 float ChangeOf(int2 pixel, int s) {
   const uint channel = denoise.changes >> (4 * s) & 15u;
   if (channel == 0) return 0.0;

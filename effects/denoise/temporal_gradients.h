@@ -2,8 +2,7 @@
 /// @file
 /// A-SVGF's temporal gradients: how much each signal of a frame has changed since the frame before,
 /// apart from its noise. In each 3 x 3 pixels a sample of the frame before is taken again, of the
-/// same surface and with the same random numbers; what then differs is light. [effects-spec B6.4;
-/// Schied et al. 2018]
+/// same surface and with the same random numbers; what then differs is light. [Schied et al. 2018]
 #pragma once
 
 #include <rtapi/rtapi.h>

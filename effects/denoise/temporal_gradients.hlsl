@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How much a signal has changed since the previous frame, and not its noise: in each stratum of
 // 3 x 3 pixels one sample of the previous frame is taken again, of the same surface and with the
-// same random numbers. What then differs is light. [effects-spec B6.4; Schied et al. 2018, Gradient
-// Estimation for Real-Time Adaptive Temporal Filtering]
+// same random numbers. What then differs is light. [Schied et al. 2018, Gradient Estimation for
+// Real-Time Adaptive Temporal Filtering]
 #include "frame.hlsli"
 #include "sampling.hlsli"
 
@@ -193,7 +193,7 @@ void FilterGradients(uint3 id : SV_DispatchThreadID) {
   for (int t = 0; t < constants.signals; ++t) filtered[GradientIndex(t, stratum)] = sums[t];
 }
 
-// Light of less than this is none: its change would be a ratio of roundings. [effects-spec E.2]
+// Light of less than this is none: its change would be a ratio of roundings.
 static const float kNoLight = 1e-12;
 
 // The changes of each pixel, from the four strata around it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A-SVGF: what is still has no gradients at all, what changes is forgotten at once. On both
-// backends. [effects-spec B6.4]
+// backends. [Schied et al. 2018]
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Upscales a signal traced at one pixel of each 2 x 2: joint bilateral upscaling. [effects-spec
-// B7.2]
+// Upscales a signal traced at one pixel of each 2 x 2: joint bilateral upscaling. [Kopf et al.
+// 2007, Joint Bilateral Upsampling]
 #include "denoise_common.hlsli"
 
 // Sums over samples; only TracedOffset() of each 2 x 2 pixels is written.

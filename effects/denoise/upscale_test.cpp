@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Upscaling from a quarter of the pixels. [effects-spec B7.2]
+// Upscaling from a quarter of the pixels.
 #include <limits>
 
 #include "effects/denoise/denoise_fixture.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Denoises visibility: of the sun, of local lights. Where noise can be, and how far a filter may
-/// reach, follows from how wide penumbras are. [effects-spec B6.3, B6.5, B6.8: SIGMA]
+/// reach, follows from how wide penumbras are. [Schied et al. 2017; Control; NRD: SIGMA]
 #pragma once
 
 #include <rtapi/rtapi.h>

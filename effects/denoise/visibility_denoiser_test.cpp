@@ -116,7 +116,7 @@ TEST_P(VisibilityDenoiserTest, NoShadowIsFetchedFromAfar) {
   }
 }
 
-// [effects-spec B2.12: Failures]
+// A pixel and its neighbour may have chosen different lights.
 TEST_P(VisibilityDenoiserTest, TwoLightsDoNotMix) {
   const auto light = [this](auto x, auto) { return x < kWidth / 2 ? 3u : 7u; };
   const auto value = [&](auto x, auto y) { return light(x, y) == 3u ? 0.0f : 1.0f; };

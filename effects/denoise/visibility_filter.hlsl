@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Denoises visibility. Its noise is in penumbras only, and how wide a penumbra is follows from the
 // distance to the closest occluder; that limits how far the filters reach, in space and over time.
-// Up to four scalar channels at once, each as it would come out alone. [effects-spec B6.3, B6.5,
-// B6.8: SIGMA]
+// Up to four scalar channels at once, each as it would come out alone. [Schied et al. 2017;
+// Control; NRD: SIGMA]
 #include "frame.hlsli"
 
 static const int kMostChannels = 4;  // effects/denoise/visibility_denoiser.h
@@ -83,7 +83,7 @@ void PrepareChannel(uint3 id : SV_DispatchThreadID) {
   if (!IsInside(pixel, size)) return;
   const int channel = constants.channel;
   const float value = source[pixel][channel];
-  // NaN is dark, so that it cannot spread. [effects-spec E.1]
+  // NaN is dark, so that it cannot spread.
   const float visibility = isfinite(value) ? saturate(value) : 0.0;
   const float blocked = 1.0 - visibility;
   // Sharper than a quarter of a pixel is as sharp as can be.
@@ -346,7 +346,7 @@ float OutdatedPart(int s, int2 pixel, int2 size, Surface surface, float radius) 
   return saturate(abs(now - before) / deviation - allowed);
 }
 
-// 0: visibility is as it was; 1: nothing of it is. [effects-spec B6.4]
+// 0: visibility is as it was; 1: nothing of it is. [Schied et al. 2018]
 float ChangeOf(int2 pixel, int s) {
   const uint channel = constants.changes >> (4 * s) & 15u;
   if (channel == 0) return 0.0;
@@ -455,7 +455,7 @@ void FilterVisibility(uint3 id : SV_DispatchThreadID) {
 static const int kLineTaps = 8;  // to each side
 
 // One row or column of Control's filter, from accumulated to filtered, for half of what is allowed:
-// it runs twice. [effects-spec B6.5]
+// it runs twice. [Control]
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void FilterLine(uint3 id : SV_DispatchThreadID) {

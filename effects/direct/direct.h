@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Main lighting: the light of the local lights at each pixel. [effects-spec A22, B2.12]
+/// Main lighting: the light of the local lights at each pixel. [survey 5.3.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -17,14 +17,14 @@ namespace kaamos::effects {
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> direct_library();
 
-/// How a light's shadow map and its contact shadow become its visibility. [effects-spec B2.12]
+/// How a light's shadow map and its contact shadow become its visibility. [survey 5.3.1]
 enum class ContactCombination : std::uint32_t {
   kProduct,  ///< as Control does; where both see the same penumbra, it counts twice
   kMinimum,  ///< the darker of the two; where they see different occluders, one of them counts
 };
 
-/// Which lights main lighting looks at for a pixel. What it finds is the same. [effects-spec A19,
-/// A22]
+/// Which lights main lighting looks at for a pixel. What it finds is the same. [Northlight deck:
+/// Light Culling; survey 5.3.1]
 enum class LightCulling : std::uint32_t {
   kClusters,  ///< those of the pixel's cluster
   kFrustum,   ///< all whose reach touches the camera's frustum

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Main lighting: local light that each pixel's surface reflects to the camera. The strongest point
 // light and the strongest spot light can be left to the contact shadow pass; they are only named
-// here. [effects-spec A22, B2.12]
+// here. [survey 5.3.1]
 #include "hit_lighting.hlsli"
 #include "light_reach.hlsli"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Glass by draws, of which the nearest layer has a ray traced mirror image. [effects-spec B4.12,
-/// R14; Control]
+/// Glass by draws, of which the nearest layer has a ray traced mirror image. [Control; survey 6.5]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Glass by draws, from back to front, each layer blended over what is behind it. A layer whose depth
 // is the one that a ray found before shows what that ray's mirror image holds; all others show an
-// environment map. [effects-spec B4.12, R14; Control]
+// environment map. [Control; survey 6.5]
 #include "../environment_map/environment_map.hlsli"
 #include "../gbuffer/camera_hit.hlsli"
 #include "../gbuffer/store.hlsli"

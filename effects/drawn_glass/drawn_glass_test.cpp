@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drawn glass against glass that rays see, layer by layer. [effects-spec B4.12, R14]
+// Drawn glass against glass that rays see, layer by layer. [Control; survey 6.5]
 #include "effects/drawn_glass/drawn_glass.h"
 
 #include <gtest/gtest.h>
@@ -128,7 +128,6 @@ TEST(DrawnGlass, TheOrderOfInstancesDoesNotCount) {
   EXPECT_LT(difference(a, second.drawn(DrawnGlassFallback::kNothing)), 1e-5);
 }
 
-// [effects-spec E.2]
 TEST(DrawnGlass, NoGlassAndOnePixelAreFine) {
   GlassFrame bare(make_pane_oracle({}, glm::vec3(0.5f)), "embree", 16, 9);
   for (const float value : bare.drawn(DrawnGlassFallback::kEnvironment).values) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fills environment maps: rays from each probe through the texels of its cube, shaded as those of
 // reflections are, and then a blur for each level of roughness. Nothing that moves is seen, nor
-// lamps, which surfaces have as lights. [effects-spec B4.2; Karis 2013, Real Shading in UE4]
+// lamps, which surfaces have as lights. [Karis 2013, Real Shading in UE4]
 #include "hit_indirect.hlsli"
 #include "sampling.hlsli"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Environment maps: the light of a standing scene, seen from a few points, blurred by roughness.
-/// [effects-spec B4.2]
+/// [survey 6.2; Lagarde & Zanuttini 2012]
 #pragma once
 
 #include <rtapi/rtapi.h>

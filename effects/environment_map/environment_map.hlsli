@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Radiance from all sides at a few points of the scene, as cubes whose levels are blurred for
-// rougher and rougher surfaces. [effects-spec B4.2]
+// rougher and rougher surfaces. [survey 6.2; Lagarde & Zanuttini 2012]
 #ifndef KAAMOS_ENVIRONMENT_MAP_HLSLI
 #define KAAMOS_ENVIRONMENT_MAP_HLSLI
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reflections from environment maps alone: one look in the mirrored direction, as blurred as the
-// surface is rough. [effects-spec B4.2]
+// surface is rough. [survey 6.2]
 #include "../reflections/reflection_ray.hlsli"
 #include "environment_map.hlsli"
 

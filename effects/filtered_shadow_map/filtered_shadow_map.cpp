@@ -54,7 +54,7 @@ rtapi::Status check_filter(const FilteredShadowMapConstants& c) {
     return wrong("map.size", std::to_string(c.map.size), "a power of two for PCSS");
   }
   // exp(87) and exp(2 * 42) are the largest that leave room for sums, and 1 over them is no
-  // denormal. [effects-spec B2.5]
+  // denormal.
   const bool twice = c.map.method == kFilteredExponentialVariance;
   for (const rtapi::Status& status :
        {check_shadow_map(c.map), in_range("exponent", c.exponent, 1e-3f, twice ? 42.0f : 87.0f),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Shadows of the sun by maps that are filtered before they are looked up. One pass; its method is
-/// a constant. [effects-spec B2.4 to B2.7]
+/// a constant. [survey 5.1.3, 5.1.4]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -16,11 +16,11 @@ namespace kaamos::effects {
 
 /// What a filtered map holds.
 enum FilteredShadowMapMethod : std::uint32_t {
-  kFilteredVariance,             ///< two moments [Donnelly & Lauritzen 2006; effects-spec B2.4]
-  kFilteredExponential,          ///< an exponential [Annen et al. 2008; effects-spec B2.5]
-  kFilteredExponentialVariance,  ///< moments of two of them [Lauritzen & McCool 2008; B2.5]
-  kFilteredConvolution,          ///< a Fourier series [Annen et al. 2007; effects-spec B2.6]
-  kFilteredPcssVariance,         ///< moments at all widths, for PCSS [Yang et al. 2010; B2.7]
+  kFilteredVariance,             ///< two moments [Donnelly & Lauritzen 2006]
+  kFilteredExponential,          ///< an exponential [Annen et al. 2008]
+  kFilteredExponentialVariance,  ///< moments of two of them [Lauritzen & McCool 2008]
+  kFilteredConvolution,          ///< a Fourier series [Annen et al. 2007]
+  kFilteredPcssVariance,         ///< moments at all widths, for PCSS [Yang et al. 2010]
   kFilteredShadowMapMethodCount
 };
 

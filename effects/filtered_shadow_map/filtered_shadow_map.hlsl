@@ -2,7 +2,7 @@
 // Shadow maps that can be filtered before they are looked up: each stores functions of the depth
 // whose mean over a filter still says which share of it is nearer to the sun than the surface. A
 // pass turns depths into these, two blur them along rows and columns, and a lookup of one place
-// gives visibility. [effects-spec B2.4 to B2.7]
+// gives visibility. [survey 5.1.3, 5.1.4]
 
 // Mirrors the members of FilteredShadowMapConstants of filtered_shadow_map.h behind `map`.
 struct FilterConstants {
@@ -276,7 +276,7 @@ float2 MomentsOver(Receiver receiver, float radius) {
 
 // PCSS with both of its filters done beforehand. Of all in the search's disk the lit share is taken
 // to be as deep as the surface, and what is then left over is the mean of what casts the shadow.
-// [Fernando 2005; Yang et al. 2010; effects-spec B2.7]
+// [Fernando 2005; Yang et al. 2010]
 float PcssVariance(Receiver receiver, Surface surface) {
   if (IsOutside(receiver)) return 1.0;
   const ShadowMap map = maps[receiver.map];

@@ -69,7 +69,7 @@ double chebyshev(double share, double a, double b, double at) {
   return at <= mean ? 1.0 : variance / (variance + (at - mean) * (at - mean));
 }
 
-// As Step in filtered_shadow_map.hlsl, from the equation. [effects-spec B2.6]
+// As Step in filtered_shadow_map.hlsl, from the equation. [Annen et al. 2007]
 double step(double away, int terms, double damping) {
   double sum = 0.5;
   for (int k = 1; k <= terms; ++k) {
@@ -160,7 +160,7 @@ void expect_two_occluders(const std::string& backend) {
     return out;
   };
   // Where both sheets cover half, all of the sun: variance lets 0.42 of it through, the others next
-  // to nothing. [effects-spec B2.4]
+  // to nothing. [Donnelly & Lauritzen 2006]
   EXPECT_NEAR(brightest("sun_vsm"), 0.42, 0.04);
   for (const char* layer : {"sun_esm", "sun_evsm", "sun_convolution"}) {
     EXPECT_LT(brightest(layer), 0.02) << layer;
@@ -222,7 +222,7 @@ Rings rings(std::uint32_t terms, float damping) {
 }
 
 // A series of few terms lets light through far from contact, where it rings, and at contact, within
-// half its step. Damping trades one for the other. [effects-spec B2.6]
+// half its step. Damping trades one for the other. [Annen et al. 2007]
 TEST(FilteredShadowMap, SeriesRing) {
   const Rings four = rings(4, 0), eight = rings(8, 0), sixteen = rings(16, 0);
   EXPECT_GT(four.mean, 3 * sixteen.mean);

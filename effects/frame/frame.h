@@ -72,7 +72,7 @@ std::uint32_t traced_columns(const PassConstants& constants, std::uint32_t size)
 std::uint32_t traced_rows(const PassConstants& constants, std::uint32_t size);
 ///@}
 
-/// Pictures of a frame in the order of their registers u0, u1, ... [effects-spec B0.2]
+/// Pictures of a frame in the order of their registers u0, u1, ...
 enum FrameTexture : std::uint32_t {
   kDepth,                ///< R32_FLOAT: near plane over view depth; 0: a miss
   kViewZ,                ///< R32_FLOAT: metres along the camera's axis; 0: a miss

@@ -83,7 +83,7 @@ TEST(Frame, BaseColorsAreStoredBySquareRoots) {
 }
 
 // E1: the survey's ray through a pixel lacks a -1 in its vertical part, -f (2 (y + 1/2) / h): its
-// middle row looks down by half the field of view. [effects-spec 0.1]
+// middle row looks down by half the field of view. [effects/SOURCES.md]
 TEST(Frame, TheMiddlePixelLooksStraightAhead) {
   Scene scene = checkered_plane();
   const Camera& camera = scene.cameras.front();

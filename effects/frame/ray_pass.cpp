@@ -55,7 +55,7 @@ rtapi::Result<StateObject> create_pipeline(const Device& device, const Frame& fr
 }
 
 // Every geometry has a record for either ray type, 0 and 1. The deck's slide of the table names the
-// last column, geometry 1 and ray type 2, twice. [effects-spec 0.1: E8]
+// last column, geometry 1 and ray type 2, twice. [effects/SOURCES.md: E8]
 rtapi::Status add_hit_records(ShaderTable& table, const GpuScene& scene) {
   for (const GpuGeometry& geometry : scene.geometries) {
     for (std::uint32_t type = 0; type < kRayTypeCount; ++type) {

@@ -9,7 +9,6 @@
 
 // From relative to the camera to clip space. Depth is reversed, and the far plane infinitely far
 // away: z / w = near / view depth. That spreads the depth buffer's floats evenly over the distance.
-// [effects-spec B0.1]
 float4 ToClip(float3 position, float near_plane, float2 size) {
   const float view_z = dot(position, frame.camera_forward);
   // The lengths of right and up are half the picture's size at distance 1.

@@ -8,8 +8,7 @@
 
 namespace kaamos::effects {
 
-/// The pass. A dispatch writes every picture from kDepth to kPosition, and kMotion. [effects-spec
-/// B1]
+/// The pass. A dispatch writes every picture from kDepth to kPosition, and kMotion.
 RayPassDesc gbuffer_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
@@ -17,7 +16,7 @@ rtapi::Result<rtapi::ShaderLibrary> gbuffer_library();
 
 /// A pass over a finished G-buffer: kMaterial becomes rougher where kShadingNormal varies from
 /// pixel to pixel, so that small highlights of curved, smooth surfaces do not flicker.
-/// [effects-spec B7.3]
+/// [Tokuyoshi & Kaplanyan 2019; GDC 2018 talk: questions]
 /// @errors KA0537 a library without the pass; those of rtapi::Device::CreateComputePipelineState.
 rtapi::Result<ComputePass> curvature_pass(const rtapi::Device& device, const Frame& frame,
                                           const rtapi::ShaderLibrary& library);

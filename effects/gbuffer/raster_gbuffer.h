@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The G-buffer by the rasterizer: a visibility buffer, and a compute pass that makes the same
-/// pictures of it as primary rays do. [effects-spec A2, B0.2]
+/// pictures of it as primary rays do. [Burns & Hunt 2013]
 #pragma once
 
 #include <rtapi/rtapi.h>

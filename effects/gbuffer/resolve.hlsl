@@ -2,7 +2,7 @@
 // The G-buffer from the visibility buffer. The rasterizer moved each vertex to its grid of 1/256
 // pixel, so that its depth is that of a slightly shifted triangle. Here the ray through the pixel is
 // intersected with the triangle itself, which gives the point that a primary ray would have hit and
-// a start for other rays that is as exact. [effects-spec B0.5, method 1]
+// a start for other rays that is as exact. [Waechter, van Antwerpen & Klehm 2023]
 #include "camera_hit.hlsli"
 #include "draws.hlsli"
 #include "store.hlsli"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What the G-buffer holds of a pixel, whether a ray found the surface or a draw did.
-// [effects-spec B0.2]
 #ifndef KAAMOS_GBUFFER_STORE_HLSLI
 #define KAAMOS_GBUFFER_STORE_HLSLI
 

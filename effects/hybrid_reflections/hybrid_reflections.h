@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Reflections from the picture where it leaves no doubt, by rays elsewhere. [effects-spec B4.11]
+/// Reflections from the picture where it leaves no doubt, by rays elsewhere. [survey 6.4]
 #pragma once
 
 #include <cstdint>

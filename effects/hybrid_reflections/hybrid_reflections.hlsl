@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reflections from the picture where it leaves no doubt, and by rays through the scene everywhere
-// else. [effects-spec B4.11; survey 6.4]
+// else. [survey 6.4]
 #include "../reflections/reflection_shading.hlsli"
 #include "../screen_space_reflections/screen_light.hlsli"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Shadows of the sun by a ray and a shadow map: hard ones near what casts them, soft ones far from
-/// it. [Story 2015: Hybrid Ray-Traced Shadows; effects-spec B2.13, S19]
+/// it. [Story 2015: Hybrid Ray-Traced Shadows]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Near what casts it a shadow is the hard one of a ray, far from it the soft one of a shadow map, and
-// in between a mixture by the distance of what casts it. [Story 2015; effects-spec B2.13]
+// in between a mixture by the distance of what casts it. [Story 2015]
 
 // Mirrors the member of HybridShadowConstants of hybrid_shadow.h behind `map`.
 struct HybridConstants {

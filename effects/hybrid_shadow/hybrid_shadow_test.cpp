@@ -124,7 +124,6 @@ TEST(HybridShadow, InnerPenumbraStaysInTheRaysShadow) {
   EXPECT_GT(inside[1], 20);
 }
 
-// [effects-spec E.2]
 TEST(HybridShadow, ExtremesAreHardOrRefused) {
   PeterPanningDesc point_sun = kWideSun;
   point_sun.angular_radius = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Compares two pictures: how far they are apart. [effects-spec B0.6]
+/// Compares two pictures: how far they are apart.
 #pragma once
 
 #include <cstdint>

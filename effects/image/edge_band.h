@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Where a picture of depths has edges: errors of what was traced at fewer pixels are there.
-/// [effects-spec B7.2]
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Measures how much the pictures of a sequence change beyond what motion explains: boiling noise,
-/// crawling edges. [effects-spec B0.6: temporal]
+/// crawling edges.
 #pragma once
 
 #include <cstdint>

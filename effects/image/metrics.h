@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// How far a picture is from its reference, in the measures that rendering papers use.
-/// [effects-spec B0.6]
 ///
 /// Every measure leaves out values that are not finite in either picture and counts them in
 /// `not_finite`, so that a broken picture cannot look good silently.

@@ -27,7 +27,6 @@ static_assert(sizeof(CellSums) == 64);
 /// Samples that every half of a cell gets before the number of the others is decided.
 inline constexpr std::uint32_t kPilotSamples = 32;
 /// A cell that sees back faces in more than this part of its directions lies in a solid.
-/// [effects-spec B5.1]
 inline constexpr float kMaxBackFaces = 0.25f;
 
 /// The number of samples of each half: `cells` as in IndirectVolume::cells_in_use, `pilot` two for

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A closed hall that is much larger than the cells of a volume, without a lamp and with one: no
-// light of the sky gets in, also where no geometry is near. [effects-spec B5.1]
+// light of the sky gets in, also where no geometry is near.
 #include <gtest/gtest.h>
 
 #include <algorithm>

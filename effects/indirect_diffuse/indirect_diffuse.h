@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Indirect diffuse light of each pixel. [effects-spec B5.2 to B5.4]
+/// Indirect diffuse light of each pixel. [Northlight deck: Indirect Diffuse Illumination]
 #pragma once
 
 #include "effects/frame/ray_pass.h"
@@ -16,7 +16,7 @@ RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library);
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library();
 
-/// Where the light of a pixel comes from. [effects-spec B5.2 to B5.4]
+/// Where the light of a pixel comes from. [Northlight deck: Indirect Diffuse Illumination]
 enum class IndirectMode : std::uint32_t {
   kDirect,           ///< the volume, sampled at the surface
   kHitBlack,         ///< rays sample it where they end, what they hit is black

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Indirect diffuse light of each pixel, in the variants that the talk compares: the volume alone,
 // the volume times the open part of rays, rays that read it where they miss and are black where they
-// hit, and near-field rays whose hits are shaded. [effects-spec B5.2 to B5.4]
+// hit, and near-field rays whose hits are shaded. [GDC 2018 talk; Northlight deck: Indirect Diffuse
+// Illumination]
 #include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"

@@ -17,7 +17,7 @@ namespace kaamos::effects {
 namespace {
 
 // Under constant light, the gathered light is exactly the light times the ambient visibility, and
-// the light sampled at the surface is the light itself. [effects-spec B5.3: oracle]
+// the light sampled at the surface is the light itself.
 TEST(IndirectDiffuse, OfAConstantFieldIsAmbientVisibility) {
   Stage stage(small_scene(0.5f));
   const IndirectVolume volume = constant_volume(stage.scene, 0.5f);
@@ -133,7 +133,7 @@ TEST(IndirectVolumes, HoldWhatArrivesOverAPlane) {
   EXPECT_GT(count, 3);
 }
 
-// Two rooms with a thin wall between them, one open to the sky, one closed. [effects-spec D.2: SC8]
+// Two rooms with a thin wall between them, one open to the sky, one closed.
 Scene cells_scene(float thickness) {
   Scene scene = small_scene(1.0f);
   scene.meshes.clear();
@@ -165,7 +165,7 @@ Scene cells_scene(float thickness) {
 }
 
 // Light leaks through a wall of 5 mm into a room that should be dark: sampled at the surface, and
-// by rays. [effects-spec B5.5]
+// by rays. [Northlight deck: Issues with Direct Sampling of GI Data]
 TEST(IndirectDiffuse, RaysStopTheLeakThroughThinWalls) {
   Stage stage(cells_scene(0.005f));
   const IndirectVolume volume = stage.bake(0.25f, 64);
@@ -178,8 +178,8 @@ TEST(IndirectDiffuse, RaysStopTheLeakThroughThinWalls) {
   EXPECT_LT(gathered, direct / 4) << direct << " " << gathered;
 }
 
-// Black hits lose the light that the walls reflect; shading them brings it back. [effects-spec
-// B5.4]
+// Black hits lose the light that the walls reflect; shading them brings it back. [Northlight deck:
+// Diffuse Lighting on Hit Shader]
 TEST(IndirectDiffuse, NearFieldLightingMendsBlackHits) {
   Scene scene = cells_scene(0.3f);
   scene.cameras.front().camera_to_world = look_at({-1.0, 1.9, 1.5}, {-0.6, 0.0, -0.6});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Light of the volume at each surface, times ground-truth ambient occlusion from the depth
-/// picture. [effects-spec B5.2: G2]
+/// picture. [GDC 2018 talk; Northlight deck: Indirect Diffuse Illumination]
 #pragma once
 
 #include <rtapi/rtapi.h>

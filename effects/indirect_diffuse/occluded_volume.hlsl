@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light of the volume at each surface, times screen-space ambient occlusion: what games did before
-// rays. [effects-spec B5.2: G2]
+// rays. [GDC 2018 talk; Northlight deck: Indirect Diffuse Illumination]
 #include "frame.hlsli"
 #include "indirect_volume.hlsli"
 

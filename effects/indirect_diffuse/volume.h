@@ -2,7 +2,7 @@
 /// @file
 /// A sparse volume of indirect light: cells of 25 cm in bricks of 8 x 8 x 8 where there is
 /// geometry, larger ones away from it, so that every place of the scene has a cell. It is baked by
-/// a path tracer that is a DXR program like every effect. [effects-spec B5.1]
+/// a path tracer that is a DXR program like every effect.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -85,7 +85,7 @@ constexpr std::uint32_t brick_start(std::uint32_t entry) {
 /// neighbouring brick at most, so that whatever is read at level n is at least a cell of level n
 /// away from any geometry: interpolation between coarse cells never reaches through a wall. If no
 /// size of cells is given, it is kVolumeCell, doubled until the volume has `most_cells` at most:
-/// baking takes as long as there are cells, and a large floor has many. [effects-spec B5.1]
+/// baking takes as long as there are cells, and a large floor has many.
 /// @errors KA3045 more than 2^24 cells or bricks: larger cells are needed.
 Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> cell_metres = {},
                                      std::uint64_t most_cells = 1u << 19);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fills the volume by path tracing: rays from the centre of each cell in all directions, and on
-// from their hits until Russian roulette ends them. Nothing that moves is seen. [effects-spec B5.1]
+// from their hits until Russian roulette ends them. Nothing that moves is seen. [Northlight deck:
+// GI Data in Sparse Volume Texture]
 #include "hit_lighting.hlsli"
 #include "indirect_volume.hlsli"
 #include "sampling.hlsli"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What goes wrong with light from a volume of coarse cells, a number for each failure, and how much
-// rays help. [effects-spec G6, B5.5; GDC 2018 talk; Northlight deck: Indirect Diffuse]
+// rays help. [GDC 2018 talk; Northlight deck: Issues with Direct Sampling of GI Data]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -203,7 +203,7 @@ TEST(VolumeFailures, DynamicObjectsNeedRays) {
 // --- What is right
 
 // Light gathered in a constant field is the field times the ambient visibility, apart from noise:
-// the two use different random numbers. [effects-spec B5.3, E.4]
+// the two use different random numbers.
 TEST(VolumeFailures, AConstantFieldHasNone) {
   constexpr std::uint32_t kRays = 256;
   constexpr float kRadius = 3;
@@ -305,7 +305,7 @@ TEST(VolumeFailures, NoShellWhereRaysEnd) {
 // --- Light from one side
 
 // A mean and a slope cannot represent a narrow beam: they would be negative in the directions away
-// from it. [effects-spec B5.5: SH ringing]
+// from it.
 TEST(VolumeFailures, NarrowLightRings) {
   Scene scene = small_scene(0.0f);
   Light lamp;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the deck packs into atlases besides the lights' shadow maps: the slides of spots, each texel
-// where it belongs, and the sun's map, against the rays that it stands for. [effects-spec A18]
+// where it belongs, and the sun's map, against the rays that it stands for. [Northlight deck:
+// Lighting Data]
 #include <gtest/gtest.h>
 
 #include <cmath>

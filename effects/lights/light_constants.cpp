@@ -31,7 +31,7 @@ bool is_whole(const LightConstants& light) {
 }
 
 // Turns a light dark if a broken number would make it shine everywhere, or as NaN. It stays in the
-// list, because shadow maps are found by the light's index. [effects-spec E.1]
+// list, because shadow maps are found by the light's index.
 void darken(LightConstants& light) {
   light.position = light.intensity = glm::vec3(0.0f);
   light.direction = glm::vec3(0, -1, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The atlas of shadow maps by the rasterizer instead of by rays. [effects-spec B2.1, A18]
+/// The atlas of shadow maps by the rasterizer instead of by rays. [Northlight deck: Lighting Data]
 #pragma once
 
 #include <rtapi/rtapi.h>

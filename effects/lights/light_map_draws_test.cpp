@@ -175,7 +175,6 @@ TEST(LightMapDraws, HolesAreOpen) {
   EXPECT_LT(same.other, same.seen / 50);
 }
 
-// [effects-spec E.2]
 TEST(LightMapDraws, ExtremesDrawNothingAmiss) {
   Scene scene = room();
   scene.lights.clear();

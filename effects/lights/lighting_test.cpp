@@ -274,8 +274,7 @@ TEST(Clusters, ThatOverflowLoseNothing) {
 }
 
 // The same bits as with clusters, and the same strongest lights, though most lights are never
-// looked at: those whose reach lies beside or behind the camera's frustum. [effects-spec A22,
-// B2.12]
+// looked at: those whose reach lies beside or behind the camera's frustum. [survey 5.3.1]
 TEST(FrustumCulling, LosesNoLightOfThePicture) {
   for (const bool leave_out_strongest : {false, true}) {
     Stage stage(make_light_forest({.lights = 300}));

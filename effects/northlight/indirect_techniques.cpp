@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What came before near-field rays, as effects of a frame: the volume times occlusion.
-// [effects-spec A.5: G2, G3]
+// [GDC 2018 talk; Northlight deck: Indirect Diffuse Illumination]
 #include <utility>
 
 #include "effects/indirect_diffuse/indirect_diffuse.h"

@@ -128,7 +128,7 @@ TEST_P(PathLights, Sun) {
 }
 
 // E2: the survey's sum over an area light has the light's normal in both cosines, and forgets the
-// area. [effects-spec 0.1]
+// area. [effects/SOURCES.md]
 TEST_P(PathLights, EmissiveTriangles) {
   Scene scene = dark_plane();
   const std::uint32_t dim = add_material(scene, glm::vec3(0), 0, 1, glm::vec3(1.5f));
@@ -171,7 +171,7 @@ TEST_P(PathLights, Sky) {
   expect_light(scene, "radiance", expected);
 }
 
-// Closed forms of visibility. [effects-spec B0.7]
+// Closed forms of visibility.
 TEST_P(PathLights, AmbientVisibilityUnderASphere) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   const double x = 0.7;

@@ -6,7 +6,7 @@
 #define KAAMOS_PATH_MATERIAL_HLSLI
 
 static const float kPathPi = 3.14159265f;
-// Up to this roughness a surface is a mirror. [effects-spec E.2: GGX]
+// Up to this roughness a surface is a mirror.
 static const float kPathMirrorRoughness = 0.03f;
 
 // Orthonormal axes whose third is `normal`.

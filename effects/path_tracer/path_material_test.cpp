@@ -12,7 +12,7 @@ namespace kaamos::effects {
 namespace {
 
 TEST(PathAlbedo, AgreesWithTheListOfKnownValues) {
-  // f0 = 1: x + y. [effects-spec B0.4]
+  // f0 = 1: x + y.
   struct {
     double alpha, degrees, expected;
   } const rows[] = {{0.1, 80, 0.8955},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Planar reflections: one more picture of the scene for each plane. [effects-spec B4.1]
+/// Planar reflections: one more picture of the scene for each plane. [survey 6.1]
 #pragma once
 
 #include <cstdint>

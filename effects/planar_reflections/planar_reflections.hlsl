@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Planar reflections: the scene mirrored at a plane, seen from the camera, once for each plane; and
-// the pixels of the plane look it up at their own place. [effects-spec B4.1]
+// the pixels of the plane look it up at their own place. [survey 6.1]
 #include "../environment_map/environment_map.hlsli"
 #include "../reflections/reflection_shading.hlsli"
 

@@ -14,7 +14,7 @@ namespace {
 
 class PlanarReflections : public test::OnBackends {};
 
-// [effects-spec B4.1: at least 40 dB at full resolution]
+// A plane mirrors exactly; at full resolution only resampling differs: at least 40 dB.
 TEST_P(PlanarReflections, MirrorsInAPlaneAreThoseOfRays) {
   const Scene hall = make_mirror_hall();
   FrameSettings settings;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The two loops of visibility, over pixels and over triangles, in either order: what rasterization
-/// and ray tracing are before structures and hardware. [effects-spec A21; survey, section 3.5]
+/// and ray tracing are before structures and hardware. [survey 3.5]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What each pixel shows, without an acceleration structure: the two loops over pixels and triangles,
 // nested as in rasterization or as in ray tracing. Both ask the same question with the same
-// arithmetic, so their pictures are the same. [effects-spec A21; survey, section 3.5]
+// arithmetic, so their pictures are the same. [survey 3.5]
 #include "../gbuffer/store.hlsli"
 
 static const uint kSide = 8;

@@ -67,7 +67,7 @@ std::string loop_backend(const testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, LoopOrders, testing::Values("embree", "vulkan"), loop_backend);
 
-// No multiple of a tile. [effects-spec A21]
+// No multiple of a tile.
 TEST_P(LoopOrders, SeeTheSameBitForBit) {
   LoopStage stage(GetParam(), make_lounge(), 19, 11);
   const FloatImage raster = stage.see(LoopOrder::kRaster), rays = stage.see(LoopOrder::kRays);

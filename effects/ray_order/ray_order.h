@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The order in which a dispatch takes the pixels of a frame: by the direction, origin or end of
-/// their rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21,
-/// B1.5]
+/// their rays. It is a permutation, so the picture stays the same, bit for bit. [survey 3.5;
+/// Meister et al. 2020]
 #pragma once
 
 #include <rtapi/rtapi.h>

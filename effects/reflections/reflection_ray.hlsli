@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The rays of reflections, which are the same for every technique that follows them: through the
-// scene or over the screen. [effects-spec B4.10; GDC 2018 talk]
+// scene or over the screen. [GDC 2018 talk; Control]
 #ifndef KAAMOS_REFLECTION_RAY_HLSLI
 #define KAAMOS_REFLECTION_RAY_HLSLI
 
 #include "brdf.hlsli"
 #include "sampling.hlsli"
 
-static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
+static const uint kReflectionPair = 2;  // and 3
 
 // How long rays are.
 struct ReflectionLengths {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Opaque reflections. [effects-spec B4.10]
+/// Opaque reflections. [Control; Northlight deck: Reflections]
 #pragma once
 
 #include "effects/frame/ray_pass.h"
@@ -19,7 +19,7 @@ RayPassDesc reflections_trace_pass(rtapi::ShaderLibrary library);
 rtapi::Result<rtapi::ShaderLibrary> reflections_library();
 
 /// What is done about samples brighter than twice white, which are rare and stand out. [GDC 2018
-/// talk; effects-spec B7.3]
+/// talk]
 enum class Fireflies : std::uint32_t {
   kKeep,  ///< nothing
   /// A pilot ray, which is not averaged in, decides whether each sample is the mean of more rays.
@@ -30,7 +30,7 @@ enum class Fireflies : std::uint32_t {
   kAverage,
 };
 
-/// Constants b0, space3. The lengths are Control's. [effects-spec B4.10]
+/// Constants b0, space3. The lengths are Control's. [survey 6.5]
 struct ReflectionConstants {
   float longest = 200.0f;      ///< metres, of the rays of a mirror
   float shortest = 3.0f;       ///< metres, at roughness 1

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opaque reflections: one ray per sample, in a direction drawn from the GGX facets that the camera
-// sees, shaded where it hits. [effects-spec B4.10; Control]
+// sees, shaded where it hits. [Control; Northlight deck: Reflections]
 #include "ray_key.hlsli"
 #include "reflection_shading.hlsli"
 

@@ -57,7 +57,7 @@ Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionCon
 }
 
 // Single scattering loses the light that microfacets reflect onto others. The exact loss is known
-// from quadrature. [effects-spec B0.4]
+// from quadrature.
 TEST(Reflections, WhiteFurnace) {
   struct {
     float alpha;

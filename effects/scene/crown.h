@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// A crown with spikes and crevices on a plane, for ambient occlusion: wide open beside narrow
-/// gaps. [effects-spec D.2: SC9; survey paper 7.4]
+/// gaps. [survey 7.4]
 #pragma once
 
 #include "effects/scene/scene.h"

@@ -48,7 +48,7 @@ TEST(Crown, HasDarkCrevices) {
 
 // "8 uniform rays are about as good as 4 by the cosine", where two thirds are open: a single ray's
 // variance, and what it is where directions are blocked whatever their cosine.
-// [survey paper 7.4; effects-spec B0.7]
+// [survey 7.4]
 TEST(Crown, UniformRaysHaveTwiceTheVariance) {
   const HostRays rays(make_crown());
   for (const double away : {0.53, 0.6}) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// A wall that bursts into 500 pieces behind a curtain: shapes that no update can follow, so that
-/// their structures are built anew in every frame. [effects-spec D.2: SC13; A.1: A9, class 4]
+/// their structures are built anew in every frame. [Northlight deck: Bottom Level Build Flags,
+/// class 4; effects/SOURCES.md: E12]
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,6 @@
 /// @file
 /// Leaves that are cards with a mask, and a fence of thin wires: where any-hit shaders decide what
 /// a ray hits. The same leaves exist as true geometry, so that the picture has a truth.
-/// [effects-spec D.2: SC5]
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Scenes of glass. [effects-spec D.2: SC6]
+/// Scenes of glass.
 #pragma once
 
 #include <cstdint>

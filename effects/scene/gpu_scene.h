@@ -109,8 +109,8 @@ rtapi::Result<rtapi::Buffer> create_scratch_buffer(const rtapi::Device& device, 
 
 /// Uploads a valid scene and builds its acceleration structures. World positions become relative to
 /// `origin` (the camera) before they are rounded to float: far from the world's origin a float has
-/// too few digits left. [effects-spec B0.1] Skinned meshes stay in their bind pose: scenes that
-/// move take a StructureManager. [effects/structures]
+/// too few digits left. Skinned meshes stay in their bind pose: scenes that move take a
+/// StructureManager. [effects/structures]
 /// @errors those of the device, among them KA0990 no memory and KA0709 too many triangles.
 rtapi::Result<GpuScene> create_gpu_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                          const Scene& scene, const glm::dvec3& origin);

@@ -2,7 +2,6 @@
 /// @file
 /// Scenes that are dark inside, where a volume of indirect light may let light in: through walls
 /// that are thinner than its cells, or in the middle of a room that is much larger than them.
-/// [effects-spec D.2: SC2, SC8]
 #pragma once
 
 #include "effects/scene/scene.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Levels of detail: which mesh of an instance a frame shows. All effects' rays and the G-buffer
-/// see the same level, because they share one top level. [Northlight deck: one bottom level per
-/// LOD, the LOD of the G-buffer; effects-spec A6]
+/// see the same level, because they share one top level. [Northlight deck: Bottom Level Structures]
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Posts on a field with very many small lights among them, which move and flicker: for lists of
-/// lights, and for filters that must forget in time. [effects-spec D.2: SC10]
+/// lights, and for filters that must forget in time.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A hall of mirrors. [effects-spec D.2: SC4]
+/// A hall of mirrors.
 #pragma once
 
 #include "effects/scene/scene.h"

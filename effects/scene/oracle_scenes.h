@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Scenes with a known answer in closed form, to test effects against. [effects-spec B0.7]
+/// Scenes with a known answer in closed form, to test effects against.
 #pragma once
 
 #include "effects/scene/scene.h"
@@ -30,7 +30,7 @@ double penumbra_visibility(double height, double angular_radius, double x);
 
 /// All of them on one plane, for pictures: a sphere of 0.5 m whose centre stands 0.6 m high, walls
 /// of 1 m and 3 m, a sheet whose straight edge a lamp and the sun shine past, a mirror. The things
-/// stand too close together for the formulas above. [effects-spec D.2: SC0]
+/// stand too close together for the formulas above.
 Scene make_oracle_box();
 
 }  // namespace kaamos::effects

@@ -2,7 +2,7 @@
 /// @file
 /// Thin things that stand on a floor, where the bias of a shadow map shows: too small, and lit
 /// floor is speckled (acne); too large, and shadows come loose from what casts them (peter
-/// panning). All of it is known in closed form. [effects-spec D.2: SC3; B2.1]
+/// panning). All of it is known in closed form.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -58,7 +58,6 @@ inline constexpr double kSheetPartZ[3] = {-1.5, -2.1, -2.7};
 inline constexpr double kSheetHeights[2] = {0.25, 1.0};  ///< metres, of the sheets' upper sides
 /// Visible share of the sun at the floor's point `x` of a part's middle (0, 1, 2): the straight
 /// edges of both sheets are parallel, so that the sheet that covers more of the sun decides.
-/// [effects-spec B0.7]
 double sheet_visibility(const PeterPanningDesc& desc, int part, double x);
 
 }  // namespace kaamos::effects

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Splits large meshes into pieces with a bottom level each, so that a room made of one mesh is not
-/// a single box to every ray. [Northlight deck: large meshes in pieces; effects-spec A7, B1.1]
+/// a single box to every ray. [Northlight deck: Acceleration Structures, mesh piecing]
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Spots that throw pictures. [Northlight deck: Lighting Data; effects-spec A18]
+/// Spots that throw pictures. [Northlight deck: Lighting Data]
 #pragma once
 
 #include "effects/scene/scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The skinned runner: a figure of capsules on a 20-bone skeleton that walks in a circle, with a
-/// cape on its back, and a crowd of the same figure. [effects-spec SC7]
+/// cape on its back, and a crowd of the same figure.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
 
 /// The upper three rows of the transform, as a DXR instance record and HLSL's ObjectToWorld3x4()
 /// have them, relative to `origin`: subtracted in double, so that float keeps its digits for what
-/// is near the camera. [effects-spec B0.1]
+/// is near the camera.
 glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin = glm::dvec3(0.0));
 
 /// True where the transform mirrors. Fronts of all meshes are counter-clockwise seen from outside
@@ -105,7 +105,7 @@ struct Light {
   std::optional<ProjectionMap> projection = {};
 };
 
-/// Angular radius of the real sun as seen from the earth. [effects-spec B0.4]
+/// Angular radius of the real sun as seen from the earth.
 inline constexpr float kSunAngularRadius = 0.2655f * 3.14159265f / 180.0f;
 
 /// A light infinitely far away, with an area.

@@ -2,7 +2,7 @@
 /// @file
 /// Stand-ins for the three scenes that the survey and Ray Tracing Gems measure shadows in, with
 /// about as many triangles: a pub (281,000), a resort (376,000) and a breakfast room (1.4 million).
-/// [effects-spec D.2: SC12; A.2: the table of S20]
+/// [survey 5.3: figure 18]
 #pragma once
 
 #include <cstdint>

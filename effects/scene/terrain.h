@@ -2,7 +2,6 @@
 /// @file
 /// Ten kilometres of hills below a low sun, with towers from a millimetre to a kilometre high, and
 /// all of it anywhere: what single precision and fixed offsets of rays get wrong.
-/// [effects-spec D.2: SC11; E.1]
 #pragma once
 
 #include <cstdint>
@@ -31,7 +30,7 @@ struct TerrainDesc {
 /// The middle, where the first camera stands, is level ground of one triangle pair; hills rise from
 /// 300 m on. Instance 0 is the hills, 1 the level ground, then the towers by height. The sun has no
 /// area, so that shadows are hard. Wherever it is, the picture is the same to the last bit: what
-/// differs by the offset is an error. [effects-spec E.1 (b)]
+/// differs by the offset is an error.
 Scene make_terrain(const TerrainDesc& desc);
 
 }  // namespace kaamos::effects

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Far from the origin and on large scales: the sun's shadow is that of rays in double precision,
-// and the offset of the scene changes nothing. [effects-spec E.1 (b), E.4]
+// and the offset of the scene changes nothing.
 #include "effects/scene/terrain.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Crysis' ambient occlusion: the part of a sphere about each point that is not behind the depth
 // picture. Half of the sphere is inside of an open wall, so walls are grey. [Mittring 2007, Finding
-// Next Gen; effects-spec B3.1]
+// Next Gen]
 #include "occlusion.hlsli"
 #include "sampling.hlsli"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ground-truth ambient occlusion: marches over the depth picture in slices through the view ray,
 // finds both horizons and integrates the cosine between them in closed form. The defaults are those
-// of XeGTAO 1.30. [Jimenez et al. 2016; effects-spec B3.4]
+// of XeGTAO 1.30. [Jimenez et al. 2016]
 #include "horizons.hlsli"
 #include "occlusion.hlsli"
 #include "sampling.hlsli"

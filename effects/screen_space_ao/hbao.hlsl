@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Horizon-based ambient occlusion: marches over the depth picture in a few directions and adds up
 // how far the sine of the horizon rises above that of the surface itself. [Bavoil, Sainz and
-// Dimitrov 2008; effects-spec B3.3]
+// Dimitrov 2008]
 #include "horizons.hlsli"
 #include "occlusion.hlsli"
 #include "sampling.hlsli"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ambient occlusion by points in the hemisphere above each surface, compared with the depth
 // picture. An open wall is white, but what is low over the surface counts as much as what is above
-// it. [effects-spec B3.2]
+// it. [survey 7.1]
 #include "occlusion.hlsli"
 #include "sampling.hlsli"
 

@@ -12,7 +12,7 @@ float SafeAcos(float x) { return acos(max(-1.0f, min(x, 1.0f))); }
 // What the part of a slice from the camera's direction to the horizon `h` receives, weighted by the
 // cosine to a normal at the angle `gamma`, over that of an open half plane. [Jimenez et al. 2016,
 // Practical Realtime Strategies for Accurate Indirect Occlusion, with the sign that the survey lost
-// put back: effects-spec E5]
+// put back: effects/SOURCES.md, E5]
 float ArcVisibility(float h, float gamma) {
   return 0.25f * (cos(gamma) + 2.0f * h * sin(gamma) - cos(2.0f * h - gamma));
 }
@@ -33,7 +33,7 @@ struct SliceNormal {
 // `direction` and `to_camera` are unit vectors square to each other.
 SliceNormal ProjectNormal(float3 normal, float3 direction, float3 to_camera) {
   const float along = dot(normal, direction);
-  // A normal that faces away counts as one from the side. [effects-spec E.2]
+  // A normal that faces away counts as one from the side.
   const float towards = max(dot(normal, to_camera), 0.0f);
   SliceNormal slice;
   slice.length = sqrt(along * along + towards * towards);

@@ -68,7 +68,7 @@ TEST(Horizons, TheInnerIntegralIsThatOfTheCorrectedForm) {
   EXPECT_GT(largest, 0.3) << "the form as printed is no rounding error away";
 }
 
-// GTAO is exact where it knows both horizons; HBAO has no cosine and is darker. [effects-spec B3.3]
+// GTAO is exact where it knows both horizons; HBAO has no cosine and is darker.
 TEST(Horizons, CornersOfBothTechniques) {
   const double hbao[] = {0.578, 0.750, 0.898};
   int i = 0;

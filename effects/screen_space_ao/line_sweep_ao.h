@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Ambient occlusion with exact horizons along lines of the depth picture. [Timonen 2013;
-/// effects-spec B3.5]
+/// Ambient occlusion with exact horizons along lines of the depth picture. [Timonen 2013]
 #pragma once
 
 #include <rtapi/rtapi.h>

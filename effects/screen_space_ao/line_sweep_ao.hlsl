@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Line-sweep ambient occlusion: one thread walks along a whole line of the picture and keeps the
 // points that later ones can see as their horizon on a stack, so that each pixel gets its exact
-// horizon after a few steps, however far away it is. [Timonen 2013, Line-Sweep Ambient Obscurance;
-// effects-spec B3.5]
+// horizon after a few steps, however far away it is. [Timonen 2013, Line-Sweep Ambient Obscurance]
 #include "horizons.hlsli"
 #include "occlusion.hlsli"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The small filters of screen-space ambient occlusion: the mean of 4 x 4 pixels, which sees every
 // pixel of the tile of noise once, or of 5 x 5, both without what lies at another depth.
-// [effects-spec B3.1, B3.4]
+// [Mittring 2007; Jimenez et al. 2016]
 #include "occlusion.hlsli"
 
 struct FilterConstants {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Ambient occlusion from the depth picture alone: the techniques that look at points or march
-/// around each pixel, and their small filters. Visibility: 1 is open, 0 occluded. [effects-spec B3]
+/// around each pixel, and their small filters. Visibility: 1 is open, 0 occluded. [survey 7.1 to
+/// 7.3]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -21,27 +22,27 @@ inline constexpr float kDefaultScreenSpaceRadius = 0.5f;
 
 /// The techniques.
 enum class ScreenSpaceAoKind : std::uint8_t {
-  kCrytek,      ///< points in a sphere, O1
-  kHemisphere,  ///< points in a hemisphere, O2
-  kHbao,        ///< sines of horizons, O3
-  kGtao,        ///< the cosine between horizons, O4
+  kCrytek,      ///< points in a sphere
+  kHemisphere,  ///< points in a hemisphere
+  kHbao,        ///< sines of horizons
+  kGtao,        ///< the cosine between horizons
 };
 
-/// Constants b0, space3: mirrors CrytekConstants of crytek_ao.hlsl. [effects-spec B3.1]
+/// Constants b0, space3: mirrors CrytekConstants of crytek_ao.hlsl. [Mittring 2007]
 struct CrytekConstants {
   std::uint32_t filter_passes = 1;  ///< 0: the noise stays
   std::uint32_t samples = 16;       ///< points in the sphere, in pairs
   std::uint32_t remap = 0;          ///< 1: twice the open part, so that an open wall is white
 };
 
-/// Mirrors HemisphereConstants of hemisphere_ao.hlsl. [effects-spec B3.2]
+/// Mirrors HemisphereConstants of hemisphere_ao.hlsl. [survey 7.1]
 struct HemisphereConstants {
   std::uint32_t filter_passes = 1;  ///< 0: the noise stays
   std::uint32_t samples = 16;       ///< points in the hemisphere
   float bias = 0.025f;              ///< of depth, in radii
 };
 
-/// Mirrors HbaoConstants of hbao.hlsl. [effects-spec B3.3]
+/// Mirrors HbaoConstants of hbao.hlsl. [Bavoil, Sainz and Dimitrov 2008]
 struct HbaoConstants {
   std::uint32_t filter_passes = 1;  ///< 0: the noise stays
   std::uint32_t directions = 6;     ///< about each pixel
@@ -52,7 +53,7 @@ struct HbaoConstants {
 };
 
 /// Mirrors GtaoConstants of gtao.hlsl. The defaults are XeGTAO's, at its high quality.
-/// [effects-spec B3.4]
+/// [Jimenez et al. 2016]
 struct GtaoConstants {
   std::uint32_t filter_passes = 1;   ///< 0: the noise stays
   std::uint32_t slices = 3;          ///< through the view ray of each pixel
@@ -73,7 +74,6 @@ struct GtaoConstants {
 
 /// GTAO without what makes pictures pleasing: no powers, no clamps, a hard end of the radius as
 /// rays have it, the finest depth only. What remains is missing information and sampling.
-/// [effects-spec B3.4: accuracy mode]
 GtaoConstants accurate_gtao(std::uint32_t slices, std::uint32_t steps);
 
 /// The shaders of crytek_ao.hlsl that are built into the program.

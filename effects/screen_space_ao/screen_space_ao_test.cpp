@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Screen-space ambient occlusion against closed forms, rays and the failures that each is known
-// for. [effects-spec B3, E.2, E.4]
+// for.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ TEST_P(ScreenSpaceAoTest, AnOpenPlaneIsGreyForCrytekOnly) {
   }
 }
 
-// A wall seen from above: the oracles of B3.3 and B3.4. The wall ends 60 m to each side.
+// A wall seen from above: HBAO and GTAO in closed form. The wall ends 60 m to each side.
 TEST(ScreenSpaceAo, CornersByHbaoGtaoAndSweptLines) {
   constexpr std::uint32_t kWidth = 14, kHeight = 120, kAway = 6;  // metres, the column 7
   HeightField field("embree", kWidth, kHeight, parallel_fov(kHeight));
@@ -105,7 +105,7 @@ TEST_P(ScreenSpaceAoTest, SweptLinesAreGtaoWithEveryStep) {
   EXPECT_LT(mean(lines), 0.8);
 }
 
-// Broken depths and normals, no radius, a huge one, pictures of one pixel. [effects-spec E.2]
+// Broken depths and normals, no radius, a huge one, pictures of one pixel.
 TEST(ScreenSpaceAo, ExtremesGiveNumbers) {
   HeightField field("embree", 20, 12, 0.9);
   field.fill(

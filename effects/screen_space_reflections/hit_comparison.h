@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// In which ways marches over the picture fail: their hits against those of the same rays through
-/// the scene. [effects-spec B4.9]
+/// the scene.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the rays of screen-space reflections hit in the scene, and how the picture shows that. It
-// tells in which ways a march over the picture fails. [effects-spec B4.9]
+// tells in which ways a march over the picture fails.
 #include "alpha_test.hlsli"
 #include "screen_constants.hlsli"
 #include "screen_ray.hlsli"
@@ -20,7 +20,7 @@ static const uint kOutside = 3;     // it lies outside the picture, or behind th
 static const uint kCovered = 4;     // something else is in front of it
 static const uint kTurnedAway = 5;  // the ray hits a side that the camera cannot see
 
-static const float kSameDistance = 0.02;  // of the distance [effects-spec B4.9]
+static const float kSameDistance = 0.02;  // of the distance
 static const float kSamePlace = 0.01;     // of the view depth: how far off a pixel's plane
 
 struct TruthPayload {

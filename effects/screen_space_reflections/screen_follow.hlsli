@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The light of a ray that is followed over the picture, with what stands in for it where nothing is
-// hit. [effects-spec B4.3, B4.4]
+// hit. [survey 6.2; McGuire & Mara 2014]
 #ifndef KAAMOS_SCREEN_FOLLOW_HLSLI
 #define KAAMOS_SCREEN_FOLLOW_HLSLI
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rays of reflections over the picture, and the light of what they hit there. [effects-spec
-// A.3: R7]
+// The rays of reflections over the picture, and the light of what they hit there. [survey 6.2]
 #ifndef KAAMOS_SCREEN_LIGHT_HLSLI
 #define KAAMOS_SCREEN_LIGHT_HLSLI
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Marches over the depths of the picture. They differ in where they take samples, and in whether a
-// sample stands for a point of the ray or for all of it since the last one. [effects-spec B4.3,
-// B4.4; GDC 2018 talk]
+// sample stands for a point of the ray or for all of it since the last one. [survey 6.2; McGuire &
+// Mara 2014; GDC 2018 talk]
 #ifndef KAAMOS_SCREEN_MARCH_HLSLI
 #define KAAMOS_SCREEN_MARCH_HLSLI
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Screen-space reflections for those pixels alone that may find something. [effects-spec B4.5]
+/// Screen-space reflections for those pixels alone that may find something. [survey 6.2]
 #pragma once
 
 #include <cstdint>

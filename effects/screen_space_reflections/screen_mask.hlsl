@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which pixels may find their reflection in the picture, by their roughness and by a march over
 // blocks of pixels that misses nothing; the others show what a miss shows. The full march then runs
-// for a list of pixels, whose length only the device knows. [effects-spec B4.5; Wronski 2014;
-// Giacalone 2016]
+// for a list of pixels, whose length only the device knows. [Wronski 2014; Giacalone 2016]
 #include "screen_follow.hlsli"
 
 struct MaskConstants {

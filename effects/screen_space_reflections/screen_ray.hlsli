@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A ray over the picture, and what a march along it can find: set-up, clipping, validation and the
-// ways in which it fails, the same for every march. [effects-spec B4.3, B4.4, B4.9]
+// ways in which it fails, the same for every march. [survey 6.2; McGuire & Mara 2014]
 #ifndef KAAMOS_SCREEN_RAY_HLSLI
 #define KAAMOS_SCREEN_RAY_HLSLI
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Reflections that are found in the picture itself. [effects-spec B4.3, B4.4; GDC 2018 talk]
+/// Reflections that are found in the picture itself. [survey 6.2; McGuire & Mara 2014; GDC 2018
+/// talk]
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@ inline constexpr std::uint32_t kMostScreenRefinements = 32;
 
 /// Where a march takes its samples.
 enum class ScreenMarch : std::uint32_t {
-  kMetres,  ///< at equal distances along the ray, each a point [effects-spec B4.3]
+  kMetres,  ///< at equal distances along the ray, each a point [survey 6.2]
   /// Every few pixels of the picture; the ray's depths between two samples count too.
-  /// [McGuire & Mara 2014; effects-spec B4.4]
+  /// [McGuire & Mara 2014]
   kPixels,
   /// Likewise, but a fixed number up to the edge of the picture. [GDC 2018 talk]
   kLine,
@@ -56,9 +57,9 @@ struct ScreenReflectionConstants {
 };
 
 /// Points along the ray, 64 up to 20 m, and a search where one is behind a surface.
-/// [effects-spec B4.3]
+/// [survey 6.2]
 ScreenReflectionConstants march_of_metres();
-/// Every pixel that the ray passes over, up to 256. [effects-spec B4.4]
+/// Every pixel that the ray passes over, up to 256. [McGuire & Mara 2014]
 ScreenReflectionConstants march_of_pixels();
 /// 32 samples up to the edge of the picture, and nothing for misses. [GDC 2018 talk]
 ScreenReflectionConstants march_of_line();

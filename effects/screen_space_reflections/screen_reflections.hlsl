@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reflections of what the picture shows: the rays of effects/reflections, followed over the depths
-// of the picture instead of through the scene. [effects-spec B4.3, B4.4, B4.9; GDC 2018 talk]
+// of the picture instead of through the scene. [survey 6.2; McGuire & Mara 2014; GDC 2018 talk]
 #include "screen_follow.hlsli"
 
 ConstantBuffer<ScreenReflectionConstants> constants : register(b0, space3);

@@ -66,7 +66,6 @@ TEST(ScreenMarches, StrictHitsLeaveNoDoubt) {
   EXPECT_GT(part(found.confusion.correct(), found.confusion.hits()), 0.97);
 }
 
-// [effects-spec B4.9: thickness halo]
 TEST(ScreenMarches, ThickSurfacesHaveHalos) {
   March thin = with_sky(kPixels), thick = thin;
   thin.constants.thickness = 0.05f;
@@ -76,7 +75,7 @@ TEST(ScreenMarches, ThickSurfacesHaveHalos) {
   EXPECT_GT(many, 2 * few);
 }
 
-// [effects-spec B4.9: between-sample miss; GDC 2018 talk]
+// [GDC 2018 talk]
 TEST(ScreenMarches, FewSamplesMissWhatLiesBetweenThem) {
   March line = kLine;
   line.constants.steps = 8;
@@ -88,7 +87,7 @@ TEST(ScreenMarches, FewSamplesMissWhatLiesBetweenThem) {
   EXPECT_GT(look(kEmbree, make_screen_boxes(), metres).confusion.missed(), 2 * all.missed());
 }
 
-// [effects-spec B4.9: off-screen] Northlight's has no fallback: what is missing is black.
+// Northlight's has no fallback: what is off the picture is missing, and black. [GDC 2018 talk]
 TEST(ScreenMarches, WhatThePictureDoesNotShowIsMissing) {
   const auto renderer = render(kEmbree, make_mirror_hall(), kLine);
   const HitComparison found = compare(*renderer, kLine.signal, kLine.constants);
@@ -163,7 +162,7 @@ TEST(ScreenMarches, WhatThePreviousFrameDidNotShowIsStale) {
   EXPECT_EQ(stale(), 0u) << "after a cut light is taken from this frame";
 }
 
-// Recall 1: the picture is the same with the mask as without it. [effects-spec B4.5]
+// Recall 1: the picture is the same with the mask as without it. [survey 6.2]
 TEST(ScreenMarches, TheMaskMissesNothing) {
   for (const Scene& scene : {make_screen_boxes(), make_mirror_hall()}) {
     for (const March& march : {with_sky(kPixels), with_sky(kMetres), kLine}) {

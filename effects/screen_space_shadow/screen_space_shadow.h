@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Contact shadows from the depth picture, without rays. [effects-spec B2.9]
+/// Contact shadows from the depth picture, without rays. [survey 5.2]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -2,8 +2,7 @@
 // Contact shadows from the depth picture: a march from each pixel's surface towards a light, which
 // is hidden where a point of the ray lies a little behind what the picture shows there. Plain, with
 // several pixels tested at each point, or as several marches with steps of different size.
-// [effects-spec B2.9; Seibert & Radicke, spatial depth buffer multisampling and multipass occlusion
-// testing]
+// [survey 5.2; Seibert & Radicke 2017, Spatial Multisampling and Multipass Occlusion Testing]
 #include "sampling.hlsli"
 #include "view_space.hlsli"
 
@@ -26,7 +25,7 @@ struct ScreenShadowConstants {
 ConstantBuffer<ScreenShadowConstants> constants : register(b0, space3);
 
 static const uint kNoLight = 0xFFFFFF;
-static const uint kContactPair = 6;  // and 7 [effects-spec B0.3]
+static const uint kContactPair = 6;  // and 7
 static const float kGolden = 1.61803399;
 // The last fifth of the length fades out, as for traced contact shadows.
 static const float kFadeFrom = 0.8;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Screen-space contact shadows against rays of the same length, and how they fail.
-// [effects-spec B2.9, E.2]
 #include "effects/screen_space_shadow/screen_space_shadow.h"
 
 #include <gtest/gtest.h>
@@ -114,8 +113,7 @@ class ScreenSpaceShadows : public test::OnBackends {};
 INSTANTIATE_TEST_SUITE_P(Backends, ScreenSpaceShadows, testing::Values("embree", "vulkan"),
                          [](const auto& backend) { return backend.param; });
 
-// More pixels at a step, and more marches, find more of the thin shadows. [effects-spec B2.9:
-// Measure]
+// More pixels at a step, and more marches, find more of the thin shadows. [Seibert & Radicke 2017]
 TEST_P(ScreenSpaceShadows, MultisamplingAndMultipassFindMoreOfThinShadows) {
   ContactFrame frame(thin_scene(), GetParam());
   const auto show = [&](const char* name, const ScreenSpaceShadowConstants& constants) {
@@ -195,7 +193,6 @@ TEST(ScreenSpaceShadow, APlaneAlongTheViewDoesNotShadowItself) {
   EXPECT_GT(frame.find(without).said, 200);
 }
 
-// [effects-spec E.2]
 TEST(ScreenSpaceShadow, TakesExtremes) {
   Scene scene = thin_scene();
   scene.cameras.front().camera_to_world = look_at({0, 0.2, 1}, {0, 0.3, 0});  // the sky too

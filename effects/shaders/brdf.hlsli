@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The one material model, used at every hit: GGX, and Lambert for the light that GGX leaves.
 // [Northlight deck: unified simplified PBR] Vectors have unit length and point away from the
-// surface. [effects-spec B0.4]
+// surface.
 #ifndef KAAMOS_BRDF_HLSLI
 #define KAAMOS_BRDF_HLSLI
 
@@ -136,7 +136,7 @@ float3 SampleGgxHalfVector(float2 u, float3 view, float alpha) {
 
 // BRDF times cosine over density for a direction mirrored at such a half vector: F G2 / G1, which
 // is F (1 + Lambda(n_v)) / (1 + Lambda(n_v) + Lambda(n_l)), at most 1. It is zero below the
-// surface: that light is lost rather than sampled again. [effects-spec B0.4]
+// surface: that light is lost rather than sampled again. [Heitz 2018]
 float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float cosine_half_view) {
   if (!(cosine_light > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
   const float view = GgxShadowing(brdf.alpha, cosine_view);

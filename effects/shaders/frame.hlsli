@@ -89,7 +89,7 @@ SamplerState samplers[] : register(s0, space1);
 #include "lights.hlsli"
 StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of them
 
-// The G-buffer. [effects-spec B0.2]
+// The G-buffer.
 RWTexture2D<float> g_depth : register(u0);       // reversed-Z, infinite far: near / view_z; 0: a miss
 RWTexture2D<float> g_view_z : register(u1);      // metres along the camera's axis
 RWTexture2D<float2> g_normal : register(u2);     // geometric normal, octahedral, towards the camera
@@ -142,13 +142,13 @@ static const float kLongestRay = 1e30;
 static const float kSunDistance = kLongestRay;
 
 // Replaces NaN and negative values by 0 and limits x to `largest`. A broken material turns black,
-// in its own pixels and wherever it is seen; a broken length becomes 0. [effects-spec E.1]
+// in its own pixels and wherever it is seen; a broken length becomes 0.
 float Contain(float x, float largest) { return x > 0.0 ? min(x, largest) : 0.0; }
 float3 Contain(float3 x, float largest) {
   return float3(Contain(x.x, largest), Contain(x.y, largest), Contain(x.z, largest));
 }
 
-// Dimension pairs of a pixel's sample sequence. No two effects share a pair. [effects-spec B0.3]
+// Dimension pairs of a pixel's sample sequence. No two effects share a pair.
 static const uint kAmbientOcclusionPair = 0;
 static const uint kSunPair = 1;
 

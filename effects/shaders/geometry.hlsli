@@ -91,9 +91,8 @@ struct SpawnPoint {
   float offset;   // metres along the normal
 };
 
-// Instead of a fixed epsilon, bounds the rounding error of this very point. [effects-spec B0.5,
-// method 1: error bound of Waechter, van Antwerpen and Klehm 2023] effects/common/ray_origin.h is
-// the same for the host.
+// Instead of a fixed epsilon, bounds the rounding error of this very point. [error bound of
+// Waechter, van Antwerpen and Klehm 2023] effects/common/ray_origin.h is the same for the host.
 SpawnPoint MakeSpawnPoint(float3 v0, float3 v1, float3 v2, float2 barycentrics,
                           float3x4 object_to_world, float3x4 world_to_object) {
   const float c0 = 5.9604644775390625e-8f;   // 2^-24

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Local lights at any point of the scene, visible or not. A grid of clusters about the camera finds
 // the lights, and shadow maps in an atlas tell whether they are visible. Every pass that shades
-// hits includes this. [Northlight deck: Light Culling, Lighting Data; effects-spec B1.3]
+// hits includes this. [Northlight deck: Light Culling, Lighting Data]
 #ifndef KAAMOS_HIT_LIGHTING_HLSLI
 #define KAAMOS_HIT_LIGHTING_HLSLI
 
@@ -108,7 +108,7 @@ bool IsBehind(float4 occluder, float3 from_light, float receiver, float toleranc
 
 // Visibility of a light by its shadow map: four texels, bilinearly weighted. The point is first
 // moved along its normal by a few texels' size, because a curved surface lies behind the tangent
-// planes next to it. [effects-spec B2.1]
+// planes next to it.
 float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3 normal) {
   const float texel = length(position - light.position) * light.map_texel;
   const float3 from_light = position + normal * (kShadowOffset * texel) - light.position;

@@ -2,7 +2,7 @@
 // How every effect shades its hits, either with the full material or as a matte surface: emission,
 // local lights with shadow maps, and the sun by a shadow ray, because maps for what the camera sees
 // do not cover what it cannot see, or by the map of the whole scene. Indirect light is added
-// elsewhere. [Northlight deck: unified material; effects-spec B4.10]
+// elsewhere. [Northlight deck: Reflections, unified shading model]
 #ifndef KAAMOS_HIT_SHADING_HLSLI
 #define KAAMOS_HIT_SHADING_HLSLI
 
@@ -31,8 +31,8 @@ float3 SunAtHit(uint sun, Surface surface, Brdf brdf, BrdfView view) {
                                     SurfaceOrigin(surface, frame.direction_to_sun));
 }
 
-// Direct light reflected as if the surface were matte: one bounce of diffuse light. [effects-spec
-// B5.4]
+// Direct light reflected as if the surface were matte: one bounce of diffuse light. [Northlight
+// deck: Diffuse Lighting on Hit Shader]
 float3 ShadeMatteHit(MatteSurface surface, uint sun_at_hits) {
   float3 irradiance = LocalIrradiance(surface.position, surface.normal);
   const float3 sun = frame.sun_irradiance * dot(surface.normal, frame.direction_to_sun);

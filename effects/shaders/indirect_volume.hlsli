@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Indirect light, stored in the cells of a sparse volume: per cell and colour a mean and a slope
 // over directions (spherical harmonics up to degree 1). Cells are small where there is geometry and
-// larger away from it, so that every place of the scene has one. [effects-spec B5.1]
+// larger away from it, so that every place of the scene has one. [Northlight deck: GI Data in
+// Sparse Volume Texture]
 #ifndef KAAMOS_INDIRECT_VOLUME_HLSLI
 #define KAAMOS_INDIRECT_VOLUME_HLSLI
 

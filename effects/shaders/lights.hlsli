@@ -41,7 +41,7 @@ float3 ProjectionTowards(LightConstants light, float3 direction) {
 }
 
 // Inverse square law with a smooth cutoff at the range. Inside the light's sphere, a point is lit
-// as if it were on the sphere. [KHR_lights_punctual; effects-spec B1.3]
+// as if it were on the sphere. [KHR_lights_punctual]
 LightSample SampleLight(LightConstants light, float3 position) {
   const float3 to_light = light.position - position;
   const float distance_squared = dot(to_light, to_light);

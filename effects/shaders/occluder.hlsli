@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Visibility rays that also say how far away the closest occluder is and whether it moves. Its
-// distance gives the width of the penumbra; denoisers need both. [effects-spec B6.8: SIGMA]
+// distance gives the width of the penumbra; denoisers need both. [NRD: SIGMA]
 #ifndef KAAMOS_OCCLUDER_HLSLI
 #define KAAMOS_OCCLUDER_HLSLI
 
@@ -33,7 +33,7 @@ void OccluderClosestHit(inout OccluderPayload payload,
   payload.moved = previous_instances[InstanceIndex()].flags != 0 ? 1.0 : 0.0;
 }
 
-// The origin must be off the surface. [effects-spec B2.11]
+// The origin must be off the surface.
 OccluderPayload TraceOccluder(float3 origin, float3 direction, float t_max) {
   RayDesc ray;
   ray.Origin = origin;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Keys to sort rays by, so that neighbours in a dispatch go the same way: 8 bits of direction, 8
-// bits of origin, 8 bits of where the ray is thought to end. [effects-spec B1.5; Meister, Boksansky,
-// Guthe & Bittner 2020]
+// bits of origin, 8 bits of where the ray is thought to end. [Meister, Boksansky, Guthe & Bittner
+// 2020]
 #ifndef KAAMOS_RAY_KEY_HLSLI
 #define KAAMOS_RAY_KEY_HLSLI
 

@@ -84,7 +84,7 @@ float3 PixelJitter(uint2 pixel, uint index, uint pair, uint seed) {
                 UnitFloat(PcgHash(key + 2u))) - 0.5f;
 }
 
-// Maps the unit square to the unit disk, preserving area. [effects-spec B0.4]
+// Maps the unit square to the unit disk, preserving area.
 float2 SampleDisk(float2 u) {
   const float r = sqrt(u.x);
   const float phi = 6.2831853f * u.y;

@@ -14,7 +14,7 @@ int2 PictureSize() {
 
 bool IsInside(int2 pixel, int2 size) { return all(pixel >= int2(0, 0)) && all(pixel < size); }
 
-// The sky has no depth, and a broken depth shows nothing either. [effects-spec E.2]
+// The sky has no depth, and a broken depth shows nothing either.
 bool IsSurface(float view_z) { return view_z > 0.0 && isfinite(view_z); }
 
 // x/z and y/z of a place in the picture, in pixels from the upper left corner.

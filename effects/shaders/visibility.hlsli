@@ -21,7 +21,7 @@ void VisibilityAnyHit(inout VisibilityPayload payload, in BuiltInTriangleInterse
   }
 }
 
-// 1 if nothing is hit up to t_max. The origin must be off the surface. [effects-spec B2.11]
+// 1 if nothing is hit up to t_max. The origin must be off the surface.
 float TraceVisibility(float3 origin, float3 direction, float t_max) {
   RayDesc ray;
   ray.Origin = origin;

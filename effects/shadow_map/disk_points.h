@@ -11,7 +11,7 @@ namespace kaamos::effects {
 
 /// Points of the unit disk of which the first n of any n keep away from each other, as those of a
 /// Poisson disk do: each is the one of many random ones that is farthest from those before it.
-/// [Mitchell 1991, Spectrally Optimal Sampling: best candidates; effects-spec B2.3]
+/// [Mitchell 1991, Spectrally Optimal Sampling: best candidates]
 std::vector<glm::vec2> disk_points(std::uint32_t count);
 
 }  // namespace kaamos::effects

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The scene's depth as the sun sees it, by the rasterizer. [effects-spec B2.1]
+/// The scene's depth as the sun sees it, by the rasterizer. [Williams 1978]
 #pragma once
 
 #include <rtapi/rtapi.h>

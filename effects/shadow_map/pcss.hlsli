@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Percentage-closer soft shadows: the mean depth of what stands between a surface and the sun gives
-// the width of the penumbra, and that is the width of the filter. [Fernando 2005; effects-spec B2.7]
+// the width of the penumbra, and that is the width of the filter. [Fernando 2005]
 #ifndef KAAMOS_PCSS_HLSLI
 #define KAAMOS_PCSS_HLSLI
 
@@ -85,7 +85,7 @@ float SoftVisibility(Receiver receiver, Blockers blockers, float2 turn) {
 }
 
 // The half of a penumbra that lies in the hard shadow, with twice the contrast: all of the sun where
-// the hard shadow ends, none where all of the sun is hidden. [effects-spec B2.13]
+// the hard shadow ends, none where all of the sun is hidden. [Story 2015]
 float Inner(float hard, float lit) { return hard > 0.0 ? 1.0 : saturate(2.0 * lit); }
 
 #endif

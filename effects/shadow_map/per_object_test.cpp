@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A shadow map of the hero's own besides the scene's: on the hero and in its shadow it is finer
-// than one map with as many texels. [effects-spec part A: S3]
+// than one map with as many texels. [survey 5.1.1]
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Shadows of the sun by depth maps, drawn each frame. One pass; its method is a constant.
-/// [effects-spec B2.1 to B2.7]
+/// [survey 5.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -30,15 +30,15 @@ enum ShadowMapFlags : std::uint32_t {
   kShadowMapReceiverPlane = 1,
   /// Filters take a square of taps, between texels. Else a disk that each pixel turns.
   kShadowMapGrid = 2,
-  /// The comparison as the survey has it, with reversed depth: wrong. [effects-spec E10]
+  /// The comparison as the survey has it, with reversed depth: wrong. [effects/SOURCES.md: E10]
   kShadowMapSurveyRule = 4,
   /// Cascades are as tight as it goes, and shadows' edges crawl when the camera moves.
   kShadowMapTight = 8,
   /// PCSS's penumbra lies inside the hard shadow, from its edge to where the sun is hidden whole.
-  /// For what is blended with hard shadows: it never leaves them. [effects-spec B2.13]
+  /// For what is blended with hard shadows: it never leaves them. [Story 2015]
   kShadowMapInnerPenumbra = 16,
   /// `cascades` counts objects instead: the scene's first instances of BuildClass::kHero have a map
-  /// of their own, besides the scene's. Those that it lacks have the scene's. [effects-spec S3]
+  /// of their own, besides the scene's. Those that it lacks have the scene's. [survey 5.1.1]
   kShadowMapPerObject = 32,
 };
 

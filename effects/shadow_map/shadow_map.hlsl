@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // How much of the sun each pixel sees, by comparing depths with a shadow map: at one texel, over a
-// filter of one width, and over one as wide as the penumbra. [effects-spec B2.1, B2.3, B2.7]
+// filter of one width, and over one as wide as the penumbra. [survey 5.1]
 #include "pcss.hlsli"
 
 // The survey writes "lit if p_z is smaller than what is stored" and says neither which way depth
 // grows nor what happens where both are the same. With the reversed depth that the rest of the frame
-// has, that says the opposite of what is meant. For the test of it alone. [effects-spec E10]
+// has, that says the opposite of what is meant. For the test of it alone. [effects/SOURCES.md: E10]
 float SurveyRule(Receiver receiver) {
   const float range = maps[receiver.map].range;
   const int2 texel = int2(floor(receiver.at));
@@ -22,7 +22,7 @@ float Pcf(Receiver receiver, Surface surface) {
   return Filter(receiver, constants.radius / maps[receiver.map].texel, surface.turn);
 }
 
-// [effects-spec B2.7]
+// [Fernando 2005]
 float Pcss(Receiver receiver, Surface surface) {
   const float lit = SoftVisibility(receiver, FindBlockers(receiver, surface.turn), surface.turn);
   return Has(kInnerPenumbra) ? Inner(IsLit(receiver, int2(floor(receiver.at))), lit) : lit;
@@ -30,7 +30,7 @@ float Pcss(Receiver receiver, Surface surface) {
 
 // Backprojection: each texel that stands in between is a small square at its depth; seen from the
 // surface it hides a part of the sun, and the parts are summed up. The sun is taken for a square of
-// the same area along the map's axes. [Guennebaud et al. 2006; Atty et al. 2006; effects-spec S11]
+// the same area along the map's axes. [Guennebaud et al. 2006; Atty et al. 2006]
 float Backprojection(Receiver receiver, Surface surface) {
   const float texel = maps[receiver.map].texel;
   const float half_sun = 0.8862269 * frame.tan_sun_radius;  // sqrt(pi) / 2

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the shaders of all shadow maps share: the maps, where a surface lies in them, and the
 // comparison with its bias. Depths are linear, in metres along the sun's light from the plane where
-// the maps begin; larger is farther away from the sun. [effects-spec B2.1, erratum E10]
+// the maps begin; larger is farther away from the sun. [effects/SOURCES.md: E10]
 #ifndef KAAMOS_SHADOW_MAP_HLSLI
 #define KAAMOS_SHADOW_MAP_HLSLI
 

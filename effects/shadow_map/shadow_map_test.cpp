@@ -109,7 +109,7 @@ BiasErrors bias_errors(ShadowMapConstants constants) {
 }
 
 // Too little of each bias speckles the lit floor, too much of it lets the shadow of the sole come
-// loose. The plane of the surface at each texel needs next to none. [effects-spec B2.1, SC3]
+// loose. The plane of the surface at each texel needs next to none. [survey 5.1.1]
 TEST(ShadowMap, EveryBiasFailsBothWays) {
   const BiasErrors none = bias_errors({.constant_bias = 0, .slope_bias = 0});
   EXPECT_GT(none.acne, 0.25);
@@ -136,7 +136,6 @@ TEST(ShadowMap, EveryBiasFailsBothWays) {
   EXPECT_LT(plane.gap, 0.1);
 }
 
-// [effects-spec E.2]
 TEST(ShadowMap, TakesExtremes) {
   Scene scene = small_floor(kHardSun);
   // Hardly over the horizon.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Filtered shadow maps against the closed form of penumbras: two sheets at different heights, whose
-// shadows end on one line. [effects-spec B2.3, B2.7]
+// shadows end on one line. [survey 5.1.3, 5.1.4]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,7 +99,8 @@ TEST(SoftShadow, WidthFollowsOneOccluderAndNotTwo) {
 }
 
 // Below one flat sheet the squares of the map's texels are the sheet, and the sum is its part of
-// the sun; below two that overlap, what both hide counts twice. [effects-spec S11]
+// the sun; below two that overlap, what both hide counts twice. [Guennebaud et al. 2006; Atty et
+// al. 2006]
 TEST(SoftShadow, BackprojectionSumsWhatTexelsHide) {
   ShadowMapConstants constants = kPcss;
   constants.method = kShadowMapBackprojection;
@@ -121,7 +122,7 @@ TEST(SoftShadow, BackprojectionSumsWhatTexelsHide) {
   EXPECT_LT(darker, brighter / 10);
 }
 
-// A sun that is a point: what one texel says. [effects-spec E.2]
+// A sun that is a point: what one texel says.
 TEST(SoftShadow, PointSunIsHard) {
   constexpr PeterPanningDesc kPoint = {.angular_radius = 0};
   MapFrame frame(sheets(1, kPoint), {"sun-map", "sun-pcss"}, &kPcss);
@@ -133,7 +134,7 @@ TEST(SoftShadow, PointSunIsHard) {
 }
 
 // The inner penumbra stays in the hard shadow, is dark no later than the whole one, and falls from
-// the line on over half the width: [effects-spec B2.13]
+// the line on over half the width: [Story 2015]
 TEST(SoftShadow, InnerPenumbraStaysInTheHardShadow) {
   ShadowMapConstants inner = kPcss, hard = kPcss;
   inner.flags |= kShadowMapInnerPenumbra;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Where the sun's shadow maps lie: one over the whole scene, besides it some over single objects,
-/// or cascades over parts of what the camera sees. [effects-spec B2.1, B2.2, part A: S3]
+/// or cascades over parts of what the camera sees. [survey 5.1.1]
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ struct SunMapsDesc {
 };
 
 /// View depth where cascade `i` - 1 ends and cascade `i` begins: a share of the logarithmic split,
-/// the rest of the even one. 0 < near < far. [Zhang et al. 2006; effects-spec B2.2]
+/// the rest of the even one. 0 < near < far. [Zhang et al. 2006]
 double cascade_split(double near, double far, double share, std::uint32_t i, std::uint32_t count);
 
 /// The maps for a camera: cascades nearest first; of objects the finest first, and the scene's

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Stochastic screen-space reflections: few rays, shared by neighbours. [effects-spec B4.8]
+/// Stochastic screen-space reflections: few rays, shared by neighbours. [Stachowiak 2015]
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stochastic reflections: rays at a quarter of the pixels keep what they hit, and every pixel takes
-// the hits of the rays about it as if it had sent them itself. [effects-spec B4.8; Stachowiak 2015,
-// Stochastic Screen-Space Reflections]
+// the hits of the rays about it as if it had sent them itself. [Stachowiak 2015, Stochastic
+// Screen-Space Reflections]
 #include "../screen_space_reflections/screen_follow.hlsli"
 
 // Sums over samples, as those of effects/reflections.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The acceleration structures of a scene that moves, frame by frame: skinning, bottom levels, top
-/// level. [effects-spec B1.1, Northlight deck: Build Flags]
+/// level. [Northlight deck: Build Flags]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -128,7 +128,7 @@ TEST_P(Structures, VerticesAreThoseOfTheHost) {
 }
 
 // The first frames of the walk, once by updates alone and once rebuilt in each frame: the triangles
-// are the same, so the hits must be. 10^5 rays. [effects-spec B1.1 (a)]
+// are the same, so the hits must be. 10^5 rays.
 TEST_P(Structures, UpdatedStructuresGiveTheHitsOfNewOnes) {
   const bool vulkan = GetParam() == "vulkan";
   StructureOptions updated, rebuilt;
@@ -165,8 +165,8 @@ TEST_P(Structures, UpdatedStructuresGiveTheHitsOfNewOnes) {
 }
 
 // Class 4: debris and cloth are built anew in each frame after the burst, and rays hit what they
-// hit in structures of the same pose that nothing was built before. [effects-spec A.1: A9, D.2:
-// SC13]
+// hit in structures of the same pose that nothing was built before. [Northlight deck: Bottom Level
+// Build Flags]
 TEST_P(Structures, DebrisAndClothAreBuiltAnewEachFrame) {
   const Scene scene = make_destruction();
   Stage stage(GetParam(), scene);

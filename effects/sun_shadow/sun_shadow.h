@@ -8,13 +8,13 @@
 
 namespace kaamos::effects {
 
-/// Samples per pixel of the deck's timings. [effects-spec B2.11]
+/// Samples per pixel of the deck's timings. [Northlight deck: Shadows]
 inline constexpr std::uint32_t kDefaultSunSamples = 2;
 
 /// The pass. Each dispatch adds those of its samples that see the sun to kSunVisibilitySum, and of
 /// the others to kSunSharpnessSum: 1 / radius of the penumbra that the closest occluder casts, 1/m,
 /// and whether that moves.
-/// [effects-spec B2]
+/// [Northlight deck: Shadows; NRD: SIGMA]
 RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The visible fraction of the sun's disk, by rays to random points of it. [effects-spec B2.11]
+// The visible fraction of the sun's disk, by rays to random points of it. [GDC 2018 talk;
+// Northlight deck: Shadows]
 #include "occluder.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
-/// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
+/// pixels, and what earlier frames saw is carried along with the surfaces. [Karis 2014]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// Constants b0, space3: mirrors TaaConstants of taa.hlsl. [effects-spec B7.1]
+/// Constants b0, space3: mirrors TaaConstants of taa.hlsl.
 struct TaaConstants {
   float alpha = 0.1f;             ///< least weight of the new frame; the Nth has at least 1 / N
   float clip_gamma = 1.0f;        ///< deviations of 3 x 3 pixels; 0: history is not clipped

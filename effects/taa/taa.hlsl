@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Temporal antialiasing: blends the frame's jittered radiance into the accumulated history.
-// [effects-spec B7.1]
+// [Karis 2014, High-Quality Temporal Supersampling]
 #include "frame.hlsli"
 
 // Mirrors TaaConstants in effects/taa/taa.h.

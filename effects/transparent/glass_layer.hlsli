@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What a layer of glass sends to the camera and lets through, whether a ray met it or it is drawn.
-// [effects-spec B4.12]
 #ifndef KAAMOS_GLASS_LAYER_HLSLI
 #define KAAMOS_GLASS_LAYER_HLSLI
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Glass: the light it sends, what it mirrors, and what it lets through. [effects-spec B4.12,
-/// B4.13]
+/// Glass: the light it sends, what it mirrors, and what it lets through. [Control; Northlight deck:
+/// Transparent objects]
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Glass in front of the G-buffer's surfaces. The first layers are traced one by one, some with a
 // mirror ray each; all layers behind them take one ray, whose any-hit shader blends them without an
-// order. [effects-spec B4.12, B4.13; Control; Northlight deck: Transparent]
+// order. [Control; Northlight deck: Transparent objects]
 #include "glass_layer.hlsli"
 
 // Radiance of the glass, and the view depth of its first layer, metres (0: no glass).
@@ -91,7 +91,7 @@ void Remember(inout GlassPayload payload) {
 }
 
 // The weights of weighted blended order-independent transparency. [McGuire and Bavoil 2013,
-// equations 7 to 10; effects-spec B4.13]
+// equations 7 to 10]
 float BlendWeight(float alpha, float view_z) {
   const float z = view_z * constants.depth_scale;
   const float far = z / 200.0;

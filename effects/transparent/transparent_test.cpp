@@ -149,7 +149,7 @@ TEST(Transparent, OneLayerIsTheOverOperator) {
   }
 }
 
-// [effects-spec B4.13: error of two layers, red in front of blue, all weights equal]
+// Red in front of blue, both of one alpha and one weight: each is wrong by alpha squared over two.
 TEST(Transparent, TwoLayersErrByWhatIsKnown) {
   struct {
     float alpha;
@@ -230,7 +230,7 @@ TEST(Transparent, SortedLayersAreTheOverOperator) {
   }
 }
 
-// How much of the background is visible does not depend on the order. [effects-spec B4.13]
+// How much of the background is visible does not depend on the order. [McGuire and Bavoil 2013]
 TEST(Transparent, CoverageIsExactWithoutAnOrder) {
   const std::vector<Pane> panes = eight_panes();
   double open = 1;
@@ -406,7 +406,7 @@ TEST(Transparent, MirrorRaysEndInTheVolumesLight) {
 }
 
 // The more layers have mirror rays, the closer the result is to the reference. E11: 1 layer is what
-// Control shipped, 3 what the deck shows; both must be there. [effects-spec 0.1]
+// Control shipped, 3 what the deck shows; both must be there. [effects/SOURCES.md]
 TEST(Transparent, MoreLayersAreNearerToTheReference) {
   const Scene scene = make_glass_stack({.panes = 6});
   const std::vector<Seen> seen = look(
@@ -446,7 +446,7 @@ Scene moved(Scene scene, const glm::dmat4& move, double scale) {
   return scene;
 }
 
-// [effects-spec E.1: rotated, moved, far from the origin, small and large]
+// Rotated, moved, far from the origin, small and large.
 TEST(Transparent, ThePlaceOfTheSceneDoesNotMatter) {
   constexpr std::uint32_t kSize = 32;
   const Scene scene = make_glass_stack({.panes = 4, .thick = true});

@@ -215,7 +215,7 @@ std::vector<std::optional<double>> numbers(const std::vector<Round>& rounds) {
 
 // What the sources say. Control's shares are those of frames 1 and 2 in its Table 1, whose last row
 // is called reflections but is the sum of all ray traced effects: 8.9 and 7.1 ms, 9.5 and 8.1 ms
-// with the structures (effects-spec 0.1: E7). [GDC 2018 talk; Northlight deck; survey: Table 1]
+// with the structures (effects/SOURCES.md: E7). [GDC 2018 talk; Northlight deck; survey: Table 1]
 constexpr std::pair<const char*, const char*> kTexts[] = {
     {"AO: 16 rays a pixel / 16 x 1 ray (0.85 to 1.15)", "1.00: 80 ms / 16 x 5 ms"},
     {"a sun ray / an AO ray of 4 m", "below 1: coherent"},
@@ -231,7 +231,7 @@ constexpr std::pair<const char*, const char*> kTexts[] = {
     {"contact shadows: trace, %", "53, 36"},
     {"contact shadows: denoise, %", "47, 64"}};
 
-// The passes of Control that are timed here too. [effects-spec A.6: Table 1]
+// The passes of Control that are timed here too. [survey: Table 1]
 const std::vector<ControlPass> kControl = {
     {"reflections: trace", {1.0, 1.4}, {}},      {"reflections: shade", {1.4, 1.1}, {}},
     {"reflections: denoise", {0.8, 0.8}, {}},    {"indirect diffuse: trace", {0.8, 0.7}, {}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // northlight --measure svgf: every denoiser on every signal of the frame, with the camera at rest
-// and on its path, bias and variance separated. [effects-spec B0.6]
+// and on its path, bias and variance separated.
 #include <fmt/format.h>
 
 #include <algorithm>

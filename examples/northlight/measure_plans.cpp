@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which settings of an effect are measured, and against which reference. [effects-spec B8, E.3]
+// Which settings of an effect are measured, and against which reference.
 #include <fmt/format.h>
 
 #include "effects/contact_shadow/contact_shadow.h"

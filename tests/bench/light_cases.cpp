@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// lights/...: main lighting with other ways to find each pixel's lights. [effects-spec A19, A22]
+// lights/...: main lighting with other ways to find each pixel's lights. [Northlight deck: Light
+// Culling; survey 5.3.1]
 #include <rtapi/upload.h>
 
 #include <cmath>

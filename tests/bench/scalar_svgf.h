@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The baseline of frame/svgf: the filter of effects/denoise written by hand in plain C++, one pixel
-// at a time, on tiles over the same threads. Same equations, same order of sums. [effects-spec
-// B6.3; Schied et al. 2017]
+// at a time, on tiles over the same threads. Same equations, same order of sums. [Schied et al.
+// 2017]
 #pragma once
 
 #include <tbb/task_arena.h>

@@ -3,7 +3,7 @@
 // sorting/...: an effect over the lounge with its rays sorted by direction, by origin or by
 // termination, against the same rays unsorted. .../trace times the dispatch alone, .../net includes
 // keys and sorting. sorting/loops: the two loops of visibility in a rasterizer's order against a
-// ray tracer's. [effects-spec A21, B1.5]
+// ray tracer's. [survey 3.5; Meister et al. 2020]
 #include <algorithm>
 #include <stdexcept>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // structures/...: a wall that bursts and a curtain, whose structures are built anew in each frame
-// (build class 4), against other ways to keep them. [effects-spec A9, SC13]
+// (build class 4), against other ways to keep them. [Northlight deck: Bottom Level Build Flags]
 #include "effects/structures/structures.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Broken inputs: a NaN stays where it came from and does not outlive its frame. [effects-spec E.1,
-// form 2]
+// Broken inputs: a NaN stays where it came from and does not outlive its frame.
 #include <gtest/gtest.h>
 
 #include <cmath>

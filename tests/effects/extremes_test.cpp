@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Inputs at the ends of their ranges: what must be exact there, and what must stay finite.
-// [effects-spec E.2]
 #include <gtest/gtest.h>
 
 #include <algorithm>

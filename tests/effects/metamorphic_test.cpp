@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What must not change a picture, however the scene is expressed. [effects-spec E.1, form 1]
+// What must not change a picture, however the scene is expressed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

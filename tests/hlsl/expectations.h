@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The comments that make an .hlsl file a test:
-//   // FEATURE: core 12 swizzles       what of hlsl-subset's tables it covers
+//   // FEATURE: core 12 swizzles       the tier and which of its features it covers
 //   // TRAP: 7                         or which trap
 //   // OPTIONS: -HV 2018               as kaamos-hlsl takes them
 //   // DISPATCH: 2 1 1                 groups, or threads of ray generation (default 1 1 1)

@@ -210,8 +210,8 @@ std::string feature_key(const std::string& feature) {
   return feature.substr(0, feature.find(' ', std::string("trap ").size()));
 }
 
-// How many of the features in hlsl-subset's tables work on a backend. A feature works if all its
-// files pass on all executors.
+// How many of the features that FEATURE and TRAP comments name work on a backend. A feature works
+// if all its files pass on all executors.
 class FeatureReport : public testing::Test {
  public:
   explicit FeatureReport(const char* backend) : backend_(backend) {}

@@ -95,7 +95,7 @@ const Row& setting(const std::vector<Row>& rows, const std::string& name) {
 }
 
 // The exponent of the error as a function of rays: -1/2 for random samples, down to -1 and below
-// for well-spread ones. [effects-spec B0.3]
+// for well-spread ones.
 void expect_convergence(const std::vector<Row>& rows) {
   ASSERT_GE(rows.size(), 2u);
   const double rays = number(rows.back(), "rays") / number(rows.front(), "rays");

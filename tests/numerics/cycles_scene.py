@@ -22,7 +22,7 @@ for old, new in (("bool", bool), ("int", int), ("float", float), ("object", obje
 
 # glTF has +y up, Blender +z.
 UPRIGHT = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
-MIRROR_ROUGHNESS = 0.03  # up to here a specular lobe is one direction [effects-spec E.2: GGX]
+MIRROR_ROUGHNESS = 0.03  # up to here a specular lobe is one direction
 DIELECTRIC_F0 = 0.04
 EMISSIVE_PROXY = 0x10
 

@@ -149,7 +149,6 @@ double print_slope(EffectRun run, const Scene& scene, const std::function<double
 }
 
 // Random samples give -0.5; Owen-scrambled Sobol points give about -0.75 over an edge.
-// [effects-spec B0.3]
 TEST(SampleSweep, AmbientOcclusionFallsFasterThanWithRandomSamples) {
   EffectRun run;
   run.radius = 2.0f;

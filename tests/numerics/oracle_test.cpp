@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Effects against closed forms [effects-spec B0.7]: 4,096 rays per pixel and 16 scrambles, or
-// 16,384 and 64 with KAAMOS_FULL=1. The error of a pixel's mean over the scrambles is estimated
-// from their spread. The true value must lie within five such errors of it, and so must the mean
-// over all pixels, whose error is much smaller.
+// Effects against closed forms: 4,096 rays per pixel and 16 scrambles, or 16,384 and 64 with
+// KAAMOS_FULL=1. The error of a pixel's mean over the scrambles is estimated from their spread. The
+// true value must lie within five such errors of it, and so must the mean over all pixels, whose
+// error is much smaller.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Ways to start a ray on a triangle: how often each of them hits that triangle again or steps over
-// something close to it. [effects-spec B0.5]
+// something close to it.
 #pragma once
 
 #include <array>

@@ -43,7 +43,7 @@ TEST(RayOrigins, OnlyTheErrorBoundNeitherHitsItsTriangleNorStepsOverTheNext) {
     EXPECT_EQ((*rates)[kErrorBound].self_hits, 0);
     EXPECT_LT((*rates)[kErrorBound].offset, (*rates)[kIntegerOffset].offset / 8);
     // Float steps there are 6 cm, so no offset can avoid both faults. Positions relative to the
-    // camera keep every scene in the rows of distance 0. [effects-spec B0.1]
+    // camera keep every scene in the rows of distance 0.
     EXPECT_EQ((*rates)[kErrorBound].leaks > 0, rates == &lost);
   }
   EXPECT_GT(lost[kErrorBound].leaks, 0.9);

@@ -47,7 +47,7 @@ TEST(Determinism, TheSeedChangesTheNoiseOnly) {
 }
 
 // Float steps at 100 km are 8 mm. World positions are made relative to the camera in double, so the
-// picture is the same there. [effects-spec B0.1]
+// picture is the same there.
 TEST(Stability, ASceneFarFromTheOriginLooksTheSame) {
   Scene scene = make_sphere_oracle(0.5, 0.8);
   EffectRun run;

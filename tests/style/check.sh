@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, recipes, documented, layers, pages, ids, named.
+# listed, used, told, twice, recipes, documented, layers, pages, ids, named, cited.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -314,6 +314,18 @@ check_layers() {
   } | awk -f "$here/layers.awk" tests/style/layers.txt - | LC_ALL=C sort
 }
 
+# Comments and pages cite what a reader can find: a page is one of this tree, and so is a document that is cited by
+# a name with hyphens, before a number of its sections or the end of a line.
+check_cited() {
+  list_files "${code[@]}" -o -name '*.md' -o -name '*.glsl' -o -name '*.inc' -o -name '*.py' | xargs -r -d '\n' grep -noHE \
+    '\b([A-Z_]{2,}|([a-z0-9]+-)+[a-z0-9]+)[.]md\b|([[(]|; )[a-z]+(-[a-z0-9]+)+ (part |section )?([A-Z]{0,2}[0-9]|[A-Z][.:])|[[(][a-z]+(-[a-z0-9]+)+$' |
+    awk -F: '
+      FNR == NR { sub(/.*\//, ""); pages[$0]; next }
+      { name = $3; sub(/^[[(;] ?/, "", name); sub(/[. ].*/, "", name) }
+      !(name ".md" in pages) { print $1 ":" $2 ": cites " name ", which this tree does not have" }' \
+      <(list_files -name '*.md') -
+}
+
 # The pages that lead through the sources name files and functions that exist.
 check_named() {
   local page
@@ -328,7 +340,7 @@ check_named() {
 
 case $rule in
   spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | \
-    pages | ids | named) ;;
+    pages | ids | named | cited) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Constant evaluation on the intermediate representation, with HLSL's arithmetic: wrapping
-// integers, masked shifts, saturating float-to-integer conversion. [hlsl-subset 3.8]
+// integers, masked shifts, saturating float-to-integer conversion. [D3D11.3: ishl, ftoi, ftou]
 #pragma once
 
 #include <cstdint>

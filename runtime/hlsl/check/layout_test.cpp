@@ -18,7 +18,8 @@ struct LayoutCase {
   uint32_t size;
 };
 
-// Figures from DXC's tests vk.layout.cbuffer.fxc.* and the rules of [hlsl-subset 3.3].
+// Figures from DXC's tests vk.layout.cbuffer.fxc.* and from [HLSL: Packing rules for constant
+// variables].
 const LayoutCase kCases[] = {
     {"TailIsReused", "float3 a; float b;", {{"a.x", 0}, {"b", 12}}, 16},
     {"VectorMovesToNextRow", "float2 a; float3 b;", {{"a.x", 0}, {"b.x", 16}}, 28},

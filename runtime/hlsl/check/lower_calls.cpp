@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls of functions and methods, including copy-in and copy-out. [hlsl-subset 3.7]
+// Calls of functions and methods, including copy-in and copy-out.
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conversions, common types, initialiser lists. [hlsl-subset 3.5]
+// Conversions, common types, initialiser lists.
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Unary, binary, assignment and conditional operators. [hlsl-subset 3.5, 3.6]
+// Unary, binary, assignment and conditional operators.
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Methods of textures and typed buffers. [hlsl-subset 3.12]
+// Methods of textures and typed buffers.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {

@@ -118,7 +118,7 @@ struct Struct {
   Location location;
 };
 
-// How a type is laid out in memory. [hlsl-subset 3.3, 3.4]
+// How a type is laid out in memory. [HLSL: Packing rules for constant variables]
 enum class Layout : uint8_t {
   kConstantBuffer,  // 16-byte rows; members do not straddle them; tails are reused
   kStructured,      // natural alignment of components, no padding to rows
@@ -168,7 +168,7 @@ enum class ExprKind : uint8_t {
               // uint32; out of range must not crash: reads zero, writes nothing
   kSwizzle,   // operands[0] (scalar or vector) . components
   kMatrixSwizzle,  // operands[0] . components: each row * 4 + column
-  kConvert,        // same shape, other scalar kind [hlsl-subset 3.8]
+  kConvert,        // same shape, other scalar kind
   kSplat,          // scalar to vector or matrix
   kTruncate,       // leading components, or upper left of a matrix
   kConstruct,      // vector, matrix: scalar or vector parts that fill it in row-major order;
@@ -199,7 +199,7 @@ enum class ExprKind : uint8_t {
 enum class UnaryOp : uint8_t { kNegate, kNot, kBitNot };
 
 // Component-wise on operands of one type. Shifts mask their count, integer division by zero and
-// INT_MIN / -1 do not trap, float % is a truncated remainder. [hlsl-subset 3.8]
+// INT_MIN / -1 do not trap, float % is a truncated remainder.
 enum class BinaryOp : uint8_t {
   kAdd,
   kSubtract,

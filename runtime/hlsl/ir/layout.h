@@ -4,7 +4,8 @@
 //
 // Constant buffers: rows of 16 bytes that no scalar or vector straddles; arrays, structs and
 // matrices of more than one line start a new row; the rest of the last row of an array or struct is
-// available to the next member. Structured buffers: natural alignment. [hlsl-subset 3.3, 3.4]
+// available to the next member. Structured buffers: natural alignment. [HLSL: Packing rules for
+// constant variables]
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // HLSL's operators on scalars and vectors of one type; the GLSL counterpart of
 // kaamos/shader/operators.h. Nothing is undefined: shift counts are masked, x / 0 and x % 0 on
 // integers have all bits set, the lowest integer / -1 is itself, and % has the dividend's sign.
-// [hlsl-subset 3.8]
+// [D3D11.3: ishl, udiv]
 
 //@ k_add ints floats any
 $T k_add($T a, $T b) { return a + b; }

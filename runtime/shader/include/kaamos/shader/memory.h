@@ -6,7 +6,7 @@
 // Bounds apply to each scalar: at or past Descriptor::size_bytes, reads give zero and writes are
 // dropped. A descriptor that is not a raw, structured or constant buffer has no bytes at all. Raw
 // loads and stores ignore the low bits of the offset: two for words and wider, one for 16-bit
-// scalars. bool takes 4 bytes. [hlsl-subset 3.3, 3.4; D3D11.3 7.13]
+// scalars. bool takes 4 bytes. [D3D11.3 7.13]
 #pragma once
 
 #include "kaamos/shader/abi.h"

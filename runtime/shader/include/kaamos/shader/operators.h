@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // HLSL's operators as functions for scalars, vectors and matrices, component by component on
-// operands of equal type. Nothing here is undefined behaviour, and nothing traps. [hlsl-subset 3.8]
+// operands of equal type. Nothing here is undefined behaviour, and nothing traps.
 #pragma once
 
 #include "kaamos/shader/vector.h"
