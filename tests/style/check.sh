@@ -305,12 +305,13 @@ check_documented() {
   check_errors_of_calls
 }
 
-# No arrow upward: includes and CMake's links go only where layers.txt says. Tests include what they like.
+# No arrow upward: includes and CMake's links go only where layers.txt says, and READMEs say the same. Tests
+# include what they like.
 check_layers() {
   {
     list_files -name '*.cpp' -o -name '*.h' -o -name '*.inc' |
-      grep -E '^(rtapi|runtime|effects|examples)/' | grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$'
-    list_files -name CMakeLists.txt | grep -E '^(rtapi|runtime|effects|examples)/'
+      grep -E '^(rtapi|runtime|d3d12|effects|examples)/' | grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$'
+    list_files -name CMakeLists.txt -o -name README.md | grep -E '^(rtapi|runtime|d3d12|effects|examples)/'
   } | awk -f "$here/layers.awk" tests/style/layers.txt - | LC_ALL=C sort
 }
 

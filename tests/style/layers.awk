@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Reads layers.txt, then lists of "F file" (a source; its lines follow through getline) and CMakeLists.txt
-# files; prints each include and each link that layers.txt does not allow, as "file:line: why".
+# Reads layers.txt, then a list of sources, CMakeLists.txt and README.md files; prints each include and each
+# link that layers.txt does not allow, and each README that says something else, as "file:line: why".
 
 # The most specific folder of layers.txt that holds a path; empty where none does.
 function layer_of(path,    folder) {
@@ -33,6 +33,46 @@ function check_source(file,    line, number, target, from, to) {
     }
   }
   close(file)
+}
+
+# What a README says its folder may include: "May include `a`, `b` and `c`.", up to the end of the sentence. Each
+# is below the root, beside the folder or a file in it. In runtime/ all are named that layers.txt allows the folder.
+function check_readme(file,    line, number, start, text, from, folder, name, to, named, key, pair) {
+  folder = file
+  sub(/\/README\.md$/, "", folder)
+  from = layer_of(file)
+  if (from == "") return
+  while ((getline line < file) > 0) {
+    number++
+    if (!start && match(line, /May include /)) {
+      start = number
+      line = substr(line, RSTART)
+    }
+    if (start && text !~ /[.;:]$/) text = text " " line
+    if (match(text, /[.;:]( |$)/)) text = substr(text, 1, RSTART)
+  }
+  close(file)
+  if (!start) return
+  while (match(text, /`[^`]*`/)) {
+    name = substr(text, RSTART + 1, RLENGTH - 2)
+    text = substr(text, RSTART + RLENGTH)
+    sub(/\/$/, "", name)
+    to = layer_of(name "/")
+    if (to == "") {
+      sub(/^\.\.\//, "", name)
+      to = layer_of(substr(folder, 1, match(folder, /[^\/]*$/) - 1) name "/")
+    }
+    if (to == "" && name !~ /\//) to = from
+    named[to]
+    if (to == "") print file ":" start ": may include " name ", which is no folder of layers.txt"
+    else if (!allowed(from, to, "include")) print file ":" start ": names " name "; " from " must not include " to
+  }
+  if (folder !~ /^runtime\// || folder != from) return
+  for (key in rule) {
+    split(key, pair, SUBSEP)
+    if (pair[1] == from && pair[3] == "include" && !(pair[2] in named))
+      print file ":" start ": does not name " pair[2] ", which " from " may include"
+  }
 }
 
 # Remembers which folder makes a library, and who links what where.
@@ -73,6 +113,7 @@ files == 1 {
   next
 }
 /CMakeLists\.txt$/ { read_cmake($0); next }
+/README\.md$/ { check_readme($0); next }
 { check_source($0) }
 END {
   for (i = 1; i <= links; i++) {

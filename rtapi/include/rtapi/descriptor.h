@@ -104,7 +104,7 @@ inline constexpr bool kIsFlags<BufferSrvFlags> = true;
 struct BufferSrv {
   uint64_t FirstElement = 0;         ///< in elements, not bytes
   uint32_t NumElements = 0;          ///< 0: to the end of the buffer
-  uint32_t StructureByteStride = 0;  ///< bytes: a multiple of 4 up to 2048; 0: not structured
+  uint32_t StructureByteStride = 0;  ///< bytes: a multiple of 2 up to 2048; 0: not structured
   BufferSrvFlags Flags = BufferSrvFlags::kNone;  ///< kRaw or none
 };
 /// Mip levels of a 1-D texture. [D3D12: D3D12_TEX1D_SRV]
