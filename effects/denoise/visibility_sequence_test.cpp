@@ -10,7 +10,7 @@
 #include "effects/denoise/sum_load.h"
 #include "effects/denoise/visibility_denoiser.h"
 #include "effects/scene/runner.h"
-#include "effects/taa/sequence_stage.h"
+#include "effects/taa/sequence_fixture.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::effects {

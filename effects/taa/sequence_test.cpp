@@ -11,7 +11,7 @@
 #include "effects/scene/camera_path.h"
 #include "effects/scene/lounge.h"
 #include "effects/scene/runner.h"
-#include "effects/taa/sequence_stage.h"
+#include "effects/taa/sequence_fixture.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::effects {

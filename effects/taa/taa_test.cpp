@@ -14,7 +14,7 @@
 #include "effects/image/metrics.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/runner.h"
-#include "effects/taa/sequence_stage.h"
+#include "effects/taa/sequence_fixture.h"
 
 namespace kaamos::effects {
 namespace {
