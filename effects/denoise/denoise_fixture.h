@@ -33,7 +33,7 @@ class DenoiseFixture : public testing::Test {
     desc.width = kWidth;
     desc.height = kHeight;
     desc.max_pass_views = 4096;  // one test makes many denoisers
-    frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
+    frame_ = Frame::create(device_, scene_, gpu_, camera, desc).value();
     gbuffer_ =
         RayPass::create(device_, frame_, gpu_, gbuffer_pass(gbuffer_library().value())).value();
     signal_ = frame_.create_picture(device_, "signal", rtapi::Format::kR32G32B32A32Float).value();

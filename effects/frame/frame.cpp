@@ -277,9 +277,8 @@ rtapi::Status Frame::create_samplers(const Device& device, const Scene& scene) {
   return {};
 }
 
-rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Scene& scene,
-                                   const GpuScene& gpu, const Camera& camera,
-                                   const FrameDesc& desc) {
+rtapi::Result<Frame> Frame::create(const Device& device, const Scene& scene, const GpuScene& gpu,
+                                   const Camera& camera, const FrameDesc& desc) {
   Frame frame;
   frame.desc_ = desc;
   if (desc.sun_map != 0) frame.bounds_ = scene_bounds(scene);

@@ -134,8 +134,8 @@ class Frame {
   /// scene on the device, relative to the camera; the frame keeps its textures alive.
   /// @errors those of the device, among them KA0990 no memory and KA0908 a picture that is too
   /// large.
-  static rtapi::Result<Frame> create(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                                     const Scene& scene, const GpuScene& gpu, const Camera& camera,
+  static rtapi::Result<Frame> create(const rtapi::Device& device, const Scene& scene,
+                                     const GpuScene& gpu, const Camera& camera,
                                      const FrameDesc& desc);
 
   /// A frame with pictures and pass views of its own, which are empty, that shares everything else:

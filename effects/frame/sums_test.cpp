@@ -35,7 +35,7 @@ class Sums : public testing::Test {
     FrameDesc desc;
     desc.width = kWidth;
     desc.height = kHeight;
-    frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
+    frame_ = Frame::create(device_, scene_, gpu_, camera, desc).value();
     const auto lights = light_constants(scene_, camera.position());
     lighting_ = Lighting::create(device_, frame_, gpu_, lighting_library().value(),
                                  static_cast<std::uint32_t>(lights.size()))

@@ -30,7 +30,7 @@ struct Stage {
     FrameDesc desc;
     desc.width = width;
     desc.height = height;
-    frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
+    frame = Frame::create(device, scene, gpu, camera, desc).value();
     const auto lights = light_constants(scene, camera.position());
     lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
                                 static_cast<std::uint32_t>(lights.size()))

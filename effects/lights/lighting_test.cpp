@@ -36,7 +36,7 @@ struct Stage {
     FrameDesc desc;
     desc.width = kWidth;
     desc.height = kHeight;
-    frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
+    frame = Frame::create(device, scene, gpu, camera, desc).value();
     lights = light_constants(scene, camera.position());
     lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
                                 static_cast<std::uint32_t>(lights.size()))

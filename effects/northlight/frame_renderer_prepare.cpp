@@ -164,7 +164,7 @@ rtapi::Status FrameRenderer::create_scene() {
   desc.sun_angular_radius = settings_.sun_angular_radius;
   desc.sun_map = settings_.sun_map;
   desc.max_pass_views = settings_.max_pass_views;
-  auto frame = Frame::create(device_, queue_, scene_, gpu_, camera, desc);
+  auto frame = Frame::create(device_, scene_, gpu_, camera, desc);
   if (!frame) return frame.error();
   frame_ = std::move(*frame);
   if (!structures_) return {};

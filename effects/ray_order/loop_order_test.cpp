@@ -31,7 +31,7 @@ struct LoopStage {
     FrameDesc desc;
     desc.width = width;
     desc.height = height;
-    frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
+    frame = Frame::create(device, scene, gpu, camera, desc).value();
     loops = VisibilityLoops::create(device, frame, scene, camera.position(),
                                     loop_order_library().value())
                 .value();

@@ -47,7 +47,7 @@ struct Bench {
     FrameDesc frame_desc;
     frame_desc.width = kWidth;
     frame_desc.height = kHeight;
-    frame = Frame::create(device, queue, scene, gpu, camera, frame_desc).value();
+    frame = Frame::create(device, scene, gpu, camera, frame_desc).value();
     lighting = Lighting::create(device, frame, gpu, lighting_library().value(), 0).value();
     volume = GpuVolume::create(device, {}, camera.position()).value();
     const RayPass gbuffer =

@@ -37,7 +37,7 @@ class HeightField {
     FrameDesc desc;
     desc.width = width;
     desc.height = height;
-    frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
+    frame_ = Frame::create(device_, scene_, gpu_, camera, desc).value();
     result_ = frame_.create_picture(device_, "result", rtapi::Format::kR32G32B32A32Float).value();
   }
 

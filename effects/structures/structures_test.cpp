@@ -37,7 +37,7 @@ struct Stage {
     manager = StructureManager::create(device, queue, scene, options).value();
     desc.width = width;
     desc.height = height;
-    frame = Frame::create(device, queue, scene, manager.scene(), camera, desc).value();
+    frame = Frame::create(device, scene, manager.scene(), camera, desc).value();
     gbuffer =
         RayPass::create(device, frame, manager.scene(), gbuffer_pass(gbuffer_library().value()))
             .value();

@@ -34,7 +34,7 @@ class SequenceStage {
     FrameDesc desc;
     desc.width = width;
     desc.height = height;
-    frame = Frame::create(device, queue, scene, manager.scene(), camera, desc).value();
+    frame = Frame::create(device, scene, manager.scene(), camera, desc).value();
     const auto pass = [&](RayPassDesc d) {
       return RayPass::create(device, frame, manager.scene(), d).value();
     };

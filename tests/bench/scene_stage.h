@@ -27,7 +27,7 @@ struct SceneStage {
     effects::FrameDesc desc;
     desc.width = width;
     desc.height = height;
-    frame = effects::Frame::create(device, queue, scene, gpu, camera, desc).value();
+    frame = effects::Frame::create(device, scene, gpu, camera, desc).value();
     const auto gbuffer =
         effects::RayPass::create(device, frame, gpu,
                                  effects::gbuffer_pass(effects::gbuffer_library().value()))

@@ -38,7 +38,7 @@ struct Destruction {
     FrameDesc desc;
     desc.width = options.width;
     desc.height = options.height;
-    frame = Frame::create(device, queue, scene, manager.scene(), camera, desc).value();
+    frame = Frame::create(device, scene, manager.scene(), camera, desc).value();
     gbuffer =
         RayPass::create(device, frame, manager.scene(), gbuffer_pass(gbuffer_library().value()))
             .value();
