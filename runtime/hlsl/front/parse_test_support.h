@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/hlsl/front/ast_dump.h"
 #include "runtime/hlsl/front/file_loader.h"
 #include "runtime/hlsl/front/parse.h"
 #include "runtime/hlsl/front/preprocess.h"
+#include "runtime/hlsl/front/testing/ast_dump.h"
 
 namespace kaamos::hlsl::test {
 

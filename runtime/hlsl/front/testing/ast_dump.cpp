@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/hlsl/front/ast_dump.h"
+#include "runtime/hlsl/front/testing/ast_dump.h"
 
 #include <cstdio>
 #include <utility>
 
-#include "runtime/hlsl/front/ast_dumper.h"
+#include "runtime/hlsl/front/testing/ast_dumper.h"
 
 namespace kaamos::hlsl {
 namespace {

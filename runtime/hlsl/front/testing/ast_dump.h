@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The syntax tree as text, for tests and for debugging the parser. Expressions are printed as
+// The syntax tree as text, for the parser's tests. Expressions are printed as
 // (operator operand ...), each statement and declaration on its own line.
 #pragma once
 

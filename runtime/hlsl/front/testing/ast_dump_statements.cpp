@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/hlsl/front/ast_dumper.h"
+#include "runtime/hlsl/front/testing/ast_dumper.h"
 
 namespace kaamos::hlsl {
 namespace {
