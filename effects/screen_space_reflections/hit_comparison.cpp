@@ -3,7 +3,6 @@
 
 #include <shaders/hit_truth.h>
 
-#include <cmath>
 #include <iomanip>
 #include <numeric>
 #include <sstream>
@@ -124,23 +123,6 @@ rtapi::Result<HitComparison> compare_hits(const rtapi::Device& device, rtapi::Co
   auto known = read_picture(device, queue, *truth);
   if (!known) return known.error();
   return HitComparison{count(*found, *known), std::move(*found), std::move(*known)};
-}
-
-double outcome_rmse(const FloatImage& hits, MarchOutcome outcome, const FloatImage& picture,
-                    const FloatImage& reference) {
-  double sum = 0;
-  std::uint64_t values = 0;
-  for (std::uint32_t y = 0; y < hits.height; ++y) {
-    for (std::uint32_t x = 0; x < hits.width; ++x) {
-      if (static_cast<std::uint32_t>(hits.at(x, y, 3)) != outcome) continue;
-      for (std::uint32_t c = 0; c < 3; ++c) {
-        const double d = picture.at(x, y, c) - reference.at(x, y, c);
-        sum += d * d;
-        ++values;
-      }
-    }
-  }
-  return values == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(values));
 }
 
 }  // namespace kaamos::effects

@@ -78,9 +78,4 @@ rtapi::Result<HitComparison> compare_hits(const rtapi::Device& device, rtapi::Co
                                           const ScreenReflectionConstants& constants,
                                           std::uint32_t sample);
 
-/// The root mean square difference of two pictures' colours over the pixels whose march ended so; 0
-/// where none did. All have one size.
-double outcome_rmse(const FloatImage& hits, MarchOutcome outcome, const FloatImage& picture,
-                    const FloatImage& reference);
-
 }  // namespace kaamos::effects

@@ -33,11 +33,6 @@ RayPassDesc glass_reflection_pass(rtapi::ShaderLibrary library) {
   return desc;
 }
 
-rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device, const Frame& frame,
-                                                    const rtapi::ShaderLibrary& library) {
-  return ComputePass::create(device, frame, library, "TransparentCompose");
-}
-
 TransparentConstants deck_layers(std::uint32_t layers) {
   TransparentConstants constants;
   constants.reflecting_layers = std::min(layers, kMaxSortedLayers);

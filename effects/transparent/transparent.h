@@ -6,7 +6,6 @@
 
 #include <cstdint>
 
-#include "effects/frame/compute_pass.h"
 #include "effects/frame/ray_pass.h"
 
 namespace kaamos::effects {
@@ -14,7 +13,8 @@ namespace kaamos::effects {
 /// The pass that traces glass. Registers of space3: u0 R32G32B32A32_FLOAT, radiance of the glass
 /// and view depth of its first layer (metres, 0: no glass); u1 R32G32B32A32_FLOAT, transmittance by
 /// colour and the number of layers traced one by one. Lighting::bind and GpuVolume::bind are needed
-/// too. What lies behind is multiplied with u1 and u0 added.
+/// too. TransparentCompose of the library, a compute shader that takes the same views and
+/// constants, multiplies the frame's kRadiance with u1 and adds u0.
 RayPassDesc transparent_pass(rtapi::ShaderLibrary library);
 /// The nearest layer alone, for glass that is drawn. Registers of space3, both R32G32B32A32_FLOAT:
 /// u2 radiance that it mirrors and its view depth (metres, 0: no glass); u3 in x whether it sees
@@ -23,11 +23,6 @@ RayPassDesc glass_reflection_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> transparent_library();
-/// The pass behind it, which does that to the frame's kRadiance; it takes the same views and
-/// constants.
-/// @errors KA0537 a library without the pass; those of rtapi::Device::CreateComputePipelineState.
-rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device, const Frame& frame,
-                                                    const rtapi::ShaderLibrary& library);
 
 /// How layers without an order are weighted by their view depth z. [McGuire and Bavoil 2013]
 enum class BlendWeight : std::uint32_t {

@@ -37,8 +37,6 @@ class Hazards {
   // ignored: others report them.
   void use(uint64_t address, rtapi::ResourceStates state, const std::string& what);
 
-  bool has_pending() const { return !written_.empty(); }
-
  private:
   struct Range {
     uint64_t end = 0;

@@ -136,21 +136,6 @@ std::string binding_name(const shader::BindingDesc& binding) {
   return text + " " + quoted(binding.name);
 }
 
-std::string argument_name(const runtime::LinkedShader& shader, bool local,
-                          uint32_t argument_offset) {
-  std::string text;
-  for (uint32_t i = 0; i < shader.slots.size(); ++i) {
-    const shader::BindingSlot& slot = shader.slots[i];
-    if (slot.source == shader::SlotSource::kUnbound ||
-        slot.source == shader::SlotSource::kStaticSampler || slot.local != local ||
-        slot.argument_offset != argument_offset) {
-      continue;
-    }
-    text += (text.empty() ? "" : " and ") + binding_name(shader.library->bindings[i]);
-  }
-  return text;
-}
-
 std::string texture_name(uint32_t shape) {
   static constexpr const char* kDimensions[] = {
       "Texture1D", "Texture1DArray", "Texture2D",   "Texture2DArray",  "?",

@@ -31,10 +31,6 @@ const char* record_kind_name(runtime::RecordKind kind);  // "ray generation", "h
 std::string record_name(const rtapi::DispatchRaysDesc& desc, uint64_t address);
 // What a shader declares: "t1 \"vertices\"", "b0, space 1 \"material\"".
 std::string binding_name(const shader::BindingDesc& binding);
-// The same for the binding of `shader` that the argument at this byte feeds (all bindings, if it is
-// a table); "" if there is none.
-std::string argument_name(const runtime::LinkedShader& shader, bool local,
-                          uint32_t argument_offset);
 // "Texture2DArray of uint", for shader::texture_shape().
 std::string texture_name(uint32_t shape);
 // "R8G8B8A8_UNORM"; "DXGI format 99" for formats that no draw writes to.

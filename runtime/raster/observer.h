@@ -61,7 +61,6 @@ class TileObserver {
 
  private:
   runtime::PixelCounts* pixel(uint32_t quad, uint32_t lane) const;
-  bool logs(uint32_t quad) const { return log_ != nullptr && quad == log_quad_; }
   runtime::PixelEvent begin_event(const Triangle& triangle) const;
   float depth_of(uint32_t word) const;
   float converted(float z, const Triangle& triangle) const;

@@ -104,7 +104,6 @@ class Gpu {
   VkPipeline compute(const Stage& stage);
   void free(VkPipeline pipeline);
 
-  VkPhysicalDevice physical() const { return physical_; }
   VkDevice device() const { return device_; }
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSet descriptors() const { return set_; }

@@ -176,7 +176,6 @@ class Checker {
   SplitPart split(const Type* type, const std::string& name, SplitPlan& plan);
   SplitPart split_memory(const Type* type, const std::string& name, SplitPlan& plan);
   SplitPart split_resource(const Type* type, const std::string& name, SplitPlan& plan);
-  void finish_globals_buffer();
   void apply_register(BindingInfo* binding, const Annotations& annotations);
   void assign_registers();
   void assign_automatic(BindingInfo* binding);

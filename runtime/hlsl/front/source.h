@@ -84,7 +84,6 @@ class SourceManager {
   // Registers an expansion of `macro` (whose text lives as long as this object).
   uint32_t begin_expansion(std::string_view macro, SourceLocation invocation);
   SourceLocation expansion_token(uint32_t expansion, SourceLocation spelling);
-  size_t expansion_token_count() const { return expansion_tokens_.size(); }
 
   // The outermost place in a file: where the macro was used, or the location itself.
   SourceLocation file_location(SourceLocation location) const;

@@ -16,8 +16,6 @@ class ReferenceTriangle {
   // Corners in clip space.
   ReferenceTriangle(const float corners[3][4], const rtapi::Viewport& viewport);
 
-  bool has_area() const { return area_ != 0; }
-  bool is_clockwise() const { return area_ > 0; }  // on the screen, y down
   // Whether the centre of a pixel is inside, or on a top or left edge.
   bool covers(int32_t x, int32_t y) const;
   // z at the centre, from the snapped corners.

@@ -34,7 +34,6 @@ class PrimitiveList {
   void add_boxes(std::span<const rtapi::RaytracingAabb> boxes);
   void finish();
 
-  size_t geometry_count() const { return begins_.size(); }
   // SortItem::primitive, in the driver's order.
   std::span<const SortItem> items(size_t geometry) const;
   // spirv::InstanceEntry::primitive_remap; empty if the driver's numbers are the application's.
