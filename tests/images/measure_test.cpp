@@ -193,6 +193,8 @@ TEST(Measure, TruthIsBesideTheEffectsOwnReference) {
   EXPECT_NEAR(number(lengths.back(), "truth_energy_ratio"), 1, 0.1);
 }
 
+// This small a picture with this coarse a volume proves the table alone: how close the frame is to
+// the truth is held by tests/numerics/truth_test.cpp.
 TEST(Measure, FrameAndItsPartsAgainstTheTruth) {
   const auto rows = measure("frame", "", "--repeats 1 --measure-truth 32");
   for (const std::string part : {"direct", "indirect", "reflection", "whole"}) {
