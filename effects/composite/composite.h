@@ -4,6 +4,7 @@
 #pragma once
 
 #include "effects/frame/compute_pass.h"
+#include "effects/frame/frame_parts.h"
 
 namespace kaamos::effects {
 
@@ -17,19 +18,6 @@ struct CompositeConstants {
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> composite_library();
-
-/// What the whole frame is put together from: pictures of R32G32B32A32_FLOAT, null where an effect
-/// was not rendered.
-struct FrameParts {
-  const rtapi::Texture* sun_visibility = nullptr;  ///< 0 to 1
-  const rtapi::Texture* ambient = nullptr;         ///< where there is no `indirect`: dims the sky
-  const rtapi::Texture* local_lights = nullptr;    ///< radiance
-  const rtapi::Texture* indirect = nullptr;        ///< irradiance over pi
-  const rtapi::Texture* reflection = nullptr;      ///< radiance over the specular albedo
-  /// Without `reflection`: surfaces are so rough that they reflect about what they get from all
-  /// sides, `indirect` or the sky.
-  bool is_matte = false;
-};
 
 /// The frame's radiance from all effects.
 class ComposePass {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "effects/image/srgb.h"
+
 namespace kaamos::effects {
 namespace {
 
@@ -31,10 +33,6 @@ const dmat3 kXyzFromRgb =
                          2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897,
                          1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382));
 const dvec3 kWhite = kXyzFromRgb * dvec3(1.0);
-
-double linear_from_srgb(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 // CIELAB without the cube roots: luminance and two opponent colours, so that linear filters apply.
 dvec3 opponent_from_rgb(const dvec3& rgb) {

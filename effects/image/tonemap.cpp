@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/scene/texture_image.h"
+#include "effects/image/srgb.h"
 
 namespace kaamos::effects {
 namespace {

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "effects/composite/composite.h"
 #include "effects/frame/frame.h"
+#include "effects/frame/frame_parts.h"
 #include "effects/frame/ray_pass.h"
 
 namespace kaamos::effects {

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "effects/scene/camera_paths.h"
 #include "effects/scene/lounge.h"
 #include "effects/scene/runner.h"
 

@@ -10,6 +10,7 @@
 #include "effects/common/ray_origin.h"
 #include "effects/common/sampling.h"
 #include "effects/common/sobol.h"
+#include "effects/image/srgb.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/shapes.h"
 #include "effects/scene/staging.h"

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "effects/scene/camera_paths.h"
+
 namespace kaamos::effects {
 namespace {
 

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "effects/image/srgb.h"
+
 namespace kaamos::effects {
 namespace {
 
@@ -78,14 +80,6 @@ float coverage_scale(const TextureImage& image, std::uint32_t level, float cutof
 }
 
 }  // namespace
-
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
-float linear_from_srgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 glm::vec4 texel(const TextureImage& image, std::uint32_t level, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t w = level_size(image.width, level);

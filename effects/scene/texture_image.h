@@ -38,10 +38,4 @@ float alpha_coverage(const TextureImage& image, std::uint32_t level, float cutof
 /// [Castano 2010, Computing Alpha Mipmaps].
 void generate_mips(TextureImage& image, std::optional<float> alpha_cutoff = std::nullopt);
 
-/// sRGB transfer function and its inverse (IEC 61966-2-1), for values in 0..1.
-///@{
-float srgb_from_linear(float linear);
-float linear_from_srgb(float encoded);
-///@}
-
 }  // namespace kaamos::effects

@@ -8,7 +8,7 @@
 #include "effects/denoise/denoise.h"
 #include "effects/image/flicker.h"
 #include "effects/image/metrics.h"
-#include "effects/scene/camera_path.h"
+#include "effects/scene/camera_paths.h"
 #include "effects/scene/lounge.h"
 #include "effects/scene/runner.h"
 #include "effects/taa/sequence_fixture.h"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "effects/common/sampling.h"
-#include "effects/scene/camera_path.h"
+#include "effects/scene/camera_paths.h"
 #include "failure.h"
 #include "measure.h"
 #include "truth.h"

@@ -15,7 +15,7 @@
 #include "effects/indirect_diffuse/indirect_diffuse.h"
 #include "effects/reflections/reflections.h"
 #include "effects/scene/built_in.h"
-#include "effects/scene/camera_path.h"
+#include "effects/scene/camera_paths.h"
 #include "effects/transparent/transparent.h"
 #include "options_conflict.h"
 #include "options_measure.h"

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "effects/scene/camera_paths.h"
 #include "effects/scene/light_forest.h"
 #include "look.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "effects/image/srgb.h"
 #include "effects/scene/texture_image.h"
 #include "tiles.h"
 
