@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "d3d12/compiler/shader_source.h"
 #include "d3d12/container/checksum.h"
-#include "d3d12/objects/root_signature_blob.h"
+#include "d3d12/container/root_signature_blob.h"
+#include "d3d12/container/shader_source.h"
 
 namespace kaamos::d3d12 {
 

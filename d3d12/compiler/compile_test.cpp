@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "d3d12/com/report.h"
-#include "d3d12/compiler/shader_bytecode.h"
-#include "d3d12/compiler/shader_source.h"
+#include "d3d12/container/shader_bytecode.h"
+#include "d3d12/container/shader_source.h"
 
 namespace kaamos::d3d12 {
 namespace {

@@ -15,8 +15,8 @@
 #include <wrl/client.h>
 
 #include "d3d12/com/text.h"
-#include "d3d12/compiler/shader_bytecode.h"
-#include "d3d12/compiler/shader_source.h"
+#include "d3d12/container/shader_bytecode.h"
+#include "d3d12/container/shader_source.h"
 
 namespace kaamos::d3d12 {
 namespace {

@@ -17,7 +17,7 @@
 #include <wrl/client.h>
 
 #include "d3d12/com/text.h"
-#include "d3d12/compiler/shader_bytecode.h"
+#include "d3d12/container/shader_bytecode.h"
 
 namespace kaamos::d3d12 {
 namespace {

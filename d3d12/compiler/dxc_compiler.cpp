@@ -10,7 +10,7 @@
 #include "d3d12/compiler/dxc_blob.h"
 #include "d3d12/compiler/dxc_result.h"
 #include "d3d12/compiler/dxc_text.h"
-#include "d3d12/compiler/shader_source.h"
+#include "d3d12/container/shader_source.h"
 
 namespace kaamos::d3d12 {
 

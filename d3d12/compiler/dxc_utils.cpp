@@ -6,8 +6,8 @@
 #include "d3d12/compiler/dxc_blob.h"
 #include "d3d12/compiler/dxc_compiler.h"
 #include "d3d12/compiler/reflection.h"
-#include "d3d12/compiler/shader_source.h"
 #include "d3d12/container/container.h"
+#include "d3d12/container/shader_source.h"
 
 namespace kaamos::d3d12 {
 

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "d3d12/compiler/shader_bytecode.h"
+#include "d3d12/container/shader_bytecode.h"
 
 namespace kaamos::d3d12 {
 namespace {

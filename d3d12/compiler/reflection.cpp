@@ -8,7 +8,7 @@
 #include "d3d12/com/object.h"
 #include "d3d12/com/report.h"
 #include "d3d12/compiler/reflection_nodes.h"
-#include "d3d12/compiler/shader_source.h"
+#include "d3d12/container/shader_source.h"
 
 namespace kaamos::d3d12 {
 

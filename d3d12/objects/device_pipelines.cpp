@@ -6,12 +6,12 @@
 
 #include <directx/d3dx12.h>
 
-#include "d3d12/compiler/shader_bytecode.h"
-#include "d3d12/compiler/shader_source.h"
 #include "d3d12/container/container.h"
+#include "d3d12/container/root_signature_blob.h"
+#include "d3d12/container/shader_bytecode.h"
+#include "d3d12/container/shader_source.h"
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/pipeline_objects.h"
-#include "d3d12/objects/root_signature_blob.h"
 
 namespace kaamos::d3d12 {
 

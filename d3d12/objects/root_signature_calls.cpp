@@ -3,7 +3,7 @@
 #include "d3d12/com/blob.h"
 #include "d3d12/com/report.h"
 #include "d3d12/container/container.h"
-#include "d3d12/objects/root_signature_blob.h"
+#include "d3d12/container/root_signature_blob.h"
 
 namespace kaamos::d3d12 {
 

@@ -3,7 +3,7 @@
 
 #include "d3d12/com/errors.h"
 #include "d3d12/com/text.h"
-#include "d3d12/compiler/shader_bytecode.h"
+#include "d3d12/container/shader_bytecode.h"
 #include "d3d12/objects/pipeline_objects.h"
 #include "d3d12/objects/state_object.h"
 

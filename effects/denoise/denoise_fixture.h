@@ -10,11 +10,11 @@
 #include <span>
 #include <string>
 
+#include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/denoise/denoise.h"
-#include "effects/frame/picture.h"
-#include "effects/frame/ray_pass.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/scene/oracle_scenes.h"
+#include "effects/engine/picture.h"
+#include "effects/engine/ray_pass.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
 
 namespace kaamos::effects {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "effects/assets/image/metrics.h"
 #include "effects/denoise/denoise_fixture.h"
-#include "effects/image/metrics.h"
 
 namespace kaamos::effects {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "effects/assets/built_in/oracle_scenes.h"
+#include "effects/assets/scene/shapes.h"
 #include "effects/northlight/frame_renderer.h"
-#include "effects/scene/oracle_scenes.h"
-#include "effects/scene/shapes.h"
 #include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {

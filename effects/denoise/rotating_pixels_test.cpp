@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
+#include "effects/assets/image/edge_band.h"
 #include "effects/denoise/stage_fixture.h"
-#include "effects/image/edge_band.h"
 
 namespace kaamos::effects {
 namespace {

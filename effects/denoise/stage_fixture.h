@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "effects/assets/scene/shapes.h"
 #include "effects/denoise/denoise.h"
 #include "effects/northlight/frame_renderer.h"
-#include "effects/scene/shapes.h"
 
 namespace kaamos::effects {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "effects/frame/compute_pass.h"
-#include "effects/frame/frame.h"
+#include "effects/engine/compute_pass.h"
+#include "effects/engine/frame.h"
 
 namespace kaamos::effects {
 

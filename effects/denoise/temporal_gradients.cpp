@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "effects/common/errors.h"
-#include "effects/frame/picture.h"
+#include "effects/assets/common/errors.h"
+#include "effects/engine/picture.h"
 
 namespace kaamos::effects {
 

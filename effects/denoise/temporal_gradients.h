@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "effects/denoise/denoise.h"
-#include "effects/frame/frame.h"
-#include "effects/frame/ray_pass.h"
+#include "effects/engine/frame.h"
+#include "effects/engine/ray_pass.h"
 
 namespace kaamos::effects {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "effects/common/errors.h"
-#include "effects/frame/picture.h"
+#include "effects/assets/common/errors.h"
+#include "effects/engine/picture.h"
 
 namespace kaamos::effects {
 

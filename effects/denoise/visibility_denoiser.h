@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "effects/denoise/denoise.h"
-#include "effects/frame/compute_pass.h"
-#include "effects/frame/frame.h"
+#include "effects/engine/compute_pass.h"
+#include "effects/engine/frame.h"
 
 namespace kaamos::effects {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "effects/assets/built_in/runner.h"
+#include "effects/composition/taa/sequence_fixture.h"
 #include "effects/denoise/sum_load.h"
 #include "effects/denoise/visibility_denoiser.h"
-#include "effects/scene/runner.h"
-#include "effects/taa/sequence_fixture.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::effects {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "effects/frame/picture.h"
-#include "effects/scene/levels.h"
+#include "effects/assets/scene/levels.h"
+#include "effects/engine/picture.h"
 
 namespace kaamos::effects {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "effects/common/errors.h"
+#include "effects/assets/common/errors.h"
 #include "effects/northlight/frame_renderer.h"
 
 namespace kaamos::effects {

@@ -8,11 +8,11 @@
 #include <sstream>
 #include <utility>
 
-#include "effects/common/errors.h"
-#include "effects/frame/picture.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/lights/light_constants.h"
+#include "effects/assets/common/errors.h"
+#include "effects/assets/scene/light_constants.h"
+#include "effects/engine/picture.h"
 #include "effects/northlight/frame_renderer.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
 
 namespace kaamos::effects {
 
@@ -207,7 +207,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
                           "\": hand all of frame_libraries() to set_libraries");
   }
   if (settings_.order != RayOrder::kPixels) {
-    auto sorter = RaySorter::create(device_, frame_, libraries_.at("ray_order/ray_order"));
+    auto sorter = RaySorter::create(device_, frame_, libraries_.at("surfaces/ray_order/ray_order"));
     if (!sorter) return sorter.error();
     sorter_ = std::move(*sorter);
   }
@@ -219,7 +219,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
     set_up_ = {"set-up and bake", clock_ms_() - start, device_.GetStatistics()};
   } else {
     const auto composite =
-        CompositePass::create(device_, frame_, libraries_.at("composite/composite"));
+        CompositePass::create(device_, frame_, libraries_.at("composition/composite/composite"));
     if (!composite) return composite.error();
     composite_ = *composite;
     for (const auto& effect : active_) {
@@ -227,7 +227,8 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
     }
   }
   if (settings_.taa) {
-    const auto taa = TemporalAntialiasing::create(device_, frame_, libraries_.at("taa/taa"));
+    const auto taa =
+        TemporalAntialiasing::create(device_, frame_, libraries_.at("composition/taa/taa"));
     if (!taa) return taa.error();
     taa_ = *taa;
   }
@@ -252,12 +253,12 @@ rtapi::Result<Outcome> FrameRenderer::prepare_whole(const Progress& progress) {
 rtapi::Status FrameRenderer::create_lighting() {
   const std::uint32_t lights = count_local_lights(scene_);
   const auto lighting =
-      Lighting::create(device_, frame_, gpu_, libraries_.at("lights/lighting"), lights);
+      Lighting::create(device_, frame_, gpu_, libraries_.at("light/lights/lighting"), lights);
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
   if (settings_.light_maps == LightMaps::kDrawn) {
     const auto s = lighting_->draw_maps(device_, frame_, scene_, gpu_,
-                                        libraries_.at("lights/light_map_draws"));
+                                        libraries_.at("light/lights/light_map_draws"));
     if (!s) return s;
   }
   lighting_->see(moment_.camera.position());
@@ -266,7 +267,7 @@ rtapi::Status FrameRenderer::create_lighting() {
       active_.begin(), active_.end(), [](const auto& effect) { return !has_passes(*effect->row); });
   if (has_main_lighting) {
     const auto direct =
-        DirectLighting::create(device_, frame_, *lighting_, libraries_.at("direct/direct"));
+        DirectLighting::create(device_, frame_, *lighting_, libraries_.at("light/direct/direct"));
     if (!direct) return direct.error();
     direct_ = *direct;
   } else if (lights == 0) {
@@ -332,9 +333,9 @@ rtapi::Result<Outcome> FrameRenderer::bake_indirect(IndirectVolume& volume,
                          wanted.seed.value_or(settings_.seed), wanted.lights};
   bake_.emplace();
   const auto step = [&](double done) { return !progress || progress("indirect light", done); };
-  const auto baked =
-      bake_volume(device_, queue_, frame_, gpu_, scene_, *lighting_, moment_.camera.position(),
-                  libraries_.at("indirect_diffuse/volume_bake"), desc, volume, &*bake_, step);
+  const auto baked = bake_volume(
+      device_, queue_, frame_, gpu_, scene_, *lighting_, moment_.camera.position(),
+      libraries_.at("indirect/indirect_diffuse/volume_bake"), desc, volume, &*bake_, step);
   if (!is_done(baked) || wanted.file.empty()) return baked;
   if (const auto saved = save_volume(wanted.file, volume); !saved.ok()) {
     return saved.error();
@@ -385,13 +386,13 @@ rtapi::Status FrameRenderer::create_compose() {
   }
   parts.is_matte = is_matte();
   const auto compose =
-      ComposePass::create(device_, frame_, libraries_.at("composite/composite"), parts);
+      ComposePass::create(device_, frame_, libraries_.at("composition/composite/composite"), parts);
   if (!compose) return compose.error();
   compose_ = *compose;
   if (!kept_) return {};
   parts.reflection = nullptr;
   const auto unreflected =
-      ComposePass::create(device_, frame_, libraries_.at("composite/composite"), parts);
+      ComposePass::create(device_, frame_, libraries_.at("composition/composite/composite"), parts);
   if (!unreflected) return unreflected.error();
   compose_unreflected_ = *unreflected;
   return {};

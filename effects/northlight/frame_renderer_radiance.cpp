@@ -17,7 +17,8 @@ rtapi::Status FrameRenderer::create_radiance() {
                    [](const auto& effect) { return is_late(*effect); })) {
     return {};
   }
-  const auto kept = KeptRadiance::create(device_, frame_, libraries_.at("composite/composite"));
+  const auto kept =
+      KeptRadiance::create(device_, frame_, libraries_.at("composition/composite/composite"));
   if (!kept) return kept.error();
   kept_ = *kept;
   return forget_radiance();

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "effects/common/errors.h"
-#include "effects/frame/picture.h"
+#include "effects/assets/common/errors.h"
+#include "effects/engine/picture.h"
 #include "effects/northlight/frame_renderer.h"
 
 namespace kaamos::effects {
@@ -167,8 +167,8 @@ rtapi::Result<FloatImage> FrameRenderer::read_composed(const std::vector<std::st
   if (!parts) return parts.error();
   auto found = compose_some_.find(signals);
   if (found == compose_some_.end()) {
-    const auto pass =
-        ComposePass::create(device_, frame_, libraries_.at("composite/composite"), *parts);
+    const auto pass = ComposePass::create(device_, frame_,
+                                          libraries_.at("composition/composite/composite"), *parts);
     if (!pass) return pass.error();
     found = compose_some_.emplace(signals, *pass).first;
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the pixels of a frame show: the G-buffer, traced or drawn.
-#include "effects/common/errors.h"
-#include "effects/frame/picture.h"
-#include "effects/gbuffer/gbuffer.h"
+#include "effects/assets/common/errors.h"
+#include "effects/engine/picture.h"
 #include "effects/northlight/frame_renderer.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
 
 namespace kaamos::effects {
 
@@ -25,19 +25,19 @@ rtapi::Status FrameRenderer::create_gbuffer() {
   raster_.reset();
   curvature_.reset();
   if (settings_.primary == Primary::kRaster) {
-    auto raster =
-        RasterGBuffer::create(device_, frame_, scene_, gpu_,
-                              {libraries_.at("gbuffer/raster"), libraries_.at("gbuffer/resolve")});
+    auto raster = RasterGBuffer::create(
+        device_, frame_, scene_, gpu_,
+        {libraries_.at("surfaces/gbuffer/raster"), libraries_.at("surfaces/gbuffer/resolve")});
     if (!raster) return raster.error();
     raster_ = std::move(*raster);
   } else {
-    const auto gbuffer =
-        RayPass::create(device_, frame_, gpu_, gbuffer_pass(libraries_.at("gbuffer/gbuffer")));
+    const auto gbuffer = RayPass::create(device_, frame_, gpu_,
+                                         gbuffer_pass(libraries_.at("surfaces/gbuffer/gbuffer")));
     if (!gbuffer) return gbuffer.error();
     gbuffer_ = *gbuffer;
   }
   if (!settings_.curvature_to_roughness) return {};
-  const auto pass = curvature_pass(device_, frame_, libraries_.at("gbuffer/curvature"));
+  const auto pass = curvature_pass(device_, frame_, libraries_.at("surfaces/gbuffer/curvature"));
   if (!pass) return pass.error();
   curvature_ = *pass;
   return {};
@@ -102,8 +102,8 @@ rtapi::Result<PrimaryComparison> FrameRenderer::compare_primary() {
                       "the G-buffer is traced, so that there is nothing to compare with rays: set "
                       "FrameSettings::primary to Primary::kRaster");
   }
-  const auto rays =
-      RayPass::create(device_, frame_, gpu_, gbuffer_pass(libraries_.at("gbuffer/gbuffer")));
+  const auto rays = RayPass::create(device_, frame_, gpu_,
+                                    gbuffer_pass(libraries_.at("surfaces/gbuffer/gbuffer")));
   if (!rays) return rays.error();
   const auto ray_ms = execute([&](rtapi::CommandList& list) {
     rays->dispatch(list, frame_, {.sample_count = 1, .accumulate = 0}, frame_.height());

@@ -10,13 +10,13 @@
 
 #include <algorithm>
 
-#include "effects/composite/composite.h"
-#include "effects/direct/direct.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/gbuffer/raster_gbuffer.h"
-#include "effects/indirect_diffuse/volume.h"
-#include "effects/lights/lighting.h"
-#include "effects/taa/taa.h"
+#include "effects/composition/composite/composite.h"
+#include "effects/composition/taa/taa.h"
+#include "effects/indirect/indirect_diffuse/volume.h"
+#include "effects/light/direct/direct.h"
+#include "effects/light/lights/lighting.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
+#include "effects/surfaces/gbuffer/raster_gbuffer.h"
 
 namespace kaamos::effects {
 
@@ -52,26 +52,26 @@ const std::vector<PartRow>& parts() {
   constexpr auto kWhole = [](const FrameSettings& s) { return s.whole_frame; };
   constexpr auto kDrawn = [](const FrameSettings& s) { return s.primary == Primary::kRaster; };
   static const std::vector<PartRow> rows = {
-      {{"gbuffer/gbuffer", gbuffer_library}, kAlways},
-      {{"gbuffer/raster", raster_library}, kDrawn},
-      {{"gbuffer/resolve", resolve_library}, kDrawn},
-      {{"gbuffer/curvature", curvature_library},
+      {{"surfaces/gbuffer/gbuffer", gbuffer_library}, kAlways},
+      {{"surfaces/gbuffer/raster", raster_library}, kDrawn},
+      {{"surfaces/gbuffer/resolve", resolve_library}, kDrawn},
+      {{"surfaces/gbuffer/curvature", curvature_library},
        [](const FrameSettings& s) { return s.curvature_to_roughness; }},
-      {{"composite/composite", composite_library}, kAlways},
-      {{"lights/lighting", lighting_library}, kWhole},
-      {{"lights/light_map_draws", light_map_draws_library},
+      {{"composition/composite/composite", composite_library}, kAlways},
+      {{"light/lights/lighting", lighting_library}, kWhole},
+      {{"light/lights/light_map_draws", light_map_draws_library},
        [](const FrameSettings& s) { return s.whole_frame && s.light_maps == LightMaps::kDrawn; }},
-      {{"direct/direct", direct_library}, kWhole},
-      {{"indirect_diffuse/volume_bake", volume_bake_library}, kWhole},
+      {{"light/direct/direct", direct_library}, kWhole},
+      {{"indirect/indirect_diffuse/volume_bake", volume_bake_library}, kWhole},
       {{"denoise/spatial", spatial_library}, kWhole},
       {{"denoise/svgf", svgf_library}, kWhole},
       {{"denoise/control", control_library}, kWhole},
       {{"denoise/upscale", upscale_library}, kWhole},
       {{"denoise/visibility_filter", visibility_filter_library}, kWhole},
       {{"denoise/temporal_gradients", temporal_gradients_library}, kWhole},
-      {{"ray_order/ray_order", ray_order_library},
+      {{"surfaces/ray_order/ray_order", ray_order_library},
        [](const FrameSettings& s) { return s.order != RayOrder::kPixels; }},
-      {{"taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }}};
+      {{"composition/taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }}};
   return rows;
 }
 

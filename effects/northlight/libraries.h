@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "effects/denoise/denoise.h"
-#include "effects/northlight/effect.h"
+#include "effects/northlight/effects.h"
 #include "effects/northlight/settings.h"
 
 namespace kaamos::effects {

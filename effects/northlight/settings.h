@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "effects/denoise/denoise.h"
-#include "effects/direct/direct.h"
-#include "effects/indirect_diffuse/volume.h"
-#include "effects/northlight/effect.h"
-#include "effects/ray_order/ray_order.h"
+#include "effects/indirect/indirect_diffuse/volume.h"
+#include "effects/light/direct/direct.h"
+#include "effects/northlight/effects.h"
+#include "effects/surfaces/ray_order/ray_order.h"
 
 namespace kaamos::effects {
 
@@ -33,7 +33,7 @@ struct VolumeSettings {
 /// How a frame finds what its pixels show. The pictures are the same, but for pixels at edges.
 enum class Primary : std::uint8_t {
   kRays,    ///< by rays: the reference
-  kRaster,  ///< by draws [effects/gbuffer/raster_gbuffer.h]
+  kRaster,  ///< by draws [effects/surfaces/gbuffer/raster_gbuffer.h]
 };
 
 /// The size of a frame, its effects and how good they are.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "effects/frame/picture.h"
+#include "effects/engine/picture.h"
 
 namespace kaamos::effects {
 

@@ -14,7 +14,7 @@
 #include "effects/denoise/denoise.h"
 #include "effects/denoise/sum_load.h"
 #include "effects/denoise/visibility_denoiser.h"
-#include "effects/northlight/effect.h"
+#include "effects/engine/effect.h"
 
 namespace kaamos::effects {
 

@@ -59,7 +59,7 @@ float GgxShadowing(float alpha, float cosine) {
 }
 
 // Reflectance of the specular part under uniform light, without multiple scattering: interpolated
-// from effects/common/specular_albedo.h's table. `roughness` is 0 to 1.
+// from effects/assets/common/specular_albedo.h's table. `roughness` is 0 to 1.
 float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
   const float2 at = float2(sqrt(saturate(cosine_view)) * float(kSpecularAlbedoCosines - 1),
                            saturate(roughness) * float(kSpecularAlbedoRoughnesses - 1));

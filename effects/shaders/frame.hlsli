@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the shaders of every effect can reach: one global root table for all of them, plus the
-// arguments of hit group records. effects/frame/frame.h has the same layout for the host.
+// arguments of hit group records. effects/engine/frame.h has the same layout for the host.
 // [Northlight deck: Root Tables]
 #ifndef KAAMOS_FRAME_HLSLI
 #define KAAMOS_FRAME_HLSLI
@@ -60,7 +60,7 @@ struct PassConstants {
   uint pixel_offset;  // which pixel of the 2 x 2: bit 0 to the right, bit 1 below
 };
 
-// Where an instance was in the previous frame. [effects/scene/gpu_scene.h]
+// Where an instance was in the previous frame. [effects/engine/gpu_scene.h]
 struct PreviousInstance {
   float4 rows[3];  // object to world, relative to the camera, both of the previous frame
   uint flags;      // 0: nothing moved
@@ -76,10 +76,10 @@ RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<MaterialConstants> materials : register(t1);
 StructuredBuffer<float2> blue_noise : register(t2);
 StructuredBuffer<PreviousInstance> previous_instances : register(t4);  // by InstanceIndex()
-// The pixel of each place in the dispatch, row by row: x + 65536 * y. [effects/ray_order]
+// The pixel of each place in the dispatch, row by row: x + 65536 * y. [effects/surfaces/ray_order]
 StructuredBuffer<uint> ray_order : register(t5);
 // Specular albedo: x * F0 + y, by sqrt(cosine of the view) and roughness, both 0 to 1, cosines
-// running fastest. [effects/common/specular_albedo.h]
+// running fastest. [effects/assets/common/specular_albedo.h]
 StructuredBuffer<float2> specular_albedo_table : register(t6);
 static const uint kSpecularAlbedoCosines = 32;
 static const uint kSpecularAlbedoRoughnesses = 32;
@@ -115,7 +115,7 @@ RWTexture2D<float4> g_motion : register(u12);
 // how many were blocked by what moves in z.
 RWTexture2D<float4> sun_sharpness_sum : register(u13);
 
-// The key that each pixel's ray is sorted by. [effects/ray_order]
+// The key that each pixel's ray is sorted by. [effects/surfaces/ray_order]
 RWStructuredBuffer<uint> ray_keys : register(u14);
 
 // Arguments of hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
@@ -128,7 +128,7 @@ static const uint kRayTypeVisibility = 1;
 static const uint kRayTypeCount = 2;
 
 // What the camera and mirrors see: everything but glass (bit 1). The transparency effect handles
-// glass; all others look through it. [effects/scene/scene.h: InstanceMask]
+// glass; all others look through it. [effects/assets/scene/scene.h: InstanceMask]
 static const uint kMaskSolid = 0xFD;
 // The same without the shapes of lamps (bit 4), for all other rays. A lamp is met as a light or by
 // its shape: a ray that hit the shape as well would count its light twice, or shadow it by itself.
@@ -174,7 +174,7 @@ float2 PreviousPictureUv(float3 position, out float view_z) {
                    frame.over_previous_up, frame.previous_forward, view_z);
 }
 
-// The registers of space3 belong to each pass. [effects/frame/pass_views.h]
+// The registers of space3 belong to each pass. [effects/engine/pass_views.h]
 
 // The pixel that gets rays at a place of the dispatch.
 uint2 TracedPixel(uint2 place) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads a geometry in a hit shader: two root SRVs (indices, vertices) and root constants, as in the
-// Northlight deck ("Root SRVs and Constants for Vertex Data"). effects/scene/mesh.h has the layout.
+// Northlight deck ("Root SRVs and Constants for Vertex Data"). effects/assets/scene/mesh.h has the layout.
 #ifndef KAAMOS_GEOMETRY_HLSLI
 #define KAAMOS_GEOMETRY_HLSLI
 
@@ -92,7 +92,7 @@ struct SpawnPoint {
 };
 
 // Instead of a fixed epsilon, bounds the rounding error of this very point. [error bound of
-// Waechter, van Antwerpen and Klehm 2023] effects/common/ray_origin.h is the same for the host.
+// Waechter, van Antwerpen and Klehm 2023] effects/assets/common/ray_origin.h is the same for the host.
 SpawnPoint MakeSpawnPoint(float3 v0, float3 v1, float3 v2, float2 barycentrics,
                           float3x4 object_to_world, float3x4 world_to_object) {
   const float c0 = 5.9604644775390625e-8f;   // 2^-24

@@ -9,7 +9,7 @@
 #include "encoding.hlsli"
 #include "frame.hlsli"
 
-// effects/lights/lighting.h binds these for a pass and holds the same numbers. A texel of the atlas
+// effects/light/lights/lighting.h binds these for a pass and holds the same numbers. A texel of the atlas
 // stores the plane that the light sees there: all p, relative to the light, with dot(xyz, p) = 1.
 // w is 1 / distance of the hit, in 1/metres. All are 0 if nothing was hit.
 RWTexture2D<float4> shadow_atlas : register(u16, space3);

@@ -8,7 +8,7 @@
 
 #include "frame.hlsli"
 
-// effects/indirect_diffuse/volume.h has the same layouts and binds all three buffers to a pass.
+// effects/indirect/indirect_diffuse/volume.h has the same layouts and binds all three buffers to a pass.
 struct VolumeConstants {
   float3 origin;    // of the corner of cell (0, 0, 0), relative to the camera
   float cell;       // metres, of the finest cells (level 0)
@@ -23,7 +23,7 @@ struct VolumeConstants {
 // The upper 21 bits of a word are the top of a red (or green) float; the lower 11 bits are one half
 // of blue's upper 22: sign, exponent and 12 or 13 bits of mantissa. Light is never negative, so the
 // sign of red's mean marks a cell inside a solid. Such a cell holds the light of cells around it.
-// effects/indirect_diffuse/packed_cell.h is the same for the host.
+// effects/indirect/indirect_diffuse/packed_cell.h is the same for the host.
 static const uint kUpper = 0xFFFFF800;
 struct VolumeCell {
   uint4 red;    // mean, slope

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Local lights: what arrives at a point, without shadows. The layout is that of
-// effects/lights/light_constants.h. frame.hlsli includes this behind its textures and samplers.
+// effects/assets/scene/light_constants.h. frame.hlsli includes this behind its textures and samplers.
 #ifndef KAAMOS_LIGHTS_HLSLI
 #define KAAMOS_LIGHTS_HLSLI
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bindless materials: constants in a structured buffer, textures in an unbounded array, and the
 // material id in the hit record. [Northlight deck: Bindless Access to Materials] The layout is that
-// of effects/scene/material.h.
+// of effects/assets/scene/material.h.
 #ifndef KAAMOS_MATERIAL_HLSLI
 #define KAAMOS_MATERIAL_HLSLI
 

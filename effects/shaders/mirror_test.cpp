@@ -9,14 +9,14 @@
 #include <cstring>
 #include <vector>
 
-#include "effects/common/blue_noise.h"
-#include "effects/common/ray_origin.h"
-#include "effects/common/sampling.h"
-#include "effects/common/sobol.h"
-#include "effects/scene/material.h"
-#include "effects/scene/mesh.h"
-#include "effects/scene/scene.h"
-#include "effects/scene/shapes.h"
+#include "effects/assets/common/blue_noise.h"
+#include "effects/assets/common/ray_origin.h"
+#include "effects/assets/common/sampling.h"
+#include "effects/assets/common/sobol.h"
+#include "effects/assets/scene/material.h"
+#include "effects/assets/scene/mesh.h"
+#include "effects/assets/scene/scene.h"
+#include "effects/assets/scene/shapes.h"
 
 namespace hlsl {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers and sampling routines. effects/common/sampling.h, sobol.h and blue_noise.h have
+// Random numbers and sampling routines. effects/assets/common/sampling.h, sobol.h and blue_noise.h have
 // the same functions for the host, with the same values.
 #ifndef KAAMOS_SAMPLING_HLSLI
 #define KAAMOS_SAMPLING_HLSLI

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray sees that leaves the scene. Mirrors sky_radiance in effects/scene/scene.h.
+// What a ray sees that leaves the scene. Mirrors sky_radiance in effects/assets/scene/scene.h.
 #ifndef KAAMOS_SKY_HLSLI
 #define KAAMOS_SKY_HLSLI
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "effects/frame/ray_pass.h"
-#include "effects/reflections/reflections.h"
+#include "effects/engine/ray_pass.h"
+#include "effects/reflections/traced/reflections.h"
 #include "effects/views/view_passes.h"
 
 namespace kaamos::effects {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the first reflection ray of each pixel hits: one closest-hit shader per view.
-#include "../reflections/reflection_ray.hlsli"
+#include "../reflections/traced/reflection_ray.hlsli"
 #include "hit_indirect.hlsli"
 
 // Three numbers of the hit, and its distance in metres; -1: the ray hits nothing, 0: there is no

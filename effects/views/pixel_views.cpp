@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/frame/compute_pass.h"
+#include "effects/engine/compute_pass.h"
 #include "effects/views/view_passes.h"
 
 namespace kaamos::effects {

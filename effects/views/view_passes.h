@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "effects/image/image.h"
+#include "effects/assets/image/image.h"
 #include "effects/northlight/frame_renderer.h"
 
 namespace kaamos::effects {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "effects/image/heat_map.h"
-#include "effects/image/tonemap.h"
+#include "effects/assets/image/heat_map.h"
+#include "effects/assets/image/tonemap.h"
 #include "effects/views/view_passes.h"
 
 namespace kaamos::effects {

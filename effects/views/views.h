@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "effects/common/errors.h"
-#include "effects/image/image.h"
+#include "effects/assets/common/errors.h"
+#include "effects/assets/image/image.h"
 #include "effects/northlight/frame_renderer.h"
 
 namespace kaamos::effects {

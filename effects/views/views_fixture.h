@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "effects/scene/scene_parts.h"
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/views/views.h"
 #include "tests/vulkan/on_backends.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "example.h"
 
-#include "effects/image/png.h"
+#include "effects/assets/image/png.h"
 
 #include <CLI/CLI.hpp>
 #include <atomic>

@@ -10,10 +10,10 @@
 #include <memory>
 #include <utility>
 
-#include "effects/common/file.h"
+#include "effects/assets/common/file.h"
 #include "effects/denoise/denoise.h"
-#include "effects/indirect_diffuse/indirect_diffuse.h"
-#include "effects/reflections/reflections.h"
+#include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/reflections/traced/reflections.h"
 #include "failure.h"
 #include "measure.h"
 

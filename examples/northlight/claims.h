@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/csv.h"
+#include "effects/assets/image/csv.h"
 #include "frame_result.h"
 #include "options.h"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "effects/image/exr.h"
+#include "effects/assets/image/exr.h"
 #include "path_reference.h"
 #include "watch.h"
 

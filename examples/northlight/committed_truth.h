@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "effects/path_tracer/path_sums.h"
+#include "effects/reference/path_sums.h"
 #include "options.h"
 
 namespace northlight {

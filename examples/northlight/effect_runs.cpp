@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "effects/frame/picture.h"
+#include "effects/engine/picture.h"
 
 namespace northlight {
 
@@ -93,8 +93,9 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
 }
 
 rtapi::Status EffectRuns::create_background() {
-  const auto composite = CompositePass::create(renderer_->device(), renderer_->frame(),
-                                               renderer_->libraries().at("composite/composite"));
+  const auto composite =
+      CompositePass::create(renderer_->device(), renderer_->frame(),
+                            renderer_->libraries().at("composition/composite/composite"));
   if (!composite) return composite.error();
   background_ = *composite;
   for (const char* effect : {"ao", "sun"}) {

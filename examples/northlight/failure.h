@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "effects/common/errors.h"
+#include "effects/assets/common/errors.h"
 
 namespace northlight {
 

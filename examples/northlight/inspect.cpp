@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "effects/image/heat_map.h"
-#include "effects/image/png.h"
+#include "effects/assets/image/heat_map.h"
+#include "effects/assets/image/png.h"
 
 namespace northlight {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
 
 namespace northlight {
 

@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-#include "effects/common/file.h"
+#include "effects/assets/common/file.h"
 #include "failure.h"
 #include "measure_reference.h"
 #include "measure_truth.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "effect_runs.h"
-#include "effects/image/csv.h"
-#include "effects/image/plot.h"
+#include "effects/assets/image/csv.h"
+#include "effects/assets/image/plot.h"
 #include "measure_errors.h"
 #include "options.h"
 

@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
-#include "effects/common/sampling.h"
-#include "effects/image/metrics.h"
+#include "effects/assets/common/sampling.h"
+#include "effects/assets/image/metrics.h"
 #include "failure.h"
 #include "measure.h"
 #include "measure_reference.h"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "effects/image/flip.h"
-#include "effects/image/metrics.h"
-#include "effects/image/tonemap.h"
+#include "effects/assets/image/flip.h"
+#include "effects/assets/image/metrics.h"
+#include "effects/assets/image/tonemap.h"
 
 namespace northlight {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/image.h"
+#include "effects/assets/image/image.h"
 
 namespace northlight {
 

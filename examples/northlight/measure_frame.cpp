@@ -6,8 +6,8 @@
 #include <map>
 #include <memory>
 
-#include "effects/common/sampling.h"
-#include "effects/scene/camera_paths.h"
+#include "effects/assets/built_in/camera_paths.h"
+#include "effects/assets/common/sampling.h"
 #include "failure.h"
 #include "measure.h"
 #include "truth.h"

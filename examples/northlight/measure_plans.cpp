@@ -2,10 +2,10 @@
 // Which settings of an effect are measured, and against which reference.
 #include <fmt/format.h>
 
-#include "effects/contact_shadow/contact_shadow.h"
-#include "effects/indirect_diffuse/indirect_diffuse.h"
-#include "effects/reflections/reflections.h"
-#include "effects/transparent/transparent.h"
+#include "effects/glass/transparent/transparent.h"
+#include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/reflections/traced/reflections.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "measure.h"
 
 namespace northlight {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "effects/image/exr.h"
+#include "effects/assets/image/exr.h"
 
 namespace northlight {
 

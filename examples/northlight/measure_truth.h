@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "effect_runs.h"
-#include "effects/path_tracer/path_sums.h"
+#include "effects/reference/path_sums.h"
 #include "measure_errors.h"
 
 namespace northlight {

@@ -11,12 +11,12 @@
 #include <sstream>
 #include <tuple>
 
-#include "effects/contact_shadow/contact_shadow.h"
-#include "effects/indirect_diffuse/indirect_diffuse.h"
-#include "effects/reflections/reflections.h"
-#include "effects/scene/built_in.h"
-#include "effects/scene/camera_paths.h"
-#include "effects/transparent/transparent.h"
+#include "effects/assets/built_in/built_in.h"
+#include "effects/assets/built_in/camera_paths.h"
+#include "effects/glass/transparent/transparent.h"
+#include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/reflections/traced/reflections.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "options_conflict.h"
 #include "options_measure.h"
 #include "options_views.h"

@@ -13,10 +13,10 @@
 #include <system_error>
 #include <vector>
 
-#include "effects/common/file.h"
-#include "effects/image/exr.h"
-#include "effects/image/png.h"
-#include "effects/image/tonemap.h"
+#include "effects/assets/common/file.h"
+#include "effects/assets/image/exr.h"
+#include "effects/assets/image/png.h"
+#include "effects/assets/image/tonemap.h"
 #include "look.h"
 
 namespace northlight {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <span>
 
-#include "effects/image/exr.h"
-#include "effects/image/png.h"
-#include "effects/image/tonemap.h"
+#include "effects/assets/image/exr.h"
+#include "effects/assets/image/png.h"
+#include "effects/assets/image/tonemap.h"
 #include "failure.h"
 #include "output.h"
 

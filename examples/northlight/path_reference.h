@@ -2,7 +2,7 @@
 // --reference-path-traced: renders the reference of a scene instead of a frame.
 #pragma once
 
-#include "effects/path_tracer/path_reference.h"
+#include "effects/reference/path_reference.h"
 #include "frame_result.h"
 #include "options.h"
 #include "ranks.h"

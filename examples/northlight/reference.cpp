@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "effects/reflections/reflections.h"
-#include "effects/transparent/transparent.h"
+#include "effects/glass/transparent/transparent.h"
+#include "effects/reflections/traced/reflections.h"
 
 namespace northlight {
 

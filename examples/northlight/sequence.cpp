@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "effects/scene/camera_paths.h"
-#include "effects/scene/light_forest.h"
+#include "effects/assets/built_in/camera_paths.h"
+#include "effects/assets/built_in/light_forest.h"
 #include "look.h"
 
 namespace northlight {

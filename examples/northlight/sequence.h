@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/flicker.h"
-#include "effects/scene/camera_path.h"
-#include "effects/structures/structures.h"
+#include "effects/assets/image/flicker.h"
+#include "effects/assets/scene/camera_path.h"
+#include "effects/geometry/structures/structures.h"
 #include "frame_result.h"
 #include "output.h"
 

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "effects/image/png.h"
-#include "effects/image/tonemap.h"
-#include "effects/indirect_diffuse/indirect_diffuse.h"
+#include "effects/assets/image/png.h"
+#include "effects/assets/image/tonemap.h"
+#include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 
 namespace northlight {
 

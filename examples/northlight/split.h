@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/image.h"
-#include "effects/scene/scene.h"
+#include "effects/assets/image/image.h"
+#include "effects/assets/scene/scene.h"
 #include "frame_result.h"
 #include "options.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/path_tracer/path_sums.h"
+#include "effects/reference/path_sums.h"
 #include "frame_result.h"
 #include "measure_errors.h"
 #include "options.h"

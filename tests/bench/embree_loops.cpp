@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "effects/image/srgb.h"
-#include "effects/scene/texture_image.h"
+#include "effects/assets/image/srgb.h"
+#include "effects/assets/scene/texture_image.h"
 #include "tiles.h"
 
 namespace kaamos::bench {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "effects/denoise/denoise.h"
-#include "effects/frame/picture.h"
+#include "effects/engine/picture.h"
 #include "fixtures.h"
 #include "frame_run.h"
 #include "scalar_svgf.h"

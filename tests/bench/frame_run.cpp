@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/lounge.h"
 #include "listening_library.h"
 
 namespace kaamos::bench {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "effects/direct/direct.h"
-#include "effects/frame/picture.h"
-#include "effects/lights/light_constants.h"
-#include "effects/lights/lighting.h"
-#include "effects/scene/light_forest.h"
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/light_forest.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/assets/scene/light_constants.h"
+#include "effects/engine/picture.h"
+#include "effects/light/direct/direct.h"
+#include "effects/light/lights/lighting.h"
 #include "fixtures.h"
 #include "scene_stage.h"
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "effects/assets/built_in/lounge.h"
 #include "effects/northlight/frame_renderer.h"
-#include "effects/path_tracer/path_tracer.h"
-#include "effects/scene/lounge.h"
+#include "effects/reference/path_tracer.h"
 #include "fixtures.h"
 
 namespace kaamos::bench {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/lounge.h"
 
 namespace kaamos::bench {
 namespace {

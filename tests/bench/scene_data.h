@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "effects/scene/scene.h"
+#include "effects/assets/scene/scene.h"
 
 namespace kaamos::bench {
 

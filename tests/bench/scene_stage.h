@@ -6,10 +6,10 @@
 
 #include <functional>
 
-#include "effects/frame/frame.h"
-#include "effects/frame/ray_pass.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/scene/gpu_scene.h"
+#include "effects/engine/frame.h"
+#include "effects/engine/gpu_scene.h"
+#include "effects/engine/ray_pass.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
 #include "suite.h"
 
 namespace kaamos::bench {

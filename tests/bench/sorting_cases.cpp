@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "effect_run.h"
-#include "effects/frame/picture.h"
-#include "effects/ray_order/loop_order.h"
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/engine/picture.h"
+#include "effects/surfaces/ray_order/loop_order.h"
 #include "scene_stage.h"
 
 namespace kaamos::bench {

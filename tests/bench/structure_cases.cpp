@@ -2,16 +2,16 @@
 //
 // structures/...: a wall that bursts and a curtain, whose structures are built anew in each frame
 // (build class 4), against other ways to keep them. [Northlight deck: Bottom Level Build Flags]
-#include "effects/structures/structures.h"
+#include "effects/geometry/structures/structures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "effects/frame/frame.h"
-#include "effects/frame/ray_pass.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/scene/destruction.h"
+#include "effects/assets/built_in/destruction.h"
+#include "effects/engine/frame.h"
+#include "effects/engine/ray_pass.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
 #include "fixtures.h"
 
 namespace kaamos::bench {

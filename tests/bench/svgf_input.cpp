@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effects/frame/picture.h"
+#include "effects/engine/picture.h"
 #include "scalar_svgf.h"
 
 namespace kaamos::bench {

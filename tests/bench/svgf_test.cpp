@@ -8,7 +8,7 @@
 #include <random>
 #include <span>
 
-#include "effects/frame/picture.h"
+#include "effects/engine/picture.h"
 #include "frame_run.h"
 #include "scalar_svgf.h"
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "effects/scene/gltf_load.h"
+#include "effects/assets/gltf/gltf_load.h"
 #include "fixtures.h"
 #include "hand_vulkan.h"
 

@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "comparing.h"
-#include "effects/scene/shapes.h"
+#include "effects/assets/scene/shapes.h"
 #include "room.h"
 
 namespace kaamos::test {

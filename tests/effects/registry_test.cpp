@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <set>
 
-#include "effects/frame/compute_pass.h"
+#include "effects/engine/compute_pass.h"
 #include "effects/northlight/frame_renderer.h"
 #include "room.h"
 

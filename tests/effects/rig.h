@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/assets/image/image.h"
+#include "effects/assets/scene/scene.h"
 #include "effects/denoise/denoise.h"
-#include "effects/image/image.h"
-#include "effects/indirect_diffuse/indirect_diffuse.h"
-#include "effects/indirect_diffuse/volume.h"
-#include "effects/reflections/reflections.h"
-#include "effects/scene/scene.h"
-#include "effects/transparent/transparent.h"
+#include "effects/glass/transparent/transparent.h"
+#include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/indirect/indirect_diffuse/volume.h"
+#include "effects/reflections/traced/reflections.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
 
 namespace kaamos::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "effects/scene/shapes.h"
+#include "effects/assets/scene/shapes.h"
 
 namespace kaamos::test {
 

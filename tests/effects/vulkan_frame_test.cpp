@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "comparing.h"
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/lounge.h"
 #include "room.h"
 #include "tests/vulkan/support.h"
 

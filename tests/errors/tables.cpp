@@ -75,7 +75,7 @@ std::vector<Row> effects() {
   return {
 #define KAAMOS_EFFECTS_ERROR(number, name, code, title, source, cure) \
   {number, "error", #code, title, source, cure},
-#include "effects/common/errors.inc"
+#include "effects/assets/common/errors.inc"
 #undef KAAMOS_EFFECTS_ERROR
   };
 }
@@ -159,7 +159,7 @@ const std::vector<Layer>& all_layers() {
        api(true)},
       {"Effects",
        "What the effects library and `northlight` refuse, in a `Result` or `Status`. KA300n: files "
-       "and pictures; KA302n: scenes; KA304n: frames. Table: `effects/common/errors.inc`.",
+       "and pictures; KA302n: scenes; KA304n: frames. Table: `effects/assets/common/errors.inc`.",
        {{3000, 3099}},
        effects()},
       {"D3D12 facade",

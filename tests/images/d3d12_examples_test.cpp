@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/png.h"
+#include "effects/assets/image/png.h"
 #include "tests/vulkan/support.h"
 
 namespace {

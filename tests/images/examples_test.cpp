@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <string>
 
-#include "effects/image/compare.h"
-#include "effects/image/png.h"
+#include "effects/assets/image/compare.h"
+#include "effects/assets/image/png.h"
 
 namespace {
 

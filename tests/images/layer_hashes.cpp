@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-#include "effects/image/exr.h"
+#include "effects/assets/image/exr.h"
 
 namespace {
 

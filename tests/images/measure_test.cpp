@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "effects/common/file.h"
-#include "effects/image/csv.h"
-#include "effects/image/exr.h"
-#include "effects/image/png.h"
-#include "effects/image/tonemap.h"
-#include "effects/scene/mirror_hall.h"
+#include "effects/assets/built_in/mirror_hall.h"
+#include "effects/assets/common/file.h"
+#include "effects/assets/image/csv.h"
+#include "effects/assets/image/exr.h"
+#include "effects/assets/image/png.h"
+#include "effects/assets/image/tonemap.h"
 
 namespace {
 

@@ -222,10 +222,10 @@ if wait_for 100 frame_differs; then
   sleep 0.3
   cp "$work/watch/frame.png" "$work/first.png"
   start=$(date +%s%N)
-  sed -i 's/float3 from_sky = /float3 from_sky = 0.1 * /' "$work/effects/composite/composite.hlsl"
+  sed -i 's/float3 from_sky = /float3 from_sky = 0.1 * /' "$work/effects/composition/composite/composite.hlsl"
   wait_for 60 frame_differs || fail "--watch: no new picture"
   echo "edit to picture at 320x180: $((($(date +%s%N) - start) / 1000000)) ms"
-  echo 'this is no HLSL' >> "$work/effects/composite/composite.hlsl"
+  echo 'this is no HLSL' >> "$work/effects/composition/composite/composite.hlsl"
   wait_for 60 grep -q 'composite.hlsl:.*error' "$work/log" || fail "--watch: no message for a broken shader"
 else
   fail "--watch: no first picture: $(cat "$work/log")"

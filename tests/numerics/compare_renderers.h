@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "effects/common/errors.h"
-#include "effects/image/image.h"
+#include "effects/assets/common/errors.h"
+#include "effects/assets/image/image.h"
 
 namespace kaamos {
 

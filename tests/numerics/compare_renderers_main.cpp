@@ -8,8 +8,8 @@
 #include <cstdlib>
 
 #include "compare_renderers.h"
-#include "effects/image/exr.h"
-#include "effects/image/png.h"
+#include "effects/assets/image/exr.h"
+#include "effects/assets/image/png.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-#include "effects/frame/ray_pass.h"
-#include "effects/scene/scene.h"
+#include "effects/assets/scene/scene.h"
+#include "effects/engine/ray_pass.h"
 
 namespace kaamos::test {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "effect_run.h"
-#include "effects/scene/oracle_scenes.h"
-#include "effects/scene/shapes.h"
+#include "effects/assets/built_in/oracle_scenes.h"
+#include "effects/assets/scene/shapes.h"
 #include "size.h"
 
 namespace kaamos::test {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "effects/image/exr.h"
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/assets/image/exr.h"
 
 namespace kaamos::test {
 

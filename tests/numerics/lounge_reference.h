@@ -7,8 +7,8 @@
 #include <string>
 
 #include "effect_run.h"
-#include "effects/common/errors.h"
-#include "effects/scene/scene.h"
+#include "effects/assets/common/errors.h"
+#include "effects/assets/scene/scene.h"
 
 namespace kaamos::test {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "effects/scene/lounge.h"
+#include "effects/assets/built_in/lounge.h"
 #include "lounge_reference.h"
 #include "size.h"
 

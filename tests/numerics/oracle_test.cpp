@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "effect_run.h"
-#include "effects/scene/oracle_scenes.h"
+#include "effects/assets/built_in/oracle_scenes.h"
 #include "size.h"
 
 namespace kaamos::test {

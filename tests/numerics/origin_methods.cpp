@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "effects/common/ray_origin.h"
+#include "effects/assets/common/ray_origin.h"
 
 namespace kaamos::test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a ray starts: the table behind the choice made in effects/common/ray_origin.h.
+// Where a ray starts: the table behind the choice made in effects/assets/common/ray_origin.h.
 #include <gtest/gtest.h>
 
 #include <array>

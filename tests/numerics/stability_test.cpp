@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "effect_run.h"
-#include "effects/scene/lounge.h"
-#include "effects/scene/oracle_scenes.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/assets/built_in/oracle_scenes.h"
 
 namespace kaamos::test {
 namespace {

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/exr.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/assets/image/exr.h"
 #include "effects/northlight/frame_renderer.h"
-#include "effects/scene/lounge.h"
 #include "size.h"
 
 namespace kaamos::test {

@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "effects/frame/frame.h"
-#include "effects/scene/scene.h"
-#include "effects/transparent/transparent.h"
+#include "effects/assets/scene/scene.h"
+#include "effects/engine/frame.h"
+#include "effects/glass/transparent/transparent.h"
 
 namespace kaamos::parity {
 

@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "effects/image/png.h"
-#include "effects/image/tonemap.h"
-#include "effects/scene/glass_scenes.h"
-#include "effects/scene/lounge.h"
-#include "effects/scene/oracle_scenes.h"
+#include "effects/assets/built_in/glass_scenes.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/assets/built_in/oracle_scenes.h"
+#include "effects/assets/image/png.h"
+#include "effects/assets/image/tonemap.h"
 #include "tests/parity/frames.h"
 #include "tests/parity/pictures.h"
 #include "tests/parity/rays.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "effects/image/image.h"
+#include "effects/assets/image/image.h"
 
 namespace kaamos::parity {
 

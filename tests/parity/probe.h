@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "effects/scene/gpu_scene.h"
-#include "effects/scene/scene.h"
+#include "effects/assets/scene/scene.h"
+#include "effects/engine/gpu_scene.h"
 #include "tests/parity/hits.h"
 
 namespace kaamos::parity {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "effects/common/sampling.h"
-#include "effects/scene/gltf_load.h"
-#include "effects/scene/lounge.h"
-#include "effects/scene/staging.h"
+#include "effects/assets/built_in/lounge.h"
+#include "effects/assets/common/sampling.h"
+#include "effects/assets/gltf/gltf_load.h"
+#include "effects/assets/scene/staging.h"
 
 namespace kaamos::parity {
 namespace {

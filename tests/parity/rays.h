@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/scene/scene.h"
+#include "effects/assets/scene/scene.h"
 #include "tests/parity/probe.h"
 
 namespace kaamos::parity {

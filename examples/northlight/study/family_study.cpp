@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "../failure.h"
-#include "effects/image/png.h"
+#include "effects/assets/image/png.h"
 #include "files.h"
 #include "motion.h"
 

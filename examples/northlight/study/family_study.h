@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/scene/scene.h"
+#include "effects/assets/scene/scene.h"
 #include "plans.h"
 #include "result.h"
 

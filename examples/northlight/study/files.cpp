@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "effects/common/file.h"
+#include "effects/assets/common/file.h"
 
 namespace northlight {
 

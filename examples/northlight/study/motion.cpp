@@ -15,8 +15,8 @@
 #include "../measure_truth.h"
 #include "../sequence.h"
 #include "../truth.h"
-#include "effects/image/flicker.h"
-#include "effects/scene/shapes.h"
+#include "effects/assets/image/flicker.h"
+#include "effects/assets/scene/shapes.h"
 
 namespace northlight {
 

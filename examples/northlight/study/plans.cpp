@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "effects/contact_shadow/contact_shadow.h"
-#include "effects/screen_space_shadow/screen_space_shadow.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
+#include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
 
 namespace northlight {
 

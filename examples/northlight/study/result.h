@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "effects/image/csv.h"
-#include "effects/image/pareto.h"
-#include "effects/image/plot.h"
+#include "effects/assets/image/csv.h"
+#include "effects/assets/image/pareto.h"
+#include "effects/assets/image/plot.h"
 
 namespace northlight {
 

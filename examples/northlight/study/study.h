@@ -3,7 +3,7 @@
 #pragma once
 
 #include "../options.h"
-#include "effects/scene/scene.h"
+#include "effects/assets/scene/scene.h"
 #include "result.h"
 
 namespace northlight {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "../effect_runs.h"
-#include "effects/adaptive_shadow/adaptive_shadow.h"
+#include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "files.h"
 
 namespace northlight {

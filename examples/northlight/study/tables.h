@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "../claims.h"
-#include "effects/image/csv.h"
-#include "effects/scene/scene.h"
+#include "effects/assets/image/csv.h"
+#include "effects/assets/scene/scene.h"
 #include "result.h"
 
 namespace northlight {

@@ -81,7 +81,7 @@ double seconds_of(int who) {
 // about 0.02 s. The test counts processor time, since other processes share the machine.
 TEST_F(QuickBuild, HasReflectionsInTwoSeconds) {
   FrontendOptions options;
-  options.path = KAAMOS_SOURCE_DIR "/effects/reflections/reflections.hlsl";
+  options.path = KAAMOS_SOURCE_DIR "/effects/reflections/traced/reflections.hlsl";
   options.include_folders = {KAAMOS_SOURCE_DIR "/effects/shaders"};
   const double before = seconds_of(RUSAGE_SELF);
   const auto module = compile(options);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Renders the built-in scene with every Northlight effect into lounge.png.
-#include <effects/image/png.h>
-#include <effects/image/tonemap.h>
+#include <effects/assets/built_in/lounge.h>
+#include <effects/assets/image/png.h>
+#include <effects/assets/image/tonemap.h>
 #include <effects/northlight/frame_renderer.h>
-#include <effects/scene/lounge.h>
 
 #include <cstdio>
 #include <stdexcept>

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+// Reads the samplers, pictures and materials of a glTF file.
+#include <stb/stb_image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "effects/assets/gltf/gltf_accessor.h"
+#include "effects/assets/gltf/gltf_reader.h"
+
+namespace kaamos::effects {
+namespace {
+
+/// Largest side of a picture. Current GPUs take as much, and it bounds what a broken header can
+/// request.
+constexpr int kMaxImageSide = 16384;
+
+Wrap wrap_of(int mode) {
+  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
+  if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::kMirror;
+  return Wrap::kRepeat;
+}
+
+Sampler sampler_of(const tinygltf::Sampler& from) {
+  Sampler to;
+  to.wrap_u = wrap_of(from.wrapS);
+  to.wrap_v = wrap_of(from.wrapT);
+  if (from.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) to.mag_filter = Filter::kNearest;
+  switch (from.minFilter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+      to.min_filter = Filter::kNearest;
+      to.mipmapped = false;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+      to.mipmapped = false;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+      to.min_filter = to.mip_filter = Filter::kNearest;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+      to.mip_filter = Filter::kNearest;
+      break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+      to.min_filter = Filter::kNearest;
+      break;
+    default:
+      break;
+  }
+  return to;
+}
+
+float number(double value, float fallback) {
+  return std::isfinite(value) ? static_cast<float>(value) : fallback;
+}
+
+float factor(double value, float fallback) {
+  return std::clamp(number(value, fallback), 0.0f, 1.0f);
+}
+
+double member(const tinygltf::Value& object, const char* key, std::size_t i, double fallback) {
+  if (!object.Has(key)) return fallback;
+  const tinygltf::Value& value = object.Get(key);
+  if (value.IsNumber()) return value.GetNumberAsDouble();
+  if (!value.IsArray() || i >= value.ArrayLen()) return fallback;
+  const tinygltf::Value& item = value.Get(static_cast<int>(i));
+  return item.IsNumber() ? item.GetNumberAsDouble() : fallback;
+}
+
+/// u' = T * R * S * uv. [KHR_texture_transform]
+void texture_transform(const tinygltf::ExtensionMap& extensions, std::uint32_t slot,
+                       MaterialConstants& to) {
+  const auto found = extensions.find("KHR_texture_transform");
+  if (found == extensions.end() || !found->second.IsObject()) return;
+  const tinygltf::Value& t = found->second;
+  const double angle = member(t, "rotation", 0, 0.0);
+  const double sx = member(t, "scale", 0, 1.0), sy = member(t, "scale", 1, 1.0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  to.uv_matrix[slot] =
+      glm::vec4(number(c * sx, 1), number(s * sy, 0), number(-s * sx, 0), number(c * sy, 1));
+  to.uv_offset[slot] =
+      glm::vec2(number(member(t, "offset", 0, 0.0), 0), number(member(t, "offset", 1, 0.0), 0));
+}
+
+class MaterialReader {
+ public:
+  explicit MaterialReader(GltfReader& reader) : reader_(reader), model_(reader.model) {}
+  Status run();
+
+ private:
+  struct TextureUse {
+    int texture;
+    int tex_coord;
+    const tinygltf::ExtensionMap& extensions;
+  };
+  struct ImageUse {
+    std::int32_t image;     // in Scene::images
+    std::uint32_t sampler;  // in Scene::samplers
+  };
+  static int tex_coord_of(const TextureUse& use);
+  Status material(const tinygltf::Material& from, std::size_t id);
+  Status texture(const TextureUse& use, TextureSlot slot, const std::string& where,
+                 MaterialConstants& to);
+  Result<std::optional<ImageUse>> image_of(int texture, bool srgb, const std::string& where);
+  Status slide(const tinygltf::Node& node, std::size_t id);
+  Result<std::int32_t> image(int source, bool srgb, const std::string& where);
+  Result<TextureImage> decode(int source, const std::string& where) const;
+  Status alpha(const tinygltf::Material& from, const std::string& where, MaterialConstants& to);
+  void make_mips();
+
+  GltfReader& reader_;
+  const tinygltf::Model& model_;
+  std::map<std::pair<int, bool>, std::int32_t> image_ids_;
+  std::map<std::int32_t, float> cutoffs_;
+};
+
+Result<TextureImage> MaterialReader::decode(int source, const std::string& where) const {
+  const std::size_t id = static_cast<std::size_t>(source);
+  const tinygltf::Image& from = model_.images[id];
+  std::span<const std::uint8_t> bytes = reader_.encoded_images[id];
+  const std::string place = where + ", " + gltf_part("image", id, from.name);
+  if (from.bufferView >= 0) {
+    const Result<std::span<const std::uint8_t>> view =
+        buffer_view_bytes(model_, from.bufferView, place);
+    if (!view.ok()) return view.error();
+    bytes = view.value();
+  } else if (bytes.empty()) {
+    return make_error(ErrorId::kGltf, place + ": cannot read the file \"" + from.uri +
+                                          "\": it must lie beside the glTF file");
+  }
+  const int size =
+      static_cast<int>(std::min<std::size_t>(bytes.size(), std::numeric_limits<int>::max()));
+  int width = 0, height = 0, channels = 0;
+  if (size == 0 || !stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
+    return make_error(ErrorId::kGltf, place + ": is neither a readable PNG nor a readable JPEG");
+  if (width > kMaxImageSide || height > kMaxImageSide)
+    return make_error(ErrorId::kGltf, place + ": is " + std::to_string(width) + " x " +
+                                          std::to_string(height) + " pixels, a side of " +
+                                          std::to_string(kMaxImageSide) + " is allowed");
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
+  if (!pixels) {
+    const char* reason = stbi_failure_reason();
+    return make_error(ErrorId::kGltf,
+                      place + ": is damaged (" + (reason ? reason : "no reason given") + ")");
+  }
+  TextureImage to;
+  to.name = !from.name.empty()  ? from.name
+            : !from.uri.empty() ? from.uri
+                                : "image " + std::to_string(id);
+  to.width = static_cast<std::uint32_t>(width);
+  to.height = static_cast<std::uint32_t>(height);
+  to.mips.emplace_back(pixels.get(), pixels.get() + std::size_t{to.width} * to.height * 4);
+  return to;
+}
+
+Result<std::int32_t> MaterialReader::image(int source, bool srgb, const std::string& where) {
+  const auto key = std::make_pair(source, srgb);
+  if (const auto found = image_ids_.find(key); found != image_ids_.end()) return found->second;
+  Result<TextureImage> decoded = decode(source, where);
+  if (!decoded.ok()) return decoded.error();
+  decoded.value().srgb = srgb;
+  reader_.scene.images.push_back(std::move(decoded.value()));
+  return image_ids_[key] = static_cast<std::int32_t>(reader_.scene.images.size() - 1);
+}
+
+/// The extension may select another UV set than the texture itself. [KHR_texture_transform:
+/// texCoord]
+int MaterialReader::tex_coord_of(const TextureUse& use) {
+  const auto found = use.extensions.find("KHR_texture_transform");
+  if (found == use.extensions.end() || !found->second.IsObject()) return use.tex_coord;
+  return static_cast<int>(member(found->second, "texCoord", 0, use.tex_coord));
+}
+
+Status MaterialReader::texture(const TextureUse& use, TextureSlot slot, const std::string& where,
+                               MaterialConstants& to) {
+  if (use.texture < 0) return {};
+  if (const int tex_coord = tex_coord_of(use); tex_coord != 0) {
+    reader_.warn(where + ", texture " + std::to_string(use.texture) + ": uses TEXCOORD_" +
+                 std::to_string(tex_coord) + ", only TEXCOORD_0 is read; the texture is left out");
+    return {};
+  }
+  const bool srgb = slot == kBaseColorTexture || slot == kEmissiveTexture;
+  const Result<std::optional<ImageUse>> from = image_of(use.texture, srgb, where);
+  if (!from.ok()) return from.error();
+  if (!from.value()) return {};
+  to.image[slot] = from.value()->image;
+  to.sampler[slot] = from.value()->sampler;
+  texture_transform(use.extensions, slot, to);
+  return {};
+}
+
+/// Empty, with a warning, where the texture has no image that is read here.
+Result<std::optional<MaterialReader::ImageUse>> MaterialReader::image_of(int id, bool srgb,
+                                                                         const std::string& where) {
+  if (static_cast<std::size_t>(id) >= model_.textures.size())
+    return make_error(ErrorId::kGltf, where + ": names texture " + std::to_string(id) + " of " +
+                                          std::to_string(model_.textures.size()));
+  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(id)];
+  const std::string place = where + ", texture " + std::to_string(id);
+  if (texture.source < 0) {
+    reader_.warn(place + ": has no PNG or JPEG source; the texture is left out");
+    return std::optional<ImageUse>();
+  }
+  if (static_cast<std::size_t>(texture.source) >= model_.images.size())
+    return make_error(ErrorId::kGltf, place + ": names image " + std::to_string(texture.source) +
+                                          " of " + std::to_string(model_.images.size()));
+  if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) >= model_.samplers.size())
+    return make_error(ErrorId::kGltf, place + ": names sampler " + std::to_string(texture.sampler) +
+                                          " of " + std::to_string(model_.samplers.size()));
+  const Result<std::int32_t> decoded = image(texture.source, srgb, place);
+  if (!decoded.ok()) return decoded.error();
+  return std::optional(ImageUse{
+      decoded.value(), texture.sampler < 0 ? 0 : static_cast<std::uint32_t>(texture.sampler) + 1});
+}
+
+/// What the node's light throws, as a picture of the scene's; its colours are sRGB.
+Status MaterialReader::slide(const tinygltf::Node& node, std::size_t id) {
+  const std::string where = gltf_part("node", id, node.name);
+  const auto projection = read_projection_extras(node.extras, where, reader_.warnings);
+  if (!projection) return {};
+  const auto from = image_of(projection->texture, true, where);
+  if (!from.ok()) return from.error();
+  if (!from.value()) return {};
+  reader_.slides[id] = {.image = static_cast<std::uint32_t>(from.value()->image),
+                        .sampler = from.value()->sampler,
+                        .up = projection->up};
+  return {};
+}
+
+Status MaterialReader::alpha(const tinygltf::Material& from, const std::string& where,
+                             MaterialConstants& to) {
+  const std::int32_t id = to.image[kBaseColorTexture];
+  const bool alpha_texture =
+      id != kNoTexture && has_alpha(reader_.scene.images[static_cast<std::size_t>(id)]);
+  if (from.alphaMode == "MASK") {
+    to.flags |= kMaterialMask | kMaterialAlphaTested;
+    to.alpha_cutoff = number(from.alphaCutoff, 0.5f);
+  } else if (from.alphaMode == "BLEND") {
+    to.flags |= kMaterialBlend | (alpha_texture ? kMaterialAlphaTested : 0u);
+  } else if (from.alphaMode != "OPAQUE" && !from.alphaMode.empty()) {
+    return make_error(ErrorId::kGltf, where + ": alphaMode is \"" + from.alphaMode +
+                                          "\", OPAQUE, MASK and BLEND are allowed");
+  }
+  if ((to.flags & kMaterialAlphaTested) && alpha_texture) cutoffs_.emplace(id, to.alpha_cutoff);
+  return {};
+}
+
+Status MaterialReader::material(const tinygltf::Material& from, std::size_t id) {
+  const std::string where = gltf_part("material", id, from.name);
+  Material out;
+  out.name = from.name.empty() ? "material " + std::to_string(id) : from.name;
+  MaterialConstants& to = out.constants;
+  const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+  for (int i = 0; i < 4 && static_cast<std::size_t>(i) < pbr.baseColorFactor.size(); ++i)
+    to.base_color[i] = factor(pbr.baseColorFactor[static_cast<std::size_t>(i)], 1.0f);
+  double strength = 1.0;
+  if (const auto found = from.extensions.find("KHR_materials_emissive_strength");
+      found != from.extensions.end() && found->second.IsObject())
+    strength = member(found->second, "emissiveStrength", 0, 1.0);
+  for (int i = 0; i < 3 && static_cast<std::size_t>(i) < from.emissiveFactor.size(); ++i)
+    to.emissive[i] =
+        std::max(0.0f, number(from.emissiveFactor[static_cast<std::size_t>(i)] * strength, 0.0f));
+  to.metallic = factor(pbr.metallicFactor, 1.0f);
+  to.roughness = factor(pbr.roughnessFactor, 1.0f);
+  to.normal_scale = number(from.normalTexture.scale, 1.0f);
+  if (from.doubleSided) to.flags |= kMaterialDoubleSided;
+  const std::pair<TextureSlot, TextureUse> uses[] = {
+      {kBaseColorTexture,
+       {pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord,
+        pbr.baseColorTexture.extensions}},
+      {kMetallicRoughnessTexture,
+       {pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord,
+        pbr.metallicRoughnessTexture.extensions}},
+      {kNormalTexture,
+       {from.normalTexture.index, from.normalTexture.texCoord, from.normalTexture.extensions}},
+      {kEmissiveTexture,
+       {from.emissiveTexture.index, from.emissiveTexture.texCoord,
+        from.emissiveTexture.extensions}}};
+  for (const auto& [slot, use] : uses) {
+    const Status status = texture(use, slot, where, to);
+    if (!status.ok()) return status;
+  }
+  const Status status = alpha(from, where, to);
+  if (status.ok()) reader_.scene.materials.push_back(std::move(out));
+  return status;
+}
+
+void MaterialReader::make_mips() {
+  for (std::size_t id = 0; id < reader_.scene.images.size(); ++id) {
+    const auto cutoff = cutoffs_.find(static_cast<std::int32_t>(id));
+    generate_mips(reader_.scene.images[id],
+                  cutoff == cutoffs_.end() ? std::nullopt : std::optional<float>(cutoff->second));
+  }
+}
+
+Status MaterialReader::run() {
+  reader_.scene.samplers.push_back(Sampler{});
+  for (const tinygltf::Sampler& sampler : model_.samplers)
+    reader_.scene.samplers.push_back(sampler_of(sampler));
+  for (std::size_t id = 0; id < model_.materials.size(); ++id) {
+    const Status status = material(model_.materials[id], id);
+    if (!status.ok()) return status;
+  }
+  Material fallback;
+  fallback.name = "default";
+  // glTF's default material is fully metallic and would look black under a sky, so geometry without
+  // a material is shown as white plaster.
+  fallback.constants.base_color = glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
+  reader_.scene.materials.push_back(fallback);
+  for (std::size_t id = 0; id < model_.nodes.size(); ++id) {
+    const Status status = slide(model_.nodes[id], id);
+    if (!status.ok()) return status;
+  }
+  make_mips();
+  return {};
+}
+
+}  // namespace
+
+Status read_gltf_materials(GltfReader& reader) {
+  return MaterialReader(reader).run();
+}
+
+}  // namespace kaamos::effects

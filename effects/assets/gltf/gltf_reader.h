@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The stages of the glTF loader; only gltf_*.cpp include it.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/assets/common/errors.h"
+#include "effects/assets/gltf/gltf_extras.h"
+#include "effects/assets/scene/scene.h"
+
+namespace kaamos::effects {
+
+/// What the stages share: the parsed file, the scene under construction, and the warnings.
+struct GltfReader {
+  const tinygltf::Model& model;
+  /// Per image of the file: its encoded bytes if it came by URI, else empty.
+  const std::vector<std::vector<std::uint8_t>>& encoded_images;
+  Scene& scene;
+  std::vector<std::string>& warnings;
+  /// Per mesh of the file: its index in Scene::meshes, or -1 if it has no triangles.
+  std::vector<int> mesh_ids = {};
+  /// Keep what moves instead of the file's pose.
+  bool animated = false;
+  /// Per node of the file: its index in Scene::nodes, or kNoIndex if the scene does not have it.
+  std::vector<std::int32_t> node_ids = {};
+  /// By node of the file: what the spot there throws.
+  std::map<std::size_t, ProjectionMap> slides = {};
+  /// A light of the scene that its node marks as the sun.
+  struct MarkedSun {
+    std::size_t light;  // in Scene::lights
+    SunExtras extras;
+  };
+  std::optional<MarkedSun> sun = {};
+
+  void warn(std::string text) { warnings.push_back(std::move(text)); }
+};
+
+/// `noun 3 "name"`, as messages name a part of a file.
+std::string gltf_part(const char* noun, std::size_t index, const std::string& name);
+
+/// Reads one material per material of the file, adds the default material, and reads what spots
+/// throw.
+Status read_gltf_materials(GltfReader& reader);
+/// Reads each mesh of the file that has triangles.
+Status read_gltf_meshes(GltfReader& reader);
+/// Reads instances, lights and cameras of the default scene's nodes.
+Status read_gltf_nodes(GltfReader& reader);
+
+/// Reads the levels of detail that the node names for its instance.
+Status read_gltf_levels(GltfReader& reader, const tinygltf::Node& node, const std::string& where,
+                        Instance& instance);
+/// If `animated`, reads one animation per animation of the file.
+Status read_gltf_animations(GltfReader& reader);
+
+/// Reads a mesh in the pose that the file's joints have, in world space. `joints` are the nodes'
+/// object-to-world transforms times the inverse bind matrices.
+Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, const std::vector<glm::dmat4>& joints);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Small glTF files made in memory, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "effects/assets/gltf/gltf_load.h"
+#include "effects/assets/image/png.h"
+
+namespace kaamos::effects {
+
+/// A small .glb put together by hand: `json`, with its bytes as buffer 0.
+class Glb {
+ public:
+  /// Appends values at a multiple of 4 bytes and returns the offset.
+  template <class T>
+  std::size_t add(const std::vector<T>& values) {
+    data_.resize((data_.size() + 3) / 4 * 4, 0);
+    const std::size_t offset = data_.size();
+    const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
+    data_.insert(data_.end(), first, first + values.size() * sizeof(T));
+    return offset;
+  }
+  std::size_t size() const { return data_.size(); }
+
+  /// `body` is the JSON object without asset, buffers and its outer braces.
+  std::vector<std::uint8_t> bytes(const std::string& body) const {
+    std::vector<std::uint8_t> data = data_;
+    data.resize((data.size() + 3) / 4 * 4, 0);
+    std::string json = "{\"asset\":{\"version\":\"2.0\"}," + body +
+                       ",\"buffers\":[{\"byteLength\":" + std::to_string(data.size()) + "}]}";
+    while (json.size() % 4 != 0) json += ' ';
+    std::vector<std::uint8_t> out;
+    const auto word = [&](std::uint32_t v) {
+      for (int i = 0; i < 4; ++i) out.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
+    };
+    word(0x46546C67u);
+    word(2);
+    word(static_cast<std::uint32_t>(28 + json.size() + data.size()));
+    word(static_cast<std::uint32_t>(json.size()));
+    word(0x4E4F534Au);
+    out.insert(out.end(), json.begin(), json.end());
+    word(static_cast<std::uint32_t>(data.size()));
+    word(0x004E4942u);
+    out.insert(out.end(), data.begin(), data.end());
+    return out;
+  }
+
+ private:
+  std::vector<std::uint8_t> data_;
+};
+
+inline Result<LoadedScene> load(const std::vector<std::uint8_t>& bytes) {
+  return load_gltf_memory(bytes, "test.glb");
+}
+
+inline Result<LoadedScene> load_text(const std::string& text) {
+  return load_gltf_memory(
+      std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), "test.gltf");
+}
+
+inline void expect_error(const Result<LoadedScene>& result, const std::string& part) {
+  ASSERT_FALSE(result.ok()) << "wanted: " << part;
+  EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+  EXPECT_NE(result.error().message.find("test."), std::string::npos) << "names the file";
+}
+
+inline const std::vector<float> kQuad = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+
+/// One quad, with parts of its JSON that tests replace.
+struct QuadFile {
+  std::string positions = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})";
+  std::string indices = R"({"bufferView":1,"componentType":5121,"count":6,"type":"SCALAR"})";
+  std::string views = R"({"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":6})";
+  std::string primitive = R"({"attributes":{"POSITION":0},"indices":1})";
+  std::string nodes = R"([{"mesh":0}])";
+  std::string more;  ///< further members, each preceded by a comma
+
+  std::vector<std::uint8_t> bytes() const {
+    Glb glb;
+    glb.add(kQuad);
+    glb.add(std::vector<std::uint8_t>{0, 1, 2, 2, 1, 3});
+    return glb.bytes("\"accessors\":[" + positions + "," + indices + "],\"bufferViews\":[" + views +
+                     "],\"meshes\":[{\"name\":\"quad\",\"primitives\":[" + primitive +
+                     "]}],\"nodes\":" + nodes + more);
+  }
+};
+
+/// A quad with a 2 x 1 texture of one opaque and one clear texel.
+inline std::vector<std::uint8_t> textured(const std::string& material,
+                                          const std::string& extra = "") {
+  Glb glb;
+  glb.add(kQuad);
+  glb.add(std::vector<std::uint8_t>{0, 1, 2, 2, 1, 3});
+  ByteImage image;
+  image.width = 2;
+  image.height = 1;
+  image.channels = 4;
+  image.values = {200, 100, 50, 255, 0, 0, 0, 0};
+  const std::vector<std::uint8_t> png = encode_png(image).value();
+  const std::size_t at = glb.add(png);
+  return glb.bytes(
+      "\"accessors\":[" + QuadFile{}.positions + "," + QuadFile{}.indices + "],\"bufferViews\":[" +
+      QuadFile{}.views + ",{\"buffer\":0,\"byteOffset\":" + std::to_string(at) +
+      ",\"byteLength\":" + std::to_string(png.size()) +
+      "}],\"images\":[{\"bufferView\":2,\"mimeType\":\"image/png\"}],\"textures\":[{\"source\":0,"
+      "\"sampler\":0}],\"samplers\":[{\"wrapS\":33071,\"wrapT\":33648,\"magFilter\":9728,"
+      "\"minFilter\":9729}],\"materials\":[" +
+      material +
+      "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":"
+      "0}]}],\"nodes\":[{\"mesh\":0}]" +
+      extra);
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "effects/assets/scene/mesh.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+namespace kaamos::effects {
+
+void Bounds::add(const glm::dvec3& point) {
+  min = glm::min(min, point);
+  max = glm::max(max, point);
+}
+
+void Mesh::add_geometry(std::span<const Vertex> piece, std::span<const std::uint32_t> piece_indices,
+                        std::uint32_t material, bool alpha_tested) {
+  assert(piece_indices.size() % 3 == 0);
+  Geometry geometry;
+  geometry.first_vertex = static_cast<std::uint32_t>(vertices.size());
+  geometry.vertex_count = static_cast<std::uint32_t>(piece.size());
+  indices.resize((indices.size() + 15) / 16 * 16, 0);
+  geometry.index_offset_bytes = static_cast<std::uint32_t>(indices.size());
+  geometry.index_count = static_cast<std::uint32_t>(piece_indices.size());
+  geometry.index_size_bytes = piece.size() <= 65536 ? 2 : 4;
+  geometry.material = material;
+  geometry.alpha_tested = alpha_tested;
+  vertices.insert(vertices.end(), piece.begin(), piece.end());
+  const std::size_t bytes = std::size_t{geometry.index_size_bytes} * piece_indices.size();
+  indices.resize(indices.size() + (bytes + 3) / 4 * 4, 0);
+  std::uint8_t* out = indices.data() + geometry.index_offset_bytes;
+  for (const std::uint32_t i : piece_indices) {
+    assert(i < piece.size());
+    std::memcpy(out, &i, geometry.index_size_bytes);
+    out += geometry.index_size_bytes;
+  }
+  geometries.push_back(geometry);
+}
+
+std::uint32_t Mesh::index(const Geometry& geometry, std::uint32_t i) const {
+  std::uint32_t value = 0;
+  std::memcpy(
+      &value,
+      indices.data() + geometry.index_offset_bytes + std::size_t{i} * geometry.index_size_bytes,
+      geometry.index_size_bytes);
+  return value;
+}
+
+const Vertex& Mesh::corner(const Geometry& geometry, std::uint32_t triangle,
+                           std::uint32_t corner) const {
+  return vertices[geometry.first_vertex + index(geometry, 3 * triangle + corner)];
+}
+
+std::uint64_t Mesh::triangle_count() const {
+  std::uint64_t count = 0;
+  for (const Geometry& geometry : geometries) count += geometry.index_count / 3;
+  return count;
+}
+
+Bounds Mesh::bounds() const {
+  Bounds box;
+  for (const Vertex& vertex : vertices) {
+    const glm::vec3& p = vertex.position;
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) box.add(p);
+  }
+  return box;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include "effects/engine/gpu_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+namespace kaamos::effects {
+
+using namespace rtapi;
+
+rtapi::Result<Buffer> create_structure_buffer(const Device& device, std::uint64_t bytes,
+                                              std::string name) {
+  BufferDesc desc;
+  desc.SizeInBytes = bytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+  desc.Name = std::move(name);
+  return device.CreateBuffer(desc);
+}
+
+rtapi::Result<Buffer> create_scratch_buffer(const Device& device, std::uint64_t bytes,
+                                            std::string name) {
+  BufferDesc desc;
+  desc.SizeInBytes = std::max<std::uint64_t>(bytes, 1);
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.Name = std::move(name);
+  return device.CreateBuffer(desc);
+}
+
+static RaytracingGeometryFlags geometry_flags(const Geometry& geometry, bool glass) {
+  // Any-hit shaders count layers of glass, so each hit must invoke them only once.
+  if (glass) return RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
+  return geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
+}
+
+RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu) {
+  RaytracingGeometryDesc desc;
+  desc.Type = RaytracingGeometryType::kTriangles;
+  desc.Flags = geometry_flags(geometry, gpu.glass);
+  desc.Triangles.VertexFormat = Format::kR32G32B32Float;
+  desc.Triangles.VertexCount = geometry.vertex_count;
+  desc.Triangles.VertexBuffer = {gpu.vertices, gpu.constants.vertex_stride};
+  desc.Triangles.IndexFormat = geometry.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint;
+  desc.Triangles.IndexCount = geometry.index_count;
+  desc.Triangles.IndexBuffer = gpu.indices;
+  return desc;
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Builds and waits; adds the size of the result to `bytes`.
+rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
+                            const BuildRaytracingAccelerationStructureInputs& inputs,
+                            std::string name, std::uint64_t& bytes) {
+  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs);
+  if (!sizes) return sizes.error();
+  auto result = create_structure_buffer(device, sizes->ResultDataMaxSizeInBytes, name);
+  if (!result) return result.error();
+  const auto scratch =
+      create_scratch_buffer(device, sizes->ScratchDataSizeInBytes, name + " scratch");
+  if (!scratch) return scratch.error();
+  auto list = device.CreateCommandList();
+  if (!list) return list.error();
+  BuildRaytracingAccelerationStructureDesc desc;
+  desc.DestAccelerationStructureData = result->GetGPUVirtualAddress();
+  desc.Inputs = inputs;
+  desc.ScratchAccelerationStructureData = scratch->GetGPUVirtualAddress();
+  list->BuildRaytracingAccelerationStructure(desc);
+  if (const rtapi::Status done = queue.ExecuteAndWait(*list); !done) return done.error();
+  bytes += sizes->ResultDataMaxSizeInBytes;
+  return result;
+}
+
+// Which meshes have glass in some instance.
+std::vector<bool> glass_meshes(const Scene& scene) {
+  std::vector<bool> glass(scene.meshes.size());
+  for (const Instance& instance : scene.instances) {
+    if (instance.mask & kMaskTransparent) glass[instance.mesh] = true;
+  }
+  return glass;
+}
+
+// Creates the buffers of one mesh and the record arguments of its geometries.
+rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t mesh_id, bool glass,
+                       GpuScene& out) {
+  const Mesh& mesh = scene.meshes[mesh_id];
+  auto vertices =
+      CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), mesh.name + " vertices");
+  if (!vertices) return vertices.error();
+  auto indices =
+      CreateUploadBuffer(device, std::as_bytes(std::span(mesh.indices)), mesh.name + " indices");
+  if (!indices) return indices.error();
+  for (std::uint32_t i = 0; i < mesh.geometries.size(); ++i) {
+    const Geometry& geometry = mesh.geometries[i];
+    GpuGeometry gpu;
+    gpu.vertices = vertices->GetGPUVirtualAddress() +
+                   static_cast<std::uint64_t>(geometry.first_vertex) * kVertexStride;
+    gpu.indices = indices->GetGPUVirtualAddress() + geometry.index_offset_bytes;
+    gpu.vertex_buffer = *vertices;
+    gpu.index_buffer = *indices;
+    gpu.vertex_count = geometry.vertex_count;
+    gpu.index_count = geometry.index_count;
+    gpu.constants.index_size_bytes = geometry.index_size_bytes;
+    gpu.constants.material_id = geometry.material;
+    gpu.constants.mesh_id = mesh_id;
+    gpu.constants.geometry_id = i;
+    gpu.alpha_tested = geometry.alpha_tested || glass;
+    gpu.glass = glass;
+    out.geometries.push_back(gpu);
+  }
+  out.vertices.push_back(*vertices);
+  out.indices.push_back(*indices);
+  return {};
+}
+
+// `first_record` is the index of the mesh's first geometry in out.geometries, and is advanced to
+// the next mesh.
+rtapi::Status add_bottom_level(const Device& device, CommandQueue& queue, const Mesh& mesh,
+                               std::size_t& first_record, GpuScene& out) {
+  std::vector<RaytracingGeometryDesc> descs;
+  for (const Geometry& geometry : mesh.geometries) {
+    descs.push_back(geometry_desc(geometry, out.geometries[first_record++]));
+  }
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
+  inputs.NumDescs = static_cast<std::uint32_t>(descs.size());
+  inputs.pGeometryDescs = descs.data();
+  auto bottom_level =
+      build(device, queue, inputs, mesh.name + " bottom level", out.statistics.bottom_level_bytes);
+  if (!bottom_level) return bottom_level.error();
+  out.bottom_levels.push_back(*bottom_level);
+  return {};
+}
+
+std::vector<RaytracingInstanceDesc> instance_descs(const Scene& scene, const GpuScene& gpu,
+                                                   const glm::dvec3& origin) {
+  std::vector<std::uint32_t> first_geometry(scene.meshes.size());
+  std::vector<bool> opaque(scene.meshes.size(), true);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    first_geometry[i] = count;
+    count += static_cast<std::uint32_t>(scene.meshes[i].geometries.size());
+    for (const Geometry& geometry : scene.meshes[i].geometries) {
+      opaque[i] = opaque[i] && !geometry.alpha_tested;
+    }
+  }
+  std::vector<RaytracingInstanceDesc> descs;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    RaytracingInstanceDesc desc;
+    const glm::mat3x4 rows = transform_3x4(instance, origin);
+    std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
+    desc.InstanceID = i & 0xFFFFFFu;
+    desc.InstanceMask = instance_mask(instance);
+    desc.InstanceContributionToHitGroupIndex =
+        (first_geometry[instance.mesh] * kRayTypeCount) & 0xFFFFFFu;
+    // The traversal of opaque instances never looks for an any-hit shader. [Northlight deck:
+    // FORCE_OPAQUE]
+    desc.Flags = opaque[instance.mesh] && !(instance.mask & kMaskTransparent)
+                     ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
+                     : 0u;
+    desc.AccelerationStructure = gpu.bottom_levels[instance.mesh].GetGPUVirtualAddress();
+    descs.push_back(desc);
+  }
+  return descs;
+}
+
+rtapi::Status add_top_level(const Device& device, CommandQueue& queue, const Scene& scene,
+                            const glm::dvec3& origin, GpuScene& out) {
+  const std::vector<RaytracingInstanceDesc> descs = instance_descs(scene, out, origin);
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kTopLevel;
+  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
+  inputs.NumDescs = static_cast<std::uint32_t>(descs.size());
+  if (!descs.empty()) {
+    auto instances = CreateUploadBuffer(device, descs, "instances");
+    if (!instances) return instances.error();
+    out.instances = *instances;
+    inputs.InstanceDescs = out.instances.GetGPUVirtualAddress();
+  }
+  auto top_level = build(device, queue, inputs, "top level", out.statistics.top_level_bytes);
+  if (!top_level) return top_level.error();
+  out.top_level = *top_level;
+  return {};
+}
+
+rtapi::Status add_textures(const Device& device, CommandQueue& queue, const Scene& scene,
+                           GpuScene& out) {
+  for (const TextureImage& image : scene.images) {
+    TextureDesc desc;
+    desc.Width = image.width;
+    desc.Height = image.height;
+    desc.MipLevels = static_cast<std::uint16_t>(image.mips.size());
+    desc.Format = image.srgb ? Format::kR8G8B8A8UnormSrgb : Format::kR8G8B8A8Unorm;
+    desc.Name = image.name;
+    auto texture = device.CreateTexture(desc);
+    if (!texture) return texture.error();
+    for (std::uint32_t mip = 0; mip < image.mips.size(); ++mip) {
+      const rtapi::Status uploaded =
+          UploadTexture(device, queue, *texture, mip, std::as_bytes(std::span(image.mips[mip])));
+      if (!uploaded) return uploaded;
+    }
+    out.textures.push_back(*texture);
+  }
+  return {};
+}
+
+std::vector<MaterialConstants> material_constants(const Scene& scene) {
+  std::vector<MaterialConstants> out;
+  for (const Material& material : scene.materials) {
+    MaterialConstants& constants = out.emplace_back(material.constants);
+    for (std::uint32_t slot = 0; slot < kTextureSlotCount; ++slot) {
+      if (constants.image[slot] == kNoTexture) continue;
+      const TextureImage& image = scene.images[static_cast<std::size_t>(constants.image[slot])];
+      constants.one_texel_level[slot] =
+          0.5f * std::log2(static_cast<float>(image.width) * static_cast<float>(image.height));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
+                                     const Scene& scene) {
+  GpuScene out;
+  out.statistics.unique_triangles = unique_triangle_count(scene);
+  out.statistics.instanced_triangles = instanced_triangle_count(scene);
+  const std::vector<bool> glass = glass_meshes(scene);
+  for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+    if (const rtapi::Status added = add_mesh(device, scene, i, glass[i], out); !added) {
+      return added.error();
+    }
+  }
+  const std::vector<MaterialConstants> constants = material_constants(scene);
+  auto materials = CreateUploadBuffer(device, constants, "materials");
+  if (!materials) return materials.error();
+  out.materials = *materials;
+  if (const rtapi::Status added = add_textures(device, queue, scene, out); !added) {
+    return added.error();
+  }
+  const std::vector<PreviousInstance> unmoved(std::max<std::size_t>(scene.instances.size(), 1));
+  auto previous = CreateUploadBuffer(device, unmoved, "previous instances");
+  if (!previous) return previous.error();
+  out.previous_instances = *previous;
+  return out;
+}
+
+rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
+                                         const Scene& scene, const glm::dvec3& origin) {
+  auto uploaded = upload_scene(device, queue, scene);
+  if (!uploaded) return uploaded.error();
+  GpuScene out = std::move(*uploaded);
+  const auto bottom_start = Clock::now();
+  std::size_t record = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    if (const rtapi::Status added = add_bottom_level(device, queue, mesh, record, out); !added) {
+      return added.error();
+    }
+  }
+  out.statistics.bottom_level_ms = milliseconds_since(bottom_start);
+  const auto top_start = Clock::now();
+  if (const rtapi::Status added = add_top_level(device, queue, scene, origin, out); !added) {
+    return added.error();
+  }
+  out.statistics.top_level_ms = milliseconds_since(top_start);
+  return out;
+}
+
+}  // namespace kaamos::effects

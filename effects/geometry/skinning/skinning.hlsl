@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Skins vertices, one thread per vertex. effects/assets/scene/animation.h is the same for the host.
+// [Northlight deck: Skinned Meshes]
+
+struct SkinningConstants {
+  uint vertex_count;
+  uint keep_history;  // 0: no previous frame, so the previous position is the new one
+};
+
+ConstantBuffer<SkinningConstants> constants : register(b0);
+ByteAddressBuffer bind_vertices : register(t0);  // Vertex of effects/assets/scene/mesh.h
+ByteAddressBuffer skin : register(t1);           // SkinVertex
+ByteAddressBuffer joints : register(t2);         // three float4 rows each
+// Vertex, followed by its previous position. Holds the previous frame when the pass starts.
+RWByteAddressBuffer deformed : register(u0);
+
+static const uint kBindStride = 48;
+static const uint kSkinStride = 24;
+static const uint kDeformedStride = 64;
+static const uint kPreviousOffset = 48;
+
+[shader("compute")]
+[numthreads(64, 1, 1)]
+void SkinVertices(uint3 thread : SV_DispatchThreadID) {
+  if (thread.x >= constants.vertex_count) {
+    return;
+  }
+  const uint from = thread.x * kBindStride;
+  const uint to = thread.x * kDeformedStride;
+  const uint2 packed = skin.Load2(thread.x * kSkinStride);
+  const float4 weights = asfloat(skin.Load4(thread.x * kSkinStride + 8));
+  const uint ids[4] = {packed.x & 0xFFFFu, packed.x >> 16, packed.y & 0xFFFFu, packed.y >> 16};
+  float4 row0 = float4(0, 0, 0, 0);
+  float4 row1 = row0;
+  float4 row2 = row0;
+  for (uint k = 0; k < 4; ++k) {
+    const uint joint = ids[k] * 48;
+    row0 += asfloat(joints.Load4(joint)) * weights[k];
+    row1 += asfloat(joints.Load4(joint + 16)) * weights[k];
+    row2 += asfloat(joints.Load4(joint + 32)) * weights[k];
+  }
+
+  const float4 bind = float4(asfloat(bind_vertices.Load3(from)), 1.0);
+  const float3 position = float3(dot(row0, bind), dot(row1, bind), dot(row2, bind));
+  // Normals are transformed by the matrix of cofactors, which needs no inverse.
+  const float3 c0 = cross(row1.xyz, row2.xyz);
+  const float3 c1 = cross(row2.xyz, row0.xyz);
+  const float3 c2 = cross(row0.xyz, row1.xyz);
+  const float side = dot(row0.xyz, c0) < 0.0 ? -1.0 : 1.0;
+  float3 normal = asfloat(bind_vertices.Load3(from + 12));
+  const float3 turned = side * float3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
+  if (dot(turned, turned) > 0.0) {
+    normal = normalize(turned);
+  }
+  float4 tangent = asfloat(bind_vertices.Load4(from + 24));
+  const float3 along = float3(dot(row0.xyz, tangent.xyz), dot(row1.xyz, tangent.xyz),
+                              dot(row2.xyz, tangent.xyz));
+  if (dot(along, along) > 0.0) {
+    tangent = float4(normalize(along), side * tangent.w);
+  }
+
+  const uint3 before = deformed.Load3(to);
+  deformed.Store3(to + kPreviousOffset, constants.keep_history != 0 ? before : asuint(position));
+  deformed.Store3(to, asuint(position));
+  deformed.Store3(to + 12, asuint(normal));
+  deformed.Store4(to + 24, asuint(tangent));
+  deformed.Store2(to + 40, bind_vertices.Load2(from + 40));
+}

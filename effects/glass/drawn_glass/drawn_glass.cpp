@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "effects/glass/drawn_glass/drawn_glass.h"
+
+#include <shaders/drawn_glass.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "effects/engine/picture.h"
+#include "effects/engine/scene_draws.h"
+#include "effects/reflections/environment_map/environment_map.h"
+#include "effects/surfaces/gbuffer/raster_gbuffer.h"
+
+namespace kaamos::effects {
+
+using namespace rtapi;
+
+namespace {
+
+constexpr Format kDrawnFormat = Format::kR32G32B32A32Float;
+constexpr ResourceStates kReadState = ResourceStates::kNonPixelShaderResource;
+constexpr std::uint32_t kDrawWord = offsetof(DrawnGlassConstants, draw) / 4;
+// Registers of space3.
+constexpr std::uint32_t kMirrored = 2, kSun = 3;                          // u
+constexpr std::uint32_t kDrawnRadiance = 3, kDraws = 7, kGeometries = 8;  // t
+constexpr std::uint32_t kTargets = 2;
+
+// Layers are drawn over those behind them: their light is added to a part of what is there.
+BlendDesc over_blend() {
+  BlendDesc blend;
+  blend.IndependentBlendEnable = true;
+  RenderTargetBlendDesc& radiance = blend.RenderTarget[0];
+  radiance.BlendEnable = true;
+  radiance.DestBlend = Blend::kInvSrcAlpha;
+  radiance.DestBlendAlpha = Blend::kInvSrcAlpha;
+  RenderTargetBlendDesc& transmittance = blend.RenderTarget[1];
+  transmittance.BlendEnable = true;
+  transmittance.SrcBlend = Blend::kZero;
+  transmittance.DestBlend = Blend::kSrcColor;
+  transmittance.SrcBlendAlpha = Blend::kZero;
+  transmittance.DestBlendAlpha = Blend::kSrcAlpha;
+  return blend;
+}
+
+class DrawnGlass : public EffectPass {
+ public:
+  explicit DrawnGlass(const EffectScope& scope)
+      : device_(scope.device), frame_(scope.frame), gpu_(scope.gpu), views_(scope.views) {}
+
+  rtapi::Status create(const EffectScope& scope) {
+    auto rays =
+        RayPass::create(device_, frame_, gpu_,
+                        glass_reflection_pass(scope.library("glass/transparent/transparent")));
+    if (!rays) return rays.error();
+    rays_ = std::move(*rays);
+    const ShaderLibrary& library = scope.library("glass/drawn_glass/drawn_glass");
+    auto join = ComputePass::create(device_, frame_, library, "DrawnGlassResult");
+    if (!join) return join.error();
+    join_ = std::move(*join);
+    if (const auto s = create_pictures(); !s) return s;
+    if (const auto s = create_pipelines(library); !s) return s;
+    if (const auto s = create_buffers(scope.scene); !s) return s;
+    const auto constants = scope.settings.get_constants<DrawnGlassConstants>();
+    if (constants.fallback != DrawnGlassFallback::kEnvironment) return {};
+    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
+    if (!map) return map.error();
+    environment_ = std::move(*map);
+    return {};
+  }
+
+  rtapi::Status begin_frame(const Camera& camera) override;
+  void record(CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override;
+  std::uint64_t bytes() const override;
+
+ private:
+  rtapi::Status create_pictures();
+  rtapi::Status create_pipelines(const ShaderLibrary& library);
+  rtapi::Status create_buffers(const Scene& scene);
+  void record_glass(CommandList& list) const;
+
+  const Device& device_;
+  const Frame& frame_;
+  const GpuScene& gpu_;
+  PassViews& views_;
+  RayPass rays_;
+  ComputePass join_;
+  Texture mirrored_, sun_, drawn_[kTargets];
+  DescriptorHeap targets_;
+  PipelineState sides_[2];  // backs, fronts
+  Buffer draw_buffer_, geometry_buffer_;
+  std::vector<glm::dvec3> centres_;  // of meshes, object space
+  std::vector<SceneDraw> draws_;
+  std::optional<EnvironmentMap> environment_;
+  float near_plane_ = 0;
+};
+
+rtapi::Status DrawnGlass::create_pictures() {
+  struct {
+    Texture* picture;
+    const char* name;
+    std::uint32_t u;
+  } const pictures[] = {{&mirrored_, "mirrored by glass", kMirrored},
+                        {&sun_, "sun on glass", kSun}};
+  for (const auto& each : pictures) {
+    const auto created = frame_.create_picture(device_, each.name, kDrawnFormat);
+    if (!created) return created.error();
+    *each.picture = *created;
+    if (const auto s = views_.set_unordered_access(each.u, *created); !s) return s;
+  }
+  const auto targets =
+      device_.CreateDescriptorHeap({.Type = DescriptorHeapType::kRtv, .NumDescriptors = kTargets});
+  if (!targets) return targets.error();
+  targets_ = *targets;
+  for (std::uint32_t i = 0; i < kTargets; ++i) {
+    TextureDesc desc;
+    desc.Width = frame_.width();
+    desc.Height = frame_.height();
+    desc.Format = kDrawnFormat;
+    desc.Flags = ResourceFlags::kAllowRenderTarget;
+    desc.InitialState = kReadState;
+    desc.Name = i == 0 ? "drawn glass radiance" : "drawn glass transmittance";
+    const auto created = device_.CreateTexture(desc);
+    if (!created) return created.error();
+    drawn_[i] = *created;
+    const auto view = device_.CreateRenderTargetView(drawn_[i], targets_.GetCPUDescriptorHandle(i));
+    if (!view) return view;
+    if (const auto s = views_.set_shader_resource(kDrawnRadiance + i, drawn_[i]); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status DrawnGlass::create_pipelines(const ShaderLibrary& library) {
+  GraphicsPipelineStateDesc desc;
+  desc.pRootSignature = frame_.root_signature();
+  desc.VS = {library, "DrawnGlassVertex"};
+  desc.PS = {library, "DrawnGlassPixel"};
+  desc.InputLayout = {{.SemanticName = "POSITION",
+                       .Format = Format::kR32G32B32Float,
+                       .AlignedByteOffset = kPositionOffset}};
+  desc.RasterizerState.FrontCounterClockwise = true;  // as shapes are
+  desc.DepthStencilState.DepthEnable = false;         // shaders compare with the G-buffer
+  desc.BlendState = over_blend();
+  desc.RTVFormats = {kDrawnFormat, kDrawnFormat};
+  for (std::size_t i = 0; i < 2; ++i) {
+    desc.RasterizerState.CullMode = i == 0 ? CullMode::kFront : CullMode::kBack;
+    desc.Name = i == 0 ? "backs of glass" : "fronts of glass";
+    const auto created = device_.CreateGraphicsPipelineState(desc);
+    if (!created) return created.error();
+    sides_[i] = *created;
+  }
+  return {};
+}
+
+rtapi::Status DrawnGlass::create_buffers(const Scene& scene) {
+  for (const Instance& instance : scene.instances) {
+    const Bounds box = scene.meshes[instance.mesh].bounds();
+    centres_.push_back(box.empty() ? glm::dvec3(0.0) : (box.min + box.max) * 0.5);
+  }
+  const std::vector<SceneDraw> draws(std::max(most_scene_draws(scene), 1u));
+  const auto draw_buffer = CreateUploadBuffer(device_, draws, "glass draws");
+  if (!draw_buffer) return draw_buffer.error();
+  draw_buffer_ = *draw_buffer;
+  std::vector<HitConstants> geometries;
+  for (const GpuGeometry& geometry : gpu_.geometries) geometries.push_back(geometry.constants);
+  if (geometries.empty()) geometries.emplace_back();
+  const auto geometry_buffer = CreateUploadBuffer(device_, geometries, "glass geometries");
+  if (!geometry_buffer) return geometry_buffer.error();
+  geometry_buffer_ = *geometry_buffer;
+  if (const auto s = views_.set_shader_resource(kDraws, draw_buffer_, sizeof(SceneDraw)); !s) {
+    return s;
+  }
+  return views_.set_shader_resource(kGeometries, geometry_buffer_, sizeof(HitConstants));
+}
+
+// Far draws come first. What cannot be sorted by the middle of its box is blended in a wrong order.
+rtapi::Status DrawnGlass::begin_frame(const Camera& camera) {
+  near_plane_ = static_cast<float>(camera.near_plane) * kRasterNearShare;
+  draws_ = scene_draws(gpu_, kMaskTransparent);
+  const auto distance = [&](const SceneDraw& draw) {
+    const glm::dmat3x4 rows(draw.object_to_world);
+    const glm::dvec4 centre(centres_[draw.instance], 1.0);
+    return glm::length(glm::dvec3(glm::dot(rows[0], centre), glm::dot(rows[1], centre),
+                                  glm::dot(rows[2], centre)));
+  };
+  std::stable_sort(draws_.begin(), draws_.end(), [&](const SceneDraw& a, const SceneDraw& b) {
+    return distance(a) > distance(b);
+  });
+  std::copy(draws_.begin(), draws_.end(), draw_buffer_.data<SceneDraw>().begin());
+  return environment_ ? environment_->set_origin(device_, camera.position(), views_)
+                      : rtapi::Status{};
+}
+
+void DrawnGlass::record_glass(CommandList& list) const {
+  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
+    const GpuGeometry& geometry = gpu_.geometries[draws_[i].geometry];
+    list.IASetVertexBuffers(
+        0, VertexBufferView{geometry.vertices,
+                            static_cast<std::uint32_t>(geometry.vertex_range().size_bytes),
+                            geometry.constants.vertex_stride});
+    const IndexBufferView index_view = {
+        geometry.indices, static_cast<std::uint32_t>(geometry.index_range().size_bytes),
+        geometry.constants.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint};
+    list.IASetIndexBuffer(&index_view);
+    list.SetGraphicsRoot32BitConstant(kRootPassWords, i, kDrawWord);
+    for (const PipelineState& side : sides_) {
+      list.SetPipelineState(side);
+      list.DrawIndexedInstanced(geometry.index_count, 1, 0, 0, 0);
+    }
+  }
+}
+
+void DrawnGlass::record(CommandList& list, const EffectSettings& settings,
+                        const PassConstants& constants) {
+  auto words = settings.get_constants<DrawnGlassConstants>();
+  if (!environment_) words.fallback = DrawnGlassFallback::kNothing;
+  words.near_plane = near_plane_;
+  words.width = static_cast<float>(frame_.width());
+  words.height = static_cast<float>(frame_.height());
+  const PassArguments arguments(views_, words);
+  rays_.dispatch(list, frame_, constants, frame_.height(), arguments);
+  list.BeginEvent("drawn glass");
+  std::vector<ResourceBarrier> barriers;
+  for (const Texture& target : drawn_) {
+    barriers.push_back(
+        ResourceBarrier::Transition(target, kReadState, ResourceStates::kRenderTarget));
+  }
+  list.ResourceBarrier(barriers);
+  const CpuDescriptorHandle targets[kTargets] = {targets_.GetCPUDescriptorHandle(0),
+                                                 targets_.GetCPUDescriptorHandle(1)};
+  list.OMSetRenderTargets(kTargets, targets, false, nullptr);
+  list.RSSetViewports(Viewport{0, 0, words.width, words.height, 0, 1});
+  list.RSSetScissorRects(Rect{0, 0, static_cast<std::int32_t>(frame_.width()),
+                              static_cast<std::int32_t>(frame_.height())});
+  const float black[4] = {0, 0, 0, 0}, open[4] = {1, 1, 1, 1};
+  list.ClearRenderTargetView(targets[0], black);
+  list.ClearRenderTargetView(targets[1], open);
+  list.IASetPrimitiveTopology(PrimitiveTopology::kTriangleList);
+  frame_.bind_draws(list, arguments);
+  record_glass(list);
+  for (ResourceBarrier& barrier : barriers) {
+    std::swap(barrier.StateBefore, barrier.StateAfter);
+  }
+  list.ResourceBarrier(barriers);
+  list.EndEvent();
+  join_.dispatch(list, frame_, constants, arguments, frame_.width(), frame_.height());
+}
+
+std::uint64_t DrawnGlass::bytes() const {
+  return 4 * picture_bytes(mirrored_) + draw_buffer_.size() + geometry_buffer_.size() +
+         (environment_ ? environment_->bytes() : 0);
+}
+
+}  // namespace
+
+rtapi::Result<ShaderLibrary> drawn_glass_library() {
+  return LoadShaderLibrary(kaamos_shaders_drawn_glass());
+}
+
+rtapi::Result<std::unique_ptr<EffectPass>> make_drawn_glass(const EffectScope& scope) {
+  auto pass = std::make_unique<DrawnGlass>(scope);
+  if (const auto s = pass->create(scope); !s) return s.error();
+  return std::unique_ptr<EffectPass>(std::move(pass));
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Shared by the tests of indirect light.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "effects/assets/built_in/oracle_scenes.h"
+#include "effects/assets/scene/light_constants.h"
+#include "effects/engine/picture.h"
+#include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/indirect/indirect_diffuse/occluded_volume.h"
+#include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
+#include "effects/surfaces/gbuffer/gbuffer.h"
+
+namespace kaamos::effects {
+
+/// A scene with its G-buffer and lights, and the passes that gather light over them.
+struct Stage {
+  explicit Stage(Scene given, std::uint32_t picture_width = 24, std::uint32_t picture_height = 16,
+                 const std::string& backend = "embree")
+      : width(picture_width), height(picture_height), scene(std::move(given)) {
+    rtapi::DeviceDesc device_desc;
+    device_desc.Backend = backend;
+    device = rtapi::CreateDevice(device_desc).value();
+    queue = device.CreateCommandQueue().value();
+    const Camera& camera = scene.cameras.front();
+    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
+    FrameDesc desc;
+    desc.width = width;
+    desc.height = height;
+    frame = Frame::create(device, scene, gpu, camera, desc).value();
+    const auto lights = light_constants(scene, camera.position());
+    lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
+                                static_cast<std::uint32_t>(lights.size()))
+                   .value();
+    const RayPass gbuffer =
+        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
+    rtapi::CommandList list = device.CreateCommandList().value();
+    gbuffer.dispatch(list, frame, {}, height);
+    lighting.update(list, frame);
+    queue.ExecuteAndWait(list).value();
+    ids = frame.read(device, queue, kIds).value();
+  }
+
+  /// All cells get all paths.
+  IndirectVolume bake(float cell, std::uint32_t samples, std::uint32_t bounces = 64) {
+    BakeDesc desc;
+    desc.samples = samples;
+    desc.bounces = bounces;
+    desc.error = 0;
+    return bake(cell, desc);
+  }
+
+  IndirectVolume bake(float cell, const BakeDesc& desc, BakeStatistics* statistics = nullptr) {
+    IndirectVolume volume = layout_volume(scene, cell).value();
+    bake_volume(device, queue, frame, gpu, scene, lighting, scene.cameras.front().position(),
+                volume_bake_library().value(), desc, volume, statistics)
+        .value();
+    return volume;
+  }
+
+  /// Irradiance / pi; 4 channels.
+  FloatImage gather(const IndirectVolume& volume, const IndirectConstants& constants,
+                    std::uint32_t samples) {
+    const GpuVolume gpu_volume =
+        GpuVolume::create(device, volume, scene.cameras.front().position()).value();
+    const rtapi::Texture picture =
+        frame.create_picture(device, "indirect", rtapi::Format::kR32G32B32A32Float).value();
+    PassViews views = frame.create_pass_views(device).value();
+    views.set_unordered_access(0, picture).value();
+    lighting.bind(views).value();
+    gpu_volume.bind(views).value();
+    const RayPass pass = RayPass::create(device, frame, gpu,
+                                         indirect_diffuse_pass(indirect_diffuse_library().value()))
+                             .value();
+    rtapi::CommandList list = device.CreateCommandList().value();
+    PassConstants pass_constants;
+    pass_constants.sample_count = samples;
+    pass.dispatch(list, frame, pass_constants, height, PassArguments(views, constants));
+    queue.ExecuteAndWait(list).value();
+    FloatImage image = read_picture(device, queue, picture).value();
+    for (float& value : image.values) value /= static_cast<float>(samples);
+    return image;
+  }
+
+  /// The volume times ambient occlusion from the depth picture; 4 channels.
+  FloatImage occluded_on_screen(const IndirectVolume& volume,
+                                const OccludedVolumeSettings& settings) {
+    const GpuVolume gpu_volume =
+        GpuVolume::create(device, volume, scene.cameras.front().position()).value();
+    const rtapi::Texture picture =
+        frame.create_picture(device, "indirect", rtapi::Format::kR32G32B32A32Float).value();
+    PassViews views = frame.create_pass_views(device).value();
+    views.set_unordered_access(0, picture).value();
+    gpu_volume.bind(views).value();
+    const OccludedVolume passes =
+        OccludedVolume::create(device, frame, occluded_volume_library().value(),
+                               gtao_library().value(), occlusion_filter_library().value(), views)
+            .value();
+    rtapi::CommandList list = device.CreateCommandList().value();
+    passes.record(list, frame, {}, settings);
+    queue.ExecuteAndWait(list).value();
+    return read_picture(device, queue, picture).value();
+  }
+
+  /// Ambient visibility, 1 channel.
+  FloatImage ambient(float radius, std::uint32_t samples) {
+    const RayPass pass =
+        RayPass::create(device, frame, gpu,
+                        ambient_occlusion_pass(ambient_occlusion_library().value()))
+            .value();
+    rtapi::CommandList list = device.CreateCommandList().value();
+    frame.clear(list, kAmbientOcclusionSum);
+    list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+    PassConstants pass_constants;
+    pass_constants.sample_count = samples;
+    pass_constants.radius = radius;
+    pass.dispatch(list, frame, pass_constants, height);
+    queue.ExecuteAndWait(list).value();
+    FloatImage image = frame.read(device, queue, kAmbientOcclusionSum).value();
+    for (float& value : image.values) value /= static_cast<float>(samples);
+    return image;
+  }
+
+  std::uint32_t width, height;
+  Scene scene;
+  rtapi::Device device;
+  rtapi::CommandQueue queue;
+  GpuScene gpu;
+  Frame frame;
+  Lighting lighting;
+  FloatImage ids;
+};
+
+inline IndirectConstants mode(IndirectMode m, float length = 3.0f) {
+  IndirectConstants constants;
+  constants.mode = m;
+  constants.length = length;
+  return constants;
+}
+
+/// A volume around a scene with the same light in every cell.
+inline IndirectVolume constant_volume(const Scene& scene, float light) {
+  IndirectVolume volume = layout_volume(scene, 0.5f).value();
+  for (VolumeCell& cell : volume.cells) {
+    cell.mean = glm::vec3(light);
+    cell.validity = 1;
+  }
+  return volume;
+}
+
+/// A small plane with a sphere over it. The sky should be as bright as the volume, so that places
+/// outside of it get the same light.
+inline Scene small_scene(float sky) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  for (Mesh& mesh : scene.meshes) {
+    for (Vertex& vertex : mesh.vertices) {
+      vertex.position = glm::clamp(vertex.position, glm::vec3(-6), glm::vec3(6));
+    }
+  }
+  scene.sun.reset();
+  scene.lights.clear();
+  scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(sky);
+  return scene;
+}
+
+/// The mean over the pixels that show a surface.
+inline double mean_of(const FloatImage& image, const FloatImage& ids) {
+  double sum = 0, count = 0;
+  for (std::uint32_t y = 0; y < image.height; ++y) {
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+      if (ids.at(x, y, 0) == 0) continue;
+      sum += image.at(x, y);
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+}  // namespace kaamos::effects

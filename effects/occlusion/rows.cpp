@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// Alternatives to ambient occlusion by cosine-distributed rays, as effects of a frame.
+#include "effects/occlusion/rows.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "effects/engine/effect_pass.h"
+#include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
+#include "effects/occlusion/screen_space_ao/line_sweep_ao.h"
+#include "effects/occlusion/screen_space_ao/screen_space_ao.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+constexpr const char* kFilter = "occlusion/screen_space_ao/occlusion_filter";
+constexpr const char* kLineSweep = "occlusion/screen_space_ao/line_sweep_ao";
+
+class ScreenSpaceAoPass : public EffectPass {
+ public:
+  ScreenSpaceAoPass(const Frame& frame, ScreenSpaceAo passes)
+      : frame_(frame), passes_(std::move(passes)) {}
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override {
+    passes_.record(list, frame_, constants, settings.constants);
+  }
+  std::uint64_t bytes() const override { return passes_.bytes(); }
+
+ private:
+  const Frame& frame_;
+  ScreenSpaceAo passes_;
+};
+
+class LineSweepAoPass : public EffectPass {
+ public:
+  LineSweepAoPass(const Frame& frame, LineSweepAo passes)
+      : frame_(frame), passes_(std::move(passes)) {}
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override {
+    passes_.record(list, frame_, constants, settings.get_constants<LineSweepSettings>());
+  }
+  std::uint64_t bytes() const override { return passes_.bytes(); }
+
+ private:
+  const Frame& frame_;
+  LineSweepAo passes_;
+};
+
+constexpr const char* kOneLayer =
+    "what is outside of the picture or behind something; things seem to go on behind what is seen";
+
+// A row whose signal is called `layer`.
+Effect occlusion_row(const char* name, const char* about, const char* layer) {
+  Effect row = {.name = name, .about = about};
+  row.signals = {{.name = layer, .channels = 1, .is_sum = false, .part = &FrameParts::ambient}};
+  row.replaced_by = "gi";
+  row.alternative_to = "ao";
+  row.misses = kOneLayer;
+  return row;
+}
+
+template <class Constants>
+EffectStep step(std::string label, const Constants& constants) {
+  EffectStep out{std::move(label), EffectSettings().set_constants(constants)};
+  out.settings.radius = kDefaultScreenSpaceRadius;
+  return out;
+}
+
+// More and more points.
+template <class Constants>
+std::vector<EffectStep> steps_of_points(Constants constants) {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t count : {4u, 8u, 16u, 32u, 64u}) {
+    constants.samples = count;
+    out.push_back(step(fmt::format("{} points", count), constants));
+  }
+  return out;
+}
+
+std::vector<EffectStep> hbao_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t count : {3u, 6u, 8u, 16u}) {
+    HbaoConstants constants;
+    constants.directions = constants.steps = count;
+    out.push_back(step(fmt::format("{0} directions, {0} steps", count), constants));
+  }
+  return out;
+}
+
+// XeGTAO's low, medium, high and ultra quality.
+std::vector<EffectStep> gtao_steps() {
+  std::vector<EffectStep> out;
+  for (const auto& [slices, steps] : {std::pair(1u, 2u), {2u, 2u}, {3u, 3u}, {9u, 3u}}) {
+    GtaoConstants constants;
+    constants.slices = slices;
+    constants.steps = steps;
+    out.push_back(
+        step(fmt::format("{} {}, {} steps", slices, slices == 1 ? "slice" : "slices", steps),
+             constants));
+  }
+  return out;
+}
+
+std::vector<EffectStep> accurate_gtao_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t slices : {4u, 8u, 16u}) {
+    out.push_back(step(fmt::format("{} slices, {} steps", slices, 2 * slices),
+                       accurate_gtao(slices, 2 * slices)));
+  }
+  return out;
+}
+
+std::vector<EffectStep> line_sweep_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t count : {4u, 8u, 16u, 32u}) {
+    out.push_back(step(fmt::format("lines of {} directions", count), LineSweepSettings{count}));
+  }
+  return out;
+}
+
+template <class Constants>
+Effect screen_space_row(const char* name, const char* about, const char* layer,
+                        EffectLibrary library, ScreenSpaceAoKind kind, const Constants& constants,
+                        std::vector<EffectStep> steps) {
+  Effect row = occlusion_row(name, about, layer);
+  row.steps = std::move(steps);
+  row.library = library;
+  row.more_libraries = {{kFilter, occlusion_filter_library}};
+  row.make = [kind, file = library.file](
+                 const EffectScope& scope) -> rtapi::Result<std::unique_ptr<EffectPass>> {
+    auto passes = ScreenSpaceAo::create(scope.device, scope.frame, kind, scope.library(file),
+                                        scope.library(kFilter), scope.views);
+    if (!passes) return passes.error();
+    return std::unique_ptr<EffectPass>(
+        std::make_unique<ScreenSpaceAoPass>(scope.frame, std::move(*passes)));
+  };
+  row.defaults.set_constants(constants);
+  row.defaults.radius = kDefaultScreenSpaceRadius;
+  return row;
+}
+
+Effect line_sweep_row() {
+  Effect row = occlusion_row("line-sweep-ao", "line-sweep ambient occlusion", "line_sweep_ao");
+  row.steps = line_sweep_steps();
+  row.library = {kLineSweep, line_sweep_ao_library};
+  row.make = [](const EffectScope& scope) -> rtapi::Result<std::unique_ptr<EffectPass>> {
+    auto passes =
+        LineSweepAo::create(scope.device, scope.frame, scope.library(kLineSweep), scope.views);
+    if (!passes) return passes.error();
+    return std::unique_ptr<EffectPass>(
+        std::make_unique<LineSweepAoPass>(scope.frame, std::move(*passes)));
+  };
+  row.defaults.set_constants(LineSweepSettings{});
+  row.defaults.radius = kDefaultScreenSpaceRadius;
+  return row;
+}
+
+Effect uniform_row() {
+  return {.name = "ao-uniform",
+          .about = "ambient occlusion by uniform rays",
+          .library = {"occlusion/ambient_occlusion/ambient_occlusion", ambient_occlusion_library},
+          .pass = uniform_ambient_occlusion_pass,
+          .signals = {{.name = "ao_uniform", .channels = 1, .part = &FrameParts::ambient}},
+          .defaults = EffectSettings{.samples = kDefaultAmbientOcclusionSamples,
+                                     .radius = kDefaultAmbientOcclusionRadius}
+                          .set_constants(UniformOcclusionConstants{}),
+          .replaced_by = "gi",
+          .alternative_to = "ao",
+          .samples_option = "ao-uniform-samples"};
+}
+
+}  // namespace
+
+Effect ambient_occlusion_row() {
+  return {
+      .name = "ao",
+      .about = "ambient occlusion",
+      .library = {"occlusion/ambient_occlusion/ambient_occlusion", ambient_occlusion_library},
+      .pass = ambient_occlusion_pass,
+      .signals = {{.name = "ao",
+                   .channels = 1,
+                   .picture = kAmbientOcclusionSum,
+                   .part = &FrameParts::ambient}},
+      .defaults = {.samples = kDefaultAmbientOcclusionSamples,
+                   .radius = kDefaultAmbientOcclusionRadius},
+      .replaced_by = "gi",
+      .samples_option = "ao-samples",
+      .repeats = true,
+  };
+}
+
+std::vector<Effect> occlusion_alternatives() {
+  const EffectLibrary crytek = {"occlusion/screen_space_ao/crytek_ao", crytek_ao_library};
+  const EffectLibrary hemisphere = {"occlusion/screen_space_ao/hemisphere_ao",
+                                    hemisphere_ao_library};
+  const EffectLibrary hbao = {"occlusion/screen_space_ao/hbao", hbao_library};
+  const EffectLibrary gtao = {"occlusion/screen_space_ao/gtao", gtao_library};
+  return {
+      screen_space_row("crytek-ao", "Crytek's ambient occlusion", "crytek_ao", crytek,
+                       ScreenSpaceAoKind::kCrytek, CrytekConstants{},
+                       steps_of_points(CrytekConstants{})),
+      screen_space_row("crytek-ao-remapped", "Crytek's ambient occlusion, open walls white",
+                       "crytek_ao_remapped", crytek, ScreenSpaceAoKind::kCrytek,
+                       CrytekConstants{.remap = 1}, steps_of_points(CrytekConstants{.remap = 1})),
+      screen_space_row("hemisphere-ao", "hemisphere ambient occlusion", "hemisphere_ao", hemisphere,
+                       ScreenSpaceAoKind::kHemisphere, HemisphereConstants{},
+                       steps_of_points(HemisphereConstants{})),
+      screen_space_row("hbao", "horizon-based ambient occlusion", "hbao", hbao,
+                       ScreenSpaceAoKind::kHbao, HbaoConstants{}, hbao_steps()),
+      screen_space_row("gtao", "ground-truth ambient occlusion", "gtao", gtao,
+                       ScreenSpaceAoKind::kGtao, GtaoConstants{}, gtao_steps()),
+      screen_space_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode",
+                       "gtao_accurate", gtao, ScreenSpaceAoKind::kGtao, accurate_gtao(16, 32),
+                       accurate_gtao_steps()),
+      line_sweep_row(),
+      uniform_row()};
+}
+
+}  // namespace kaamos::effects

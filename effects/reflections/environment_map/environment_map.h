@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Environment maps: the light of a standing scene, seen from a few points, blurred by roughness.
+/// [survey 6.2; Lagarde & Zanuttini 2012]
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "effects/engine/effect_pass.h"
+
+namespace kaamos::effects {
+
+/// A point that the scene is seen from, world space.
+struct EnvironmentProbe {
+  glm::dvec3 position{0.0};  ///< outside of everything solid
+  /// The walls that its picture is taken to show: reflections are looked up where their rays meet
+  /// this box. Not empty.
+  ///@{
+  glm::dvec3 box_min{-1.0};
+  glm::dvec3 box_max{1.0};
+  ///@}
+};
+
+/// One probe where the scene's first camera stands, in the box of the scene.
+std::vector<EnvironmentProbe> default_environment_probes(const Scene& scene);
+
+/// How the maps are made.
+struct EnvironmentDesc {
+  std::vector<EnvironmentProbe> probes;  ///< 1 to 64
+  std::uint32_t side = 64;               ///< texels of a face: a power of two from 16 to 1024
+  std::uint32_t rays = 4;                ///< of each texel, at least 1
+  std::uint32_t directions = 256;        ///< that a texel of a blurred level is the mean of
+};
+
+/// Whether maps can be made so.
+/// @errors KA3070 a number out of its range, a box without an inside, or a probe that is no finite
+/// point.
+rtapi::Status check_environment(const EnvironmentDesc& desc);
+
+/// Levels of a cube, the last for roughness 1.
+inline constexpr std::uint32_t kEnvironmentLevels = 5;
+
+/// The cubes of a scene. Copies share them.
+class EnvironmentMap {
+ public:
+  /// Renders and blurs them. `scope` needs EffectNeeds::lights and EffectNeeds::volume; u20 and t5
+  /// of its views are used meanwhile.
+  /// @errors those of check_environment and of the device.
+  static rtapi::Result<EnvironmentMap> create(const EffectScope& scope,
+                                              const EnvironmentDesc& desc);
+  /// Where the camera is from now on, to which the probes are relative. Nothing that reads them may
+  /// run.
+  /// @errors those of rtapi::Device::CreateBuffer.
+  rtapi::Status set_origin(const rtapi::Device& device, const glm::dvec3& camera, PassViews& views);
+  /// Binds the cubes as environment_map.hlsli reads them: t5; set_origin binds the probes, t6.
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
+  rtapi::Status bind(PassViews& views) const;
+  /// Bytes of the cubes.
+  std::uint64_t bytes() const;
+  /// R16G16B16A16_FLOAT: six faces for each probe, kEnvironmentLevels levels.
+  const rtapi::Texture& cubes() const { return cubes_; }
+
+ private:
+  EnvironmentDesc desc_;
+  rtapi::Texture cubes_;
+  rtapi::Buffer probes_;
+};
+
+/// The shaders that make the maps, which are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
+rtapi::Result<rtapi::ShaderLibrary> environment_bake_library();
+/// Reflections from the maps alone. Register u0 of space3 is no sum: radiance as reflections_pass
+/// has it. Needs as EnvironmentMap::create.
+/// @errors those of EnvironmentMap::create and of ComputePass::create.
+rtapi::Result<std::unique_ptr<EffectPass>> make_environment_reflections(const EffectScope& scope);
+/// Its shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
+rtapi::Result<rtapi::ShaderLibrary> environment_reflections_library();
+
+}  // namespace kaamos::effects

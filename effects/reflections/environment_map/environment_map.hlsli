@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Radiance from all sides at a few points of the scene, as cubes whose levels are blurred for
+// rougher and rougher surfaces. [survey 6.2; Lagarde & Zanuttini 2012]
+#ifndef KAAMOS_ENVIRONMENT_MAP_HLSLI
+#define KAAMOS_ENVIRONMENT_MAP_HLSLI
+
+#include "frame.hlsli"
+
+// effects/reflections/environment_map/environment_map.h binds these to a pass.
+struct EnvironmentProbe {
+  float3 position;  // relative to the camera
+  float padding0;
+  float3 box_min;   // the walls that its picture is taken to show, relative to the camera
+  float padding1;
+  float3 box_max;
+  float padding2;
+};
+TextureCubeArray<float4> environment_cubes : register(t5, space3);
+StructuredBuffer<EnvironmentProbe> environment_probes : register(t6, space3);
+SamplerState environment_sampler : register(s0, space3);  // linear
+
+// Where a ray from inside a box leaves it, seen from the probe: what its cube shows there is what
+// the ray meets. From outside the box, `direction` itself.
+float3 ParallaxCorrected(EnvironmentProbe probe, float3 position, float3 direction) {
+  if (any(position < probe.box_min) || any(position > probe.box_max)) return direction;
+  float nearest = kLongestRay;
+  for (uint i = 0; i < 3; ++i) {
+    const float wall = direction[i] > 0.0 ? probe.box_max[i] : probe.box_min[i];
+    if (direction[i] != 0.0) nearest = min(nearest, (wall - position[i]) / direction[i]);
+  }
+  return position + direction * nearest - probe.position;
+}
+
+// How far a point is outside of a box, metres.
+float DistanceToBox(EnvironmentProbe probe, float3 position) {
+  return length(max(max(probe.box_min - position, position - probe.box_max), float3(0, 0, 0)));
+}
+
+static const float kNearProbe = 0.1;  // metres: closer than this, probes count alike
+
+// Radiance that arrives from about a direction at a rough surface. Probes whose box the point lies
+// in count by how near they are; others fade out within a metre.
+float3 EnvironmentRadiance(float3 position, float3 direction, float roughness) {
+  uint count, stride;
+  environment_probes.GetDimensions(count, stride);
+  uint width, height, cubes, levels;
+  environment_cubes.GetDimensions(0, width, height, cubes, levels);
+  const float level = saturate(roughness) * float(levels - 1);
+  float3 sum = float3(0, 0, 0);
+  float weights = 0.0;
+  for (uint i = 0; i < count; ++i) {
+    const EnvironmentProbe probe = environment_probes[i];
+    const float3 from_probe = position - probe.position;
+    const float inside = max(1e-4, 1.0 - DistanceToBox(probe, position));
+    const float weight = inside / (dot(from_probe, from_probe) + kNearProbe * kNearProbe);
+    const float3 towards = ParallaxCorrected(probe, position, direction);
+    sum += weight * environment_cubes.SampleLevel(environment_sampler, float4(towards, float(i)),
+                                                  level).rgb;
+    weights += weight;
+  }
+  return weights > 0.0 ? sum / weights : SkyTowards(direction);
+}
+
+#endif

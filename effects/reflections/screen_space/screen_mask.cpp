@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "effects/reflections/screen_space/screen_mask.h"
+
+#include <shaders/screen_mask.h>
+
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "effects/engine/compute_pass.h"
+#include "effects/engine/picture.h"
+#include "effects/reflections/environment_map/environment_map.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+constexpr std::uint32_t kBlock = 8;  // pixels along a side
+constexpr std::uint32_t kDepthBounds = 2, kPixels = 3, kPixelCount = 4, kGroups = 5;  // u, space3
+
+rtapi::Result<rtapi::Buffer> create_words(const rtapi::Device& device, std::uint64_t count,
+                                          const char* name) {
+  rtapi::BufferDesc desc;
+  desc.SizeInBytes = count * sizeof(std::uint32_t);
+  desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
+  desc.Name = name;
+  return device.CreateBuffer(desc);
+}
+
+class MaskedReflections : public EffectPass {
+ public:
+  explicit MaskedReflections(const EffectScope& scope)
+      : device_(scope.device),
+        frame_(scope.frame),
+        views_(scope.views),
+        blocks_x_((scope.frame.width() + kBlock - 1) / kBlock),
+        blocks_y_((scope.frame.height() + kBlock - 1) / kBlock) {}
+
+  rtapi::Status create(const EffectScope& scope) {
+    const auto constants = scope.settings.get_constants<ScreenMaskConstants>();
+    if (const auto s = check_screen_reflections(constants.screen); !s) return s;
+    auto masks = bind_instance_masks(scope);
+    if (!masks) return masks.error();
+    masks_ = std::move(*masks);
+    const auto& library = scope.library("reflections/screen_space/screen_mask");
+    constexpr const char* kEntries[] = {"BoundDepths", "ClassifyPixels", "CountGroups",
+                                        "MarchPixels"};
+    ComputePass* const passes[] = {&bound_, &classify_, &count_, &march_};
+    for (std::size_t i = 0; i < std::size(kEntries); ++i) {
+      auto pass = ComputePass::create(device_, frame_, library, kEntries[i]);
+      if (!pass) return pass.error();
+      *passes[i] = std::move(*pass);
+    }
+    const auto signature = device_.CreateCommandSignature(
+        {.ByteStride = 12, .ArgumentDescs = {{.Type = rtapi::IndirectArgumentType::kDispatch}}},
+        {});
+    if (!signature) return signature.error();
+    signature_ = *signature;
+    if (const auto s = create_buffers(); !s) return s;
+    if (constants.screen.fallback != ScreenFallback::kEnvironment) return {};
+    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
+    if (!map) return map.error();
+    environment_ = std::move(*map);
+    return {};
+  }
+
+  rtapi::Status begin_frame(const Camera& camera) override {
+    if (!environment_) return {};
+    return environment_->set_origin(device_, camera.position(), views_);
+  }
+
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override {
+    const PassArguments arguments(views_, settings.constants);
+    bound_.dispatch(list, frame_, constants, arguments, blocks_x_, blocks_y_);
+    classify_.dispatch(list, frame_, constants, arguments, frame_.width(), frame_.height());
+    count_.dispatch_groups(list, frame_, constants, arguments, 1, 1);
+    const auto transition = [&](rtapi::ResourceStates from, rtapi::ResourceStates to) {
+      list.ResourceBarrier(rtapi::ResourceBarrier::Transition(groups_, from, to));
+    };
+    transition(rtapi::ResourceStates::kUnorderedAccess, rtapi::ResourceStates::kIndirectArgument);
+    march_.dispatch_indirect(list, frame_, constants, arguments, signature_, groups_);
+    transition(rtapi::ResourceStates::kIndirectArgument, rtapi::ResourceStates::kUnorderedAccess);
+  }
+
+  std::uint64_t bytes() const override {
+    return picture_bytes(bounds_) + pixels_.size() + pixel_count_.size() + groups_.size() +
+           masks_.size() + (environment_ ? environment_->bytes() : 0);
+  }
+
+ private:
+  rtapi::Status create_buffers() {
+    const auto bounds = create_picture(device_, "depths of blocks",
+                                       rtapi::Format::kR32G32B32A32Float, blocks_x_, blocks_y_);
+    if (!bounds) return bounds.error();
+    bounds_ = *bounds;
+    const auto pixels = create_words(device_, std::uint64_t{frame_.width()} * frame_.height(),
+                                     "pixels to march for");
+    if (!pixels) return pixels.error();
+    pixels_ = *pixels;
+    const auto pixel_count = create_words(device_, 1, "number of pixels to march for");
+    if (!pixel_count) return pixel_count.error();
+    pixel_count_ = *pixel_count;
+    const auto groups = create_words(device_, 3, "groups to march for");
+    if (!groups) return groups.error();
+    groups_ = *groups;
+    if (const auto s = views_.set_unordered_access(kDepthBounds, bounds_); !s) return s;
+    if (const auto s = views_.set_unordered_access(kPixels, pixels_, 4); !s) return s;
+    if (const auto s = views_.set_unordered_access(kPixelCount, pixel_count_, 4); !s) return s;
+    return views_.set_unordered_access(kGroups, groups_, 4);
+  }
+
+  const rtapi::Device& device_;
+  const Frame& frame_;
+  PassViews& views_;
+  std::uint32_t blocks_x_, blocks_y_;
+  ComputePass bound_, classify_, count_, march_;
+  rtapi::CommandSignature signature_;
+  rtapi::Texture bounds_;
+  rtapi::Buffer pixels_, pixel_count_, groups_, masks_;
+  std::optional<EnvironmentMap> environment_;
+};
+
+}  // namespace
+
+rtapi::Result<rtapi::ShaderLibrary> screen_mask_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_screen_mask());
+}
+
+rtapi::Result<std::unique_ptr<EffectPass>> make_masked_reflections(const EffectScope& scope) {
+  auto pass = std::make_unique<MaskedReflections>(scope);
+  if (const auto s = pass->create(scope); !s) return s.error();
+  return std::unique_ptr<EffectPass>(std::move(pass));
+}
+
+}  // namespace kaamos::effects

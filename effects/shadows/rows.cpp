@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "effects/shadows/rows.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
+#include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
+#include "effects/shadows/shadow_map/shadow_map.h"
+#include "effects/shadows/sun_shadow/sun_shadow.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+// A row whose signal is called `layer`.
+Effect shadow_map_row(const char* name, const char* about, const char* layer,
+                      const ShadowMapConstants& constants) {
+  Effect row = {.name = name, .about = about};
+  row.library = {"shadows/shadow_map/shadow_map", shadow_map_library};
+  row.make = make_shadow_map;
+  row.more_libraries = {{"shadows/shadow_map/shadow_draws", shadow_draws_library}};
+  row.signals = {
+      {.name = layer, .channels = 1, .is_sum = false, .part = &FrameParts::sun_visibility}};
+  row.defaults.set_constants(constants);
+  row.needs.sun = true;
+  row.alternative_to = "sun";
+  return row;
+}
+
+EffectStep step(const char* label, const ShadowMapConstants& constants) {
+  return {label, EffectSettings().set_constants(constants)};
+}
+
+Effect sun_map_row() {
+  Effect row = shadow_map_row("sun-map", "sun shadow by a depth map", "sun_map", {});
+  row.steps = {step("1024 x 1024", {.size = 1024}), step("2048 x 2048", {.size = 2048}),
+               step("4096 x 4096", {.size = 4096}), step("8192 x 8192", {.size = 8192})};
+  row.misses = "penumbras, what is thinner than a texel, and contact, where its bias opens a gap";
+  return row;
+}
+
+Effect sun_per_object_row() {
+  const auto per_object = [](std::uint32_t size) {
+    return ShadowMapConstants{.flags = kShadowMapPerObject, .size = size, .cascades = 1};
+  };
+  Effect row = shadow_map_row("sun-per-object", "sun shadow by a map, and one fitted to the hero",
+                              "sun_per_object", per_object(2048));
+  row.steps = {step("2 of 1024 x 1024", per_object(1024)),
+               step("2 of 2048 x 2048", per_object(2048)),
+               step("2 of 4096 x 4096", per_object(4096))};
+  row.misses = "what sun-map misses, beside the hero; where its map ends, shadows change at once";
+  return row;
+}
+
+std::vector<EffectStep> adaptive_steps() {
+  std::vector<EffectStep> out;
+  for (const std::uint32_t rays : {kAdaptiveStandardSamples, kAdaptiveHighSamples, 16u}) {
+    out.push_back({fmt::format("{} rays at most", rays),
+                   EffectSettings{.samples = rays}.set_constants(AdaptiveShadowConstants{})});
+  }
+  return out;
+}
+
+constexpr std::uint32_t kPlane = kShadowMapReceiverPlane;
+
+Effect sun_pcf_row() {
+  const ShadowMapConstants defaults = {.method = kShadowMapPcf,
+                                       .flags = kPlane,
+                                       .constant_bias = 0.5f,
+                                       .slope_bias = 0.0f,
+                                       .radius = 0.03f};
+  Effect row = shadow_map_row("sun-pcf", "sun shadow by a map, filtered as wide everywhere",
+                              "sun_pcf", defaults);
+  ShadowMapConstants few = defaults, most = defaults;
+  few.size = 1024;
+  few.taps = 9;
+  few.flags |= kShadowMapGrid;
+  most.size = 4096;
+  most.taps = 32;
+  row.steps = {step("1024 x 1024, 3 x 3 taps", few), step("2048 x 2048, 16 taps", defaults),
+               step("4096 x 4096, 32 taps", most)};
+  row.misses = "how wide penumbras are, and thin things";
+  return row;
+}
+
+Effect sun_pcss_row() {
+  const ShadowMapConstants defaults = {.method = kShadowMapPcss,
+                                       .flags = kPlane,
+                                       .constant_bias = 0.5f,
+                                       .slope_bias = 0.0f,
+                                       .radius = 0.25f,
+                                       .taps = 32};
+  Effect row = shadow_map_row("sun-pcss", "sun shadow by a map, filtered as wide as the penumbra",
+                              "sun_pcss", defaults);
+  ShadowMapConstants few = defaults, most = defaults;
+  few.size = 1024;
+  few.taps = 25;
+  most.size = 4096;
+  most.taps = 64;
+  most.blocker_taps = 36;
+  row.steps = {step("1024 x 1024, 16 + 25 taps", few), step("2048 x 2048, 16 + 32 taps", defaults),
+               step("4096 x 4096, 36 + 64 taps", most)};
+  row.misses = "penumbras below things at several heights, and thin things";
+  return row;
+}
+
+Effect sun_backprojection_row() {
+  const auto backprojection = [](std::uint32_t rows) {
+    return ShadowMapConstants{.method = kShadowMapBackprojection,
+                              .flags = kPlane,
+                              .constant_bias = 0.5f,
+                              .slope_bias = 0.0f,
+                              .radius = 0.25f,
+                              .taps = rows};
+  };
+  Effect row =
+      shadow_map_row("sun-backprojection", "sun shadow by what a map's texels hide of the sun",
+                     "sun_backprojection", backprojection(16));
+  row.steps = {step("8 x 8 texels", backprojection(8)), step("16 x 16 texels", backprojection(16)),
+               step("32 x 32 texels", backprojection(32))};
+  row.misses = "what stands behind another thing, which the map does not have";
+  return row;
+}
+
+Effect sun_cascades_row() {
+  const ShadowMapConstants defaults = {.method = kShadowMapPcss,
+                                       .flags = kPlane,
+                                       .size = 1024,
+                                       .cascades = 4,
+                                       .constant_bias = 0.5f,
+                                       .slope_bias = 0.0f,
+                                       .radius = 0.25f,
+                                       .taps = 32};
+  Effect row = shadow_map_row("sun-cascades", "sun shadow by maps, finer ones near the camera",
+                              "sun_cascades", defaults);
+  ShadowMapConstants few = defaults, most = defaults;
+  few.cascades = 2;
+  few.taps = 25;
+  most.size = 2048;
+  most.taps = 64;
+  most.blocker_taps = 36;
+  row.steps = {step("2 of 1024 x 1024, 16 + 25 taps", few),
+               step("4 of 1024 x 1024, 16 + 32 taps", defaults),
+               step("4 of 2048 x 2048, 36 + 64 taps", most)};
+  row.misses =
+      "penumbras below things at several heights; seams where a cascade ends; off-screen hits";
+  return row;
+}
+
+Effect sun_hybrid_row() {
+  HybridShadowConstants defaults;
+  defaults.map = {.method = kShadowMapPcss,
+                  .flags = kPlane,
+                  .constant_bias = 0.5f,
+                  .slope_bias = 0.0f,
+                  .radius = 0.25f,
+                  .taps = 32};
+  Effect row =
+      shadow_map_row("sun-hybrid", "sun shadow by a ray, and far from what casts it by a map",
+                     "sun_hybrid", defaults.map);
+  row.library = {"shadows/hybrid_shadow/hybrid_shadow", hybrid_shadow_library};
+  row.make = make_hybrid_shadow;
+  row.defaults.set_constants(defaults);
+  HybridShadowConstants inner = defaults, most = defaults;
+  inner.map.flags |= kShadowMapInnerPenumbra;
+  most.map.size = 4096;
+  most.map.taps = 64;
+  most.map.blocker_taps = 36;
+  row.steps = {{"2048 x 2048, inner penumbra", EffectSettings().set_constants(inner)},
+               {"2048 x 2048, 16 + 32 taps", EffectSettings().set_constants(defaults)},
+               {"4096 x 4096, 36 + 64 taps", EffectSettings().set_constants(most)}};
+  row.misses = "penumbras near what casts them, and below things at several heights";
+  return row;
+}
+
+}  // namespace
+
+Effect sun_shadow_row() {
+  return {
+      .name = "sun",
+      .about = "sun shadow",
+      .library = {"shadows/sun_shadow/sun_shadow", sun_shadow_library},
+      .pass = sun_shadow_pass,
+      .signals = {{.name = "sun",
+                   .channels = 1,
+                   .picture = kSunVisibilitySum,
+                   .is_visibility = true,
+                   .sharpness_picture = kSunSharpnessSum,
+                   .part = &FrameParts::sun_visibility}},
+      .defaults = {.samples = kDefaultSunSamples},
+      .needs = {.sun = true},
+      .samples_option = "sun-samples",
+      .repeats = true,
+  };
+}
+
+Effect contact_shadow_row() {
+  return {
+      .name = "contact",
+      .about = "contact shadows of local lights",
+      .library = {"shadows/contact_shadow/contact_shadow", contact_shadow_library},
+      .pass = contact_shadow_pass,
+      .signals = {{.name = "contact",
+                   .channels = 2,
+                   .output = 1,
+                   .is_visibility = true,
+                   .sharpness_output = 2}},
+      .defaults = EffectSettings().set_constants(kContactAsNeeded),
+      .needs = {.local_lights = true, .strongest_lights = true},
+      .includes = "local",
+      .samples_option = "contact-samples",
+  };
+}
+
+std::vector<Effect> shadow_alternatives() {
+  std::vector<Effect> out = {
+      {
+          .name = "adaptive-sun",
+          .about = "sun shadow with rays where it varies",
+          .library = {"shadows/adaptive_shadow/adaptive_shadow", adaptive_shadow_library},
+          .make = AdaptiveShadowPass::create,
+          .signals = {{.name = "adaptive_sun",
+                       .channels = 1,
+                       .is_sum = false,
+                       .part = &FrameParts::sun_visibility},
+                      {.name = "adaptive_sun_rays", .output = 1, .is_sum = false}},
+          .defaults = EffectSettings{.samples = kAdaptiveStandardSamples}.set_constants(
+              AdaptiveShadowConstants{}),
+          .needs = {.sun = true},
+          .alternative_to = "sun",
+          .samples_option = "adaptive-sun-samples",
+          .steps = adaptive_steps(),
+          .misses = "for up to four frames what moves, and thin shadows on calm ground",
+      },
+      sun_map_row(),
+      sun_per_object_row(),
+      sun_pcf_row(),
+      sun_pcss_row(),
+      sun_backprojection_row(),
+      sun_cascades_row(),
+      sun_hybrid_row(),
+  };
+  for (const auto rows : {filtered_shadow_rows, screen_shadow_rows}) {
+    for (Effect& row : rows()) out.push_back(std::move(row));
+  }
+  return out;
+}
+
+}  // namespace kaamos::effects

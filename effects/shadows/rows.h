@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The registry's rows of shadows.
+#pragma once
+
+#include <vector>
+
+#include "effects/engine/effect.h"
+
+namespace kaamos::effects {
+
+/// Shows how much of the sun each surface sees: "sun".
+Effect sun_shadow_row();
+/// Shows short shadows of the strongest lights: "contact".
+Effect contact_shadow_row();
+/// Lists the alternatives to "sun" and "contact".
+std::vector<Effect> shadow_alternatives();
+
+/// Parts of the alternatives.
+///@{
+std::vector<Effect> filtered_shadow_rows();  ///< the sun's shadow by maps that are filtered first
+std::vector<Effect> screen_shadow_rows();    ///< short shadows found in the depth picture
+///@}
+
+}  // namespace kaamos::effects
