@@ -309,7 +309,7 @@ check_documented() {
 # include what they like.
 check_layers() {
   {
-    list_files -name '*.cpp' -o -name '*.h' -o -name '*.inc' |
+    list_files -name '*.cpp' -o -name '*.h' -o -name '*.inc' -o -name '*.hlsl' -o -name '*.hlsli' |
       grep -E '^(rtapi|runtime|d3d12|effects|examples)/' | grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$'
     list_files -name CMakeLists.txt -o -name README.md | grep -E '^(rtapi|runtime|d3d12|effects|examples)/'
   } | awk -f "$here/layers.awk" tests/style/layers.txt - | LC_ALL=C sort
