@@ -207,3 +207,17 @@ TEST_P(Explain, ErrorsNameWhatIsWrong) {
             "KA0916 cannot explain the pixel: Dispatch is 1, but the list has only 1 calls of "
             "DispatchRays");
 }
+
+TEST_P(Explain, MemoryFreedAfterRecordingIsTheErrorOfTheQueueAndNothingRuns) {
+  CommandList list = record();
+  ASSERT_TRUE(list.Close().ok());
+  const std::vector<float> before = results();
+  tables_[0] = {};
+  const auto pixel = ExplainPixel(queue_, list, {.X = 3});
+  ASSERT_FALSE(pixel.ok());
+  EXPECT_EQ(pixel.error().id.text(), "KA0856");
+  EXPECT_EQ(pixel.error().message, queue_.ExecuteCommandLists({list}).error().message);
+  EXPECT_FALSE(CollectPixelStatistics(queue_, list, {}).ok());
+  EXPECT_TRUE(device_.GetDeviceRemovedReason().ok());
+  EXPECT_EQ(results(), before);
+}

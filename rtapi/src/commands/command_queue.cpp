@@ -6,6 +6,7 @@
 #include <rtapi/device.h>
 
 #include "rtapi/src/commands/command_queue_impl.h"
+#include "rtapi/src/commands/execute_held.h"
 
 namespace rtapi {
 
@@ -73,17 +74,14 @@ void CommandQueueImpl::Run(const Operation& operation) {
   }
   const auto* execute = std::get_if<Execute>(&operation);
   if (!execute || !device->removed().ok()) return;
-  // Freed while the list waited for a fence, or by another thread between the check and here. What
-  // is held now stays until the list has run.
-  const auto held = HoldAll(*execute->uses);
-  if (!held) return device->Remove(held.error());
-  std::lock_guard lock(device->execute_mutex);
-  if (device->checks) {
-    kaamos::checks::compare_uploads(device->addresses, *device->reporter, execute->uploads);
-    device->checks->begin_list();
-  }
-  if (Status s = device->backend->execute(*execute->commands); !s.ok()) device->Remove(s.error());
-  if (device->checks) device->checks->end_list();
+  const auto run = [&] {
+    if (device->checks) {
+      kaamos::checks::compare_uploads(device->addresses, *device->reporter, execute->uploads);
+    }
+    return execute_commands(*device, *execute->commands);
+  };
+  // Memory may have been freed while the list waited for a fence, or by another thread.
+  if (Status s = execute_held(*device, *execute->uses, run); !s.ok()) device->Remove(s.error());
 }
 
 }  // namespace detail

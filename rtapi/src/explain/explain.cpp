@@ -5,6 +5,7 @@
 
 #include "rtapi/src/commands/command_list_impl.h"
 #include "rtapi/src/commands/command_queue_impl.h"
+#include "rtapi/src/commands/execute_held.h"
 #include "rtapi/src/explain/host_textures.h"
 #include "runtime/explain/replay.h"
 
@@ -84,45 +85,33 @@ Status CheckMemory(const DeviceImpl& device) {
   return {};
 }
 
-Status Execute(DeviceImpl& device, std::span<const runtime::Command> commands) {
-  if (commands.empty()) return {};
-  Status s = device.backend->execute(commands);
-  if (!s.ok()) device.Remove(s.error());
-  return s;
-}
-
 // Executes `list`, and calls use(replay, command) just before the dispatch.
 template <class Use>
 Status ExecuteWith(CommandQueue& queue, CommandList& list, const ExplainDesc& desc,
                    const char* call, Use&& use) {
-  if (!queue) return MakeError(Id::kNullHandle, call, ": the queue is an empty handle");
+  if (Status s = prepare_explained(queue, list, call); !s.ok()) return s;
   const std::shared_ptr<DeviceImpl>& device = queue.impl()->device;
-  if (Status s = CheckHandle(device, list, Text(call, ": the list")); !s.ok()) return s;
-  if (list.is_open()) {
-    if (Status s = list.Close(); !s.ok()) return s;
-  }
-  if (!list.GetErrors().empty()) return list.GetErrors().front();
-  if (Status s = device->removed(); !s.ok()) return s;
   const std::shared_ptr<const CommandVector> commands = list.impl()->commands;
   const auto found = FindDispatch(*commands, desc);
   if (!found.ok()) return found.error();
   if (Status s = CheckMemory(*device); !s.ok()) return s;
 
-  const std::lock_guard lock(device->execute_mutex);
   const std::span<const runtime::Command> all = *commands;
-  if (Status s = Execute(*device, all.first(found->position)); !s.ok()) return s;
-  {
-    const Snapshot snapshot(device->addresses);
-    HostTextures textures(*device);
-    kaamos::explain::Environment environment;
-    environment.backend = device->backend.get();
-    environment.addresses = &device->addresses;
-    environment.texture = [&](const shader::Descriptor& d) { return textures.View(d); };
-    environment.sampler = [&](const shader::Descriptor& d) { return textures.Sampler(d); };
-    kaamos::explain::Replay replay(environment, *found->command);
-    if (Status s = use(replay, *found->command); !s.ok()) return s;
-  }
-  return Execute(*device, all.subspan(found->position));
+  return execute_held(*device, *list.impl()->uses, [&]() -> Status {
+    if (Status s = execute_commands(*device, all.first(found->position)); !s.ok()) return s;
+    {
+      const Snapshot snapshot(device->addresses);
+      HostTextures textures(*device);
+      kaamos::explain::Environment environment;
+      environment.backend = device->backend.get();
+      environment.addresses = &device->addresses;
+      environment.texture = [&](const shader::Descriptor& d) { return textures.View(d); };
+      environment.sampler = [&](const shader::Descriptor& d) { return textures.Sampler(d); };
+      kaamos::explain::Replay replay(environment, *found->command);
+      if (Status s = use(replay, *found->command); !s.ok()) return s;
+    }
+    return execute_commands(*device, all.subspan(found->position));
+  });
 }
 
 }  // namespace

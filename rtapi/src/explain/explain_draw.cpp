@@ -6,6 +6,7 @@
 
 #include "rtapi/src/commands/command_list_impl.h"
 #include "rtapi/src/commands/command_queue_impl.h"
+#include "rtapi/src/commands/execute_held.h"
 #include "runtime/backend/draw_observation.h"
 #include "runtime/backend/linked_graphics.h"
 #include "runtime/explain/values.h"
@@ -23,30 +24,19 @@ using runtime::PixelEvent;
 // Executes `list` and notes its draws.
 Status ExecuteObserved(CommandQueue& queue, CommandList& list, const char* call,
                        runtime::DrawObservation& observation) {
-  if (!queue) return MakeError(Id::kNullHandle, call, ": the queue is an empty handle");
-  const std::shared_ptr<DeviceImpl>& device = queue.impl()->device;
-  if (Status s = CheckHandle(device, list, Text(call, ": the list")); !s.ok()) return s;
-  if (list.is_open()) {
-    if (Status s = list.Close(); !s.ok()) return s;
-  }
-  if (!list.GetErrors().empty()) return list.GetErrors().front();
-  if (Status s = device->removed(); !s.ok()) return s;
-  const auto held = HoldAll(*list.impl()->uses);
-  if (!held) return held.error();
-
-  const std::lock_guard lock(device->execute_mutex);
-  if (!device->backend->observe_draws(&observation)) {
-    Error error = MakeError(Id::kExplain, call, ": the ", device->backend->info().Name,
-                            " backend does not rasterize by itself; use the embree backend");
-    error.code = ErrorCode::kUnsupported;
-    return error;
-  }
-  if (device->checks) device->checks->begin_list();
-  Status s = device->backend->execute(*list.impl()->commands);
-  device->backend->observe_draws(nullptr);
-  if (device->checks) device->checks->end_list();
-  if (!s.ok()) device->Remove(s.error());
-  return s;
+  if (Status s = prepare_explained(queue, list, call); !s.ok()) return s;
+  DeviceImpl& device = *queue.impl()->device;
+  return execute_held(device, *list.impl()->uses, [&]() -> Status {
+    if (!device.backend->observe_draws(&observation)) {
+      Error error = MakeError(Id::kExplain, call, ": the ", device.backend->info().Name,
+                              " backend does not rasterize by itself; use the embree backend");
+      error.code = ErrorCode::kUnsupported;
+      return error;
+    }
+    Status s = execute_commands(device, *list.impl()->commands);
+    device.backend->observe_draws(nullptr);
+    return s;
+  });
 }
 
 std::string TexelText(Format format, const std::array<uint8_t, 16>& bytes) {
