@@ -174,8 +174,7 @@ struct DispatchStatistics {
 /// Where the replay ends early, Removal says why and no error is returned: the device says its own.
 /// @errors KA0903, KA0904 an empty handle or a list of another device; the first error of
 /// recording; KA0856 memory that the list uses was freed; KA0916 no such dispatch or index, or
-/// memory that the host cannot reach; what
-/// Device::GetDeviceRemovedReason says.
+/// memory that the host cannot reach; what Device::GetDeviceRemovedReason says.
 Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,
                                       const ExplainDesc& desc);
 /// Executes a list in the same way and counts what the rays of every pixel of one dispatch did; X,

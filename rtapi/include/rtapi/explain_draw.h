@@ -110,13 +110,13 @@ struct OverdrawStatistics {
 /// Executes a list as CommandQueue::ExecuteAndWait does (it is closed if it is open), and notes
 /// what its draws do at one pixel.
 /// @errors KA0903, KA0904 an empty handle or a list of another device; the first error of
-/// recording; KA0916 a pixel outside of the targets, no such draw, or a backend that cannot; what
-/// Device::GetDeviceRemovedReason says.
+/// recording; KA0856 memory that the list uses was freed; KA0916 a pixel outside of the targets, no
+/// such draw, or a backend that cannot; what Device::GetDeviceRemovedReason says.
 Result<DrawPixelExplanation> ExplainDrawPixel(CommandQueue& queue, CommandList& list,
                                               const ExplainDrawDesc& desc);
 /// Executes a list in the same way and counts what its draws do at every pixel.
-/// @errors as of ExplainDrawPixel, but a list without draws is none: KA0903, KA0904, KA0916,
-/// recording, removal.
+/// @errors as of ExplainDrawPixel, but a list without draws is none: KA0856, KA0903, KA0904,
+/// KA0916, recording, removal.
 Result<OverdrawStatistics> CollectOverdraw(CommandQueue& queue, CommandList& list,
                                            const DrawRange& draws = {});
 
