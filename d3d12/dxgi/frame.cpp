@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "d3d12/dxgi/frame.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <string>
-#include <vector>
+
+#include "effects/assets/image/png.h"
+#include "effects/assets/image/srgb.h"
 
 namespace kaamos::d3d12 {
 
@@ -56,11 +55,10 @@ float half_to_float(uint16_t half) {
   return (half & 0x8000) != 0 ? -value : value;
 }
 
-// [IEC 61966-2-1]; NaN is black.
+// NaN is black.
 uint8_t srgb_byte(float linear) {
   if (!(linear > 0)) return 0;
-  const float x = std::min(linear, 1.0F);
-  const float encoded = x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
+  const float encoded = effects::srgb_from_linear(std::min(linear, 1.0F));
   return static_cast<uint8_t>(std::lround(encoded * 255));
 }
 
@@ -87,13 +85,14 @@ void convert(DXGI_FORMAT format, const uint8_t* pixel, uint8_t* rgb) {
   }
 }
 
-std::vector<uint8_t> convert(const KaamosFrame& frame) {
+effects::ByteImage convert(const KaamosFrame& frame) {
   const size_t pixel_bytes = frame.format == DXGI_FORMAT_R16G16B16A16_FLOAT ? 8 : 4;
-  std::vector<uint8_t> out(size_t{3} * frame.width * frame.height);
+  effects::ByteImage out = {frame.width, frame.height, 3, {}};
+  out.values.resize(size_t{3} * frame.width * frame.height);
   for (size_t y = 0; y < frame.height; ++y) {
     const uint8_t* row = static_cast<const uint8_t*>(frame.pixels) + y * frame.row_bytes;
     for (size_t x = 0; x < frame.width; ++x) {
-      convert(frame.format, row + x * pixel_bytes, &out[3 * (y * frame.width + x)]);
+      convert(frame.format, row + x * pixel_bytes, &out.values[3 * (y * frame.width + x)]);
     }
   }
   return out;
@@ -102,24 +101,8 @@ std::vector<uint8_t> convert(const KaamosFrame& frame) {
 rtapi::Status write_png(const std::filesystem::path& path, const KaamosFrame& frame) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
-  const std::vector<uint8_t> rgb = convert(frame);
-  png_image image = {};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = frame.width;
-  image.height = frame.height;
-  image.format = PNG_FORMAT_RGB;
-  image.flags = PNG_IMAGE_FLAG_FAST;
-  // A reader never sees half of a file.
-  const std::string unfinished = path.string() + ".part";
-  const bool written =
-      png_image_write_to_file(&image, unfinished.c_str(), 0, rgb.data(), 0, nullptr) != 0;
-  if (written) std::filesystem::rename(unfinished, path, error);
-  if (!written || error) {
-    std::remove(unfinished.c_str());
-    return make_error(ErrorId::kPresent, "\"" + path.string() + "\": " +
-                                             (written ? error.message() : image.message) + ".");
-  }
-  return {};
+  const rtapi::Status written = effects::write_png(path.string(), convert(frame));
+  return written.ok() ? written : make_error(ErrorId::kPresent, written.error().message);
 }
 
 }  // namespace
