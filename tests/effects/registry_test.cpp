@@ -183,7 +183,7 @@ TEST(Registry, NamesAreKnownOrRefused) {
   renderer->set_libraries({});
   const auto without = renderer->render();
   ASSERT_FALSE(without);
-  EXPECT_NE(without.error().message.find("\"gbuffer/gbuffer\""), std::string::npos);
+  EXPECT_NE(without.error().message.find("\"surfaces/gbuffer/gbuffer\""), std::string::npos);
 }
 
 // Indirect light takes the place of ambient occlusion: nothing would read its rays.

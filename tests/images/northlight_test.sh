@@ -204,7 +204,7 @@ expect_error 1 'KA3000 .*reference.sums' --scene glass-stack --size 64x36 --refe
 
 # --watch: editing a shader changes the picture.
 mkdir "$work/effects"
-cp -r "$source_folder"/effects/{shaders,gbuffer,ambient_occlusion,sun_shadow,composite} "$work/effects"
+cp -r "$source_folder"/effects/{shaders,surfaces,occlusion,shadows,composition} "$work/effects"
 KAAMOS_EFFECTS=$work/effects "$northlight" --watch --size 320x180 --out "$work/watch" > "$work/log" 2>&1 &
 watcher=$!
 wait_for() {  # wait_for SECONDS command...
