@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What came before near-field rays, as effects of a frame: the volume times occlusion.
+// Indirect light by rays, and what came before near-field rays: the volume times occlusion.
 // [GDC 2018 talk; Northlight deck: Indirect Diffuse Illumination]
 #include "effects/indirect/rows.h"
 

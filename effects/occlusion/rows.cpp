@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Alternatives to ambient occlusion by cosine-distributed rays, as effects of a frame.
+// Ambient occlusion by rays, and the alternatives to it, as effects of a frame.
 #include "effects/occlusion/rows.h"
 
 #include <fmt/format.h>

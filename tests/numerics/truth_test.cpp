@@ -83,7 +83,7 @@ TEST(FrameEnergy, IsThatOfThePathTracedTruth) {
     EXPECT_GE(ratio, least) << part;
     EXPECT_LE(ratio, most) << part;
   };
-  // Of the frame by some signals, without what the surfaces emit.
+  // Compares the frame composed from some signals, without emitted light, with layers of the truth.
   const double emitted = sum_of(renderer->read("emissive").value(), &ids);
   const auto part_of = [&](const std::vector<std::string>& signals,
                            const std::vector<std::string>& layers) {

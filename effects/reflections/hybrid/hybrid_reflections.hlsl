@@ -6,7 +6,7 @@
 
 // Sums over samples, as those of effects/reflections/traced.
 RWTexture2D<float4> reflection : register(u0, space3);
-// Of the last sample, as those of effects/reflections/screen_space.
+// They belong to the last sample, as those of effects/reflections/screen_space.
 RWTexture2D<float4> hits : register(u1, space3);
 
 struct HybridConstants {

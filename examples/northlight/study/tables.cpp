@@ -113,7 +113,7 @@ StudyTable control_table(const Options& options, const ClaimTable& claims) {
   return out;
 }
 
-// Of one light and of four, in milliseconds. [survey: figure 18]
+// The columns are milliseconds for one light and for four. [survey: figure 18]
 struct SurveyRow {
   const char* name;
   double pub[2], resort[2], breakfast[2];
