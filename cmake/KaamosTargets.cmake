@@ -59,40 +59,49 @@ if(KAAMOS_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${KAAMOS_CCACHE}")
 endif()
 
-# Tests are half of what a build compiles, and each runs only once, so the release build optimises
-# them lightly. That takes a quarter less time. Programs leave the work to libraries and are compiled
-# lightly too: at -O3, the command line of northlight alone takes five seconds.
+# Programs leave the work to libraries and are compiled lightly: at -O3, the command line of
+# northlight alone takes five seconds.
 function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s] [SHARE tests]
-#   [MANY_PIPELINES])
-# Adds one executable; every TEST in it becomes one ctest test in a process of its own, with the
-# given labels. Under scripts/test, SHARE tests share a process (tests/vulkan/shared_runs.h). Tests start through kaamos-isolate, which repeats a test on Vulkan that the driver
+# kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s] [ALONE]
+#   [OPTIMIZED] [MANY_PIPELINES])
+# Adds one executable; every TEST in it becomes one ctest test with the given labels, in a process of
+# its own. Under scripts/test, neighbours share a process (tests/vulkan/shared_runs.h) unless the
+# program is ALONE: its tests change the environment or limits, or leave a process that the next test
+# cannot use. Tests start through kaamos-isolate, which repeats a test on Vulkan that the driver
 # crashed. A test counts as one on Vulkan if it or its executable has "vulkan" in its name; it then
-# gets the label vulkan too. MANY_PIPELINES is for Vulkan tests that make many pipelines and trace
-# few rays: lavapipe does not optimise those pipelines, which takes it less than half the time. All
-# other tests run what users run.
+# gets the label vulkan too. OPTIMIZED is for tests that compute much themselves: all others are
+# compiled without optimisation, in two thirds of the time, since tests are half of what a build
+# compiles and each runs only once. MANY_PIPELINES is for Vulkan tests that make many pipelines and
+# trace few rays: lavapipe does not optimise those pipelines, which takes it less than half the time.
+# All other tests run what users run.
+set(KAAMOS_TESTS_PER_PROCESS 16)
 function(kaamos_add_test name)
-  cmake_parse_arguments(arg "MANY_PIPELINES" "TIMEOUT;SHARE" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "ALONE;OPTIMIZED;MANY_PIPELINES" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT KAAMOS_BUILD_TESTS)
     return()
   endif()
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
-  if(NOT arg_SHARE)
-    set(arg_SHARE 1)
+  set(share ${KAAMOS_TESTS_PER_PROCESS})
+  if(arg_ALONE)
+    set(share 1)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE kaamos_build_flags ${arg_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  kaamos_compile_lightly(${name})
+  if(arg_OPTIMIZED)
+    kaamos_compile_lightly(${name})
+  else()
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
+  endif()
   target_compile_definitions(${name} PRIVATE
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   # CMake calls the program that starts a test its emulator.
   set_target_properties(${name} PROPERTIES
-    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT};--share;${arg_SHARE}")
+    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT};--share;${share}")
   add_dependencies(${name} kaamos-isolate)
   math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it before this
   include(GoogleTest)

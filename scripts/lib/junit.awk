@@ -3,7 +3,8 @@
 # and the counts:
 #   failed<TAB>name<TAB>what happened
 #   skipped<TAB>name<TAB>reason
-#   time<TAB>seconds<TAB>name
+#   time<TAB>seconds<TAB>name      GoogleTest's own time where it is known: of tests that share a
+#                                  process, the first to be asked for waits for all of them
 #   total<TAB>passed<TAB>failed<TAB>skipped
 # ctest calls a test "notrun" both when it skipped itself and when it could not be started; only the
 # first counts as a skip. A file that ends early or holds fewer tests than it announces is an error.
@@ -37,8 +38,17 @@ function reason(    n, i, lines, text) {
   return text == "" ? "no reason given" : substr(text, 1, 200)
 }
 
+# What GoogleTest said that the test took; else the time of its process.
+function time_of_test(    at, rest) {
+  if (!match(output, /\n\[ (      OK|  FAILED |  SKIPPED) \] [^\n]*\([0-9]+ ms\)\n/)) return seconds + 0
+  rest = substr(output, RSTART, RLENGTH)
+  sub(/.*\(/, "", rest)
+  return rest / 1000
+}
+
 function close_test() {
   seen++
+  seconds = time_of_test()
   if (seconds + 0 > 0) printf "time\t%.2f\t%s\n", seconds, name
   if (status == "run") passed++
   else if (status == "disabled") { skipped++; print "skipped\t" name "\tdisabled in its source" }

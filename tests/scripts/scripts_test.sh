@@ -474,6 +474,39 @@ slowest_tests_are_shown_slowest_first() {
   expect_not '  T10'
 }
 
+costs_are_summed_by_target_and_program() {
+  local folder="$checkout/build/release" link='lib/libsmall.so.1 lib/libsmall.so'
+  mkdir -p "$folder"
+  {
+    echo '# ninja log v5'
+    printf '0\t9000\t1\tx/CMakeFiles/small.dir/old.cpp.o\tf\n'   # built again below
+    printf '0\t1000\t2\tx/CMakeFiles/small.dir/old.cpp.o\ta\n'
+    printf '500\t3000\t3\ty/CMakeFiles/large.dir/a.cpp.o\tb\n'
+    printf '3000\t4250\t4\ty/CMakeFiles/large.dir/b.cpp.o\tc\n'
+    printf '5000\t5500\t5\t%s\td\n' $link  # one step with two outputs
+  } >"$folder/.ninja_log"
+  printf '0.25\tslow_test\tA.b\n2\tquick_test\tC.d\n1.5\tslow_test\tA.c\n' >"$folder/test-costs.txt"
+  command_ "$checkout/scripts/costs"
+  expect_status 0
+  expect '     3.75  large (2 steps)
+     1.00  small (1 steps)
+     0.50  lib/libsmall.so (1 steps)
+Dearest steps of the build, in seconds:
+     2.50  y/CMakeFiles/large.dir/a.cpp.o
+     1.25  y/CMakeFiles/large.dir/b.cpp.o'
+  expect 'Dearest test programs, in processor seconds:
+     2.00  quick_test (1 tests)
+     1.75  slow_test (2 tests)'
+  run_test
+  expect 'Dearest targets of the build'
+}
+
+costs_need_a_build() {
+  command_ "$checkout/scripts/costs"
+  expect_status 1
+  expect "\"$checkout/build/release\" has no .ninja_log: nothing was built there."
+}
+
 tests_that_come_near_their_limit_are_named() {
   results ran failed ran failed
   printf '    {\n      "command" : \n      [\n        "--limit",\n        "%s",\n        "x"\n      ],

@@ -8,8 +8,10 @@
 // test that fails is not repeated. KAAMOS_VULKAN_RUNS, a file in the build folder, gets a line
 // "ran<TAB>name" for each such test and "repeated<TAB>name<TAB>why" for each repetition;
 // scripts/test fails for more than 1 in 100. Validation layers are on and the driver's shader cache
-// is in the build folder, unless the environment says otherwise.
+// is in the build folder, unless the environment says otherwise. KAAMOS_TEST_COSTS, if set, is a
+// file that gets a line "processor seconds<TAB>program<TAB>name".
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,13 +40,29 @@ std::string file_name(const std::string& path) {
 }
 
 // A single write keeps the lines of tests that run at the same time whole.
-void log_run(const std::string& line) {
-  const char* file = std::getenv("KAAMOS_VULKAN_RUNS");
-  const int log = open(file ? file : KAAMOS_BINARY_DIR "/vulkan-runs.txt",
-                       O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
+void append(const char* file, const std::string& line) {
+  const int log = open(file, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
   if (log < 0) return;
   if (write(log, line.data(), line.size()) < 0) std::perror("kaamos-isolate");
   close(log);
+}
+
+void log_run(const std::string& line) {
+  const char* file = std::getenv("KAAMOS_VULKAN_RUNS");
+  append(file ? file : KAAMOS_BINARY_DIR "/vulkan-runs.txt", line);
+}
+
+double seconds(const timeval& time) {
+  return double(time.tv_sec) + double(time.tv_usec) * 1e-6;
+}
+
+// The processor time of all processes that were started for this test. Called at exit.
+std::string cost_line;
+void log_cost() {
+  const char* file = std::getenv("KAAMOS_TEST_COSTS");
+  rusage used = {};
+  if (file == nullptr || getrusage(RUSAGE_CHILDREN, &used) != 0) return;
+  append(file, std::to_string(seconds(used.ru_utime) + seconds(used.ru_stime)) + cost_line);
 }
 
 }  // namespace
@@ -77,6 +95,8 @@ int main(int argc, char** argv) {
     }
     if (std::strncmp(argv[i], "--gtest_filter=", 15) == 0) name = argv[i] + 15;
   }
+  cost_line = "\t" + file_name(argv[first]) + "\t" + name + "\n";
+  std::atexit(log_cost);
   on_vulkan = on_vulkan || lower(name).find("vulkan") != std::string::npos;
   setenv("MESA_SHADER_CACHE_DIR", KAAMOS_BINARY_DIR "/mesa-cache", 0);
   setenv("KAAMOS_VULKAN_VALIDATION", "1", 0);

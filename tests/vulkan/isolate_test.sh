@@ -45,6 +45,10 @@ check second_run_may_pass 0 2 ran,repeated -- "$work/crashing_once" $filter
 check hang_is_repeated 0 2 ran,repeated -- "$work/hanging_once" $filter
 check other_crash_is_not_repeated 1 1 '' -- "$work/crashing_once" --gtest_filter=Shapes.Embree/0
 check listing_is_no_run 0 1 '' -- "$work/good" --gtest_list_tests
+export KAAMOS_TEST_COSTS="$work/costs.txt"
+check cost_is_noted 0 1 '' -- "$work/good" --gtest_filter=Shapes.Embree/0
+unset KAAMOS_TEST_COSTS
+grep -qE $'^0[.][0-9]+\tgood\tShapes.Embree/0$' "$work/costs.txt" || { echo "FAILED cost: $(cat "$work/costs.txt")"; failures=$((failures + 1)); }
 check missing_program 127 0 '' -- "$work/absent"
 
 # Programs that speak like GoogleTest: four tests, of which b fails and d is skipped.
@@ -56,6 +60,7 @@ esac; done
 status=0
 for name; do
   echo "[ RUN      ] $name"
+  [ "$name $#" != "${dies:-} 4" ] || kill -SEGV $$
   case $name in
     S.b) echo "wrong"; echo "[  FAILED  ] $name (1 ms)"; status=1 ;;
     S.d) echo "[  SKIPPED ] $name (1 ms)" ;;
@@ -64,6 +69,7 @@ for name; do
 done'
 program sharing "$speaking; exit \$status"
 program dying "$speaking; [ \$# = 1 ] && exit \$status; kill -SEGV \$\$"
+program dying_at_c "dies=S.c; $speaking; exit \$status"
 program lying "${speaking/FAILED  ]/     OK ]}; exit 1"
 
 # share PROGRAM TEST STATUS TEXT RUNS: its status, a text of its output, and the processes until then,
@@ -85,6 +91,11 @@ share sharing S.d 0 '[  SKIPPED ] S.d' 2
 rm "$work/count"
 share dying S.a 0 'said by S.a' 3  # the list, all four, S.a alone
 share dying S.b 1 'wrong' 4
+rm "$work/count"
+share dying_at_c S.a 0 'said by S.a' 2  # the list, those up to c
+share dying_at_c S.c 0 'said by S.c' 3  # alone
+share dying_at_c S.b 1 'wrong' 3
+share dying_at_c S.d 0 '[  SKIPPED ] S.d' 4
 rm "$work/count"
 share lying S.a 1 'said by S.a' 3  # a status that no test explains: alone
 exit $((failures > 0))

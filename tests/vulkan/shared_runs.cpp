@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kBegins = "[ RUN      ] ";
+
 std::string read_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
@@ -114,13 +116,13 @@ std::vector<TestResult> split_output(const std::string& output,
   std::vector<TestResult> results;
   size_t at = 0;
   for (const std::string& name : names) {
-    const size_t begin = find_mark(output, "[ RUN      ] ", name, at);
-    if (begin == std::string::npos) return {};
+    const size_t begin = find_mark(output, kBegins, name, at);
+    if (begin == std::string::npos) break;
     const size_t ok = find_mark(output, "[       OK ] ", name, begin);
     const size_t failed = find_mark(output, "[  FAILED  ] ", name, begin);
     const size_t skipped = find_mark(output, "[  SKIPPED ] ", name, begin);
     const size_t end = std::min({ok, failed, skipped});
-    if (end == std::string::npos) return {};
+    if (end == std::string::npos) break;
     at = std::min(output.find('\n', end), output.size() - 1) + 1;
     results.push_back({end != failed, output.substr(begin, at - begin)});
   }
@@ -173,11 +175,19 @@ void SharedRuns::run_group(const Group& group) {
     crashes_.push_back("or another of " + std::to_string(group.names.size()) +
                        " tests in its process " + describe(status, limit_seconds_));
   }
-  const auto results = split_output(read_file(group.path + ".output"), group.names);
-  const bool all_passed =
-      std::all_of(results.begin(), results.end(), [](const TestResult& r) { return r.passed; });
-  const bool as_told = !crashed(status) && (WEXITSTATUS(status) == 0) == all_passed;
-  for (size_t i = 0; as_told && i < results.size(); ++i) {
+  const std::string output = read_file(group.path + ".output");
+  const auto results = split_output(output, group.names);
+  bool kept = false;
+  if (crashed(status)) {
+    // The fault is that of the test that had begun. Without one, it may be that of any of them.
+    kept = results.size() < group.names.size() &&
+           find_mark(output, kBegins, group.names[results.size()], 0) != std::string::npos;
+  } else {
+    const bool all_passed =
+        std::all_of(results.begin(), results.end(), [](const TestResult& r) { return r.passed; });
+    kept = results.size() == group.names.size() && (WEXITSTATUS(status) == 0) == all_passed;
+  }
+  for (size_t i = 0; kept && i < results.size(); ++i) {
     write_file(group.path + "." + std::to_string(i),
                (results[i].passed ? "passed\n" : "failed\n") + results[i].output);
   }

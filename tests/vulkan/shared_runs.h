@@ -6,8 +6,9 @@
 // The first process that is asked for a test of a group runs the whole group and keeps each test's
 // result and output in the folder KAAMOS_SHARED_RUNS; the others take theirs from there. Whoever
 // has to wait runs another group in the meantime. A group is so many neighbours in the program's
-// list; tests on Vulkan and others do not share one. If a group crashes, hangs, or ends otherwise
-// than its tests say, its results are thrown away and its tests run one by one. Whoever sets
+// list; tests on Vulkan and others do not share one. If a group crashes or is not done within the
+// limit, the test that was running and those behind it run one by one. If it ends otherwise than
+// its tests say, all of them do. Whoever sets
 // KAAMOS_SHARED_RUNS empties the folder first: scripts/test does for each run of ctest.
 #pragma once
 
@@ -22,8 +23,7 @@ struct TestResult {
   std::string output;
 };
 
-// The parts of a group's output, one for each of `names`; empty unless each test began and ended
-// once.
+// The parts of a group's output, one for each of `names` up to the first that did not begin or end.
 std::vector<TestResult> split_output(const std::string& output,
                                      const std::vector<std::string>& names);
 
