@@ -117,9 +117,14 @@ function(kaamos_install_headers)
   endif()
   # Headers of the effects include each other as "effects/...", which also works below
   # include/kaamos. Their shader files are installed with them.
+  file(READ "${PROJECT_SOURCE_DIR}/cmake/Doxyfile" manual)
+  string(REGEX MATCH "\nEXCLUDE_PATTERNS[^\n\\]*(\\\n[^\n\\]*)*" internal "${manual}")
+  string(REGEX MATCHALL "[*][^ \n\\]+" internal "${internal}")
+  list(TRANSFORM internal PREPEND "PATTERN;")
+  list(TRANSFORM internal APPEND ";EXCLUDE")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
     FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
-    PATTERN "*_test_support.h" EXCLUDE PATTERN "*_fixture.h" EXCLUDE)
+    ${internal})
 endfunction()
 
 function(kaamos_install_package)

@@ -221,7 +221,7 @@ everything_installed_asks_for_no_root() {
   run_test
   expect_status 0
   expect_no_call apt-get
-  expect "All $(wc -l <"$state/packages") needed packages are installed."
+  expect "All $(grep -vc '^clang-tidy$' "$state/packages") needed packages are installed."
 }
 
 missing_packages_are_named_and_installed() {
@@ -607,7 +607,7 @@ label_is_passed_to_ctest() {
 full_run_adds_every_part() {
   run_test --full
   expect_status 0
-  expect_last_line '10 passed, 0 failed, 0 skipped'
+  expect_last_line '12 passed, 0 failed, 0 skipped'
   expect_call 'ctest .*build/release .*-LE \^full\$'
   expect_call 'ctest .*build/release .*-L \^long\$'
   expect_call 'cmake --build --preset asan'
@@ -660,11 +660,22 @@ full_parts_go_together_with_a_label() {
   expect_call 'ctest .*build/asan .*-L hlsl'
 }
 
+files_part_installs_and_runs_clang_tidy() {
+  sed -i '/^clang-tidy$/d' "$state/packages"
+  run_test
+  expect_no_call apt-get
+  run_test --full=files
+  expect_status 0
+  expect_call 'apt-get .*install .*clang-tidy'
+  expect_call 'ctest .*build/dev .*-L \^unit\$'
+  expect_call 'cmake --build --preset dev .*--target tidy-check'
+}
+
 unknown_full_part_is_named() {
   run_test --full=long,fast
   expect_status 1
   expect 'scripts/test: error: --full has no part "fast".'
-  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), fuzz.'
+  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), files, fuzz.'
   run_test --full=
   expect_status 1
   expect '--full= needs a part, for example: scripts/test --full=long'

@@ -123,7 +123,7 @@ check_readme() {
 # row.
 check_indexed() {
   local folder readme rows name line
-  for folder in tests effects runtime examples; do
+  for folder in tests effects runtime examples d3d12; do
     [[ -d $folder ]] || continue
     readme=$folder/README.md
     rows=$(grep -nE '^[|*-] ' "$readme" 2>/dev/null |
@@ -251,7 +251,7 @@ list_public_headers() {
   while read -r pattern; do
     hidden+=(! -path "$pattern")
   done < <(tr -s ' ' '\n' <<<"$patterns" | grep .)
-  list_files \( -path './rtapi/include/*.h' -o -path './effects/*.h' \) "${hidden[@]}"
+  list_files \( -path './rtapi/include/*.h' -o -path './effects/*.h' -o -path './d3d12/include/win/kaamos_present.h' \) "${hidden[@]}"
 }
 
 # What Doxygen says of these headers by the project's own settings: every public type, function and member has
