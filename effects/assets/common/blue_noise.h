@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Blue-noise tiles: neighbouring pixels get very different values, so that the error of few
-/// samples appears as fine grain. They are made at run time by void and cluster. [Ulichney 1993]
+/// samples appears as fine grain. The build makes them by void and cluster. [Ulichney 1993]
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,7 @@ namespace kaamos::effects {
 /// Cells along each side of the tile that shaders read.
 inline constexpr std::uint32_t kBlueNoiseSize = 128;
 
-/// A dither array of size * size: every rank 0..size*size-1 once, such that for every n the cells
-/// of rank < n are spread evenly over the torus. The same on every machine: all energies are
-/// integers. `size` is a power of two of 8..256.
-std::vector<std::uint32_t> void_and_cluster(std::uint32_t size, std::uint32_t seed);
-
-/// kBlueNoiseSize^2 pairs of independent tiles with values in (0, 1), row by row. Made at the first
-/// call (well under a second) and kept.
+/// kBlueNoiseSize^2 pairs of independent tiles with values in (0, 1), row by row.
 const std::vector<glm::vec2>& blue_noise_tile();
 
 /// What a shader does with the tile; value for value that of effects/shaders/sampling.hlsli.

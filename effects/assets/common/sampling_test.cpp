@@ -11,6 +11,7 @@
 
 #include "effects/assets/common/blue_noise.h"
 #include "effects/assets/common/sobol.h"
+#include "effects/assets/common/void_and_cluster.h"
 
 namespace kaamos::effects {
 namespace {

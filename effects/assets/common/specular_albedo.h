@@ -16,14 +16,8 @@ inline constexpr std::uint32_t kSpecularAlbedoCosines = 32;
 inline constexpr std::uint32_t kSpecularAlbedoRoughnesses = 32;
 ///@}
 
-/// Integral over the hemisphere, split into what F0 is multiplied by (x) and what is added (y).
-/// `cosine` is that of the view direction with the normal, 0 to 1; `roughness` is perceptual, 0
-/// (a mirror) to 1. Single scattering: what facets reflect onto other facets is lost. The error is
-/// below 0.0025, and below 0.001 where the cosine is at least 0.1.
-glm::dvec2 integrate_specular_albedo(double cosine, double roughness);
-
-/// integrate_specular_albedo at the corners of a grid over sqrt(cosine), which runs fastest, and
-/// roughness, both from 0 to 1. It is made at the first call, in some 40 ms.
+/// integrate_specular_albedo (albedo_integral.h) at the corners of a grid over sqrt(cosine), which
+/// runs fastest, and roughness, both from 0 to 1.
 const std::vector<glm::vec2>& split_albedo_table();
 
 /// SpecularAlbedo of effects/shaders/brdf.hlsli: interpolated from the table.

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "effects/assets/common/albedo_integral.h"
+
 namespace kaamos::effects {
 namespace {
 
