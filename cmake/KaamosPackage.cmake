@@ -119,9 +119,11 @@ function(kaamos_install_headers)
   # include/kaamos. Their shader files are installed with them.
   file(READ "${PROJECT_SOURCE_DIR}/cmake/Doxyfile" manual)
   string(REGEX MATCH "\nEXCLUDE_PATTERNS[^\n\\]*(\\\n[^\n\\]*)*" internal "${manual}")
-  string(REGEX MATCHALL "[*][^ \n\\]+" internal "${internal}")
-  list(TRANSFORM internal PREPEND "PATTERN;")
-  list(TRANSFORM internal APPEND ";EXCLUDE")
+  string(REGEX MATCHALL "[*][^ \n\\]+" patterns "${internal}")
+  set(internal)
+  foreach(pattern IN LISTS patterns)
+    list(APPEND internal PATTERN "${pattern}" EXCLUDE)
+  endforeach()
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
     FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
     ${internal})

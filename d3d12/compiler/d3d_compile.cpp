@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "d3d12/com/text.h"
 #include "d3d12/compiler/compile.h"
 #include "d3d12/compiler/reflection.h"
+#include "runtime/files/write_file.h"
 
 namespace kaamos::d3d12 {
 
@@ -226,8 +226,7 @@ STDAPI D3DWriteBlobToFile(ID3DBlob* pBlob, LPCWSTR pFileName, BOOL bOverwrite) {
   if (bOverwrite == FALSE && std::filesystem::exists(path, ignored)) {
     return HRESULT_FROM_WIN32(ERROR_FILE_EXISTS);
   }
-  std::ofstream file(path, std::ios::binary);
-  file.write(static_cast<const char*>(pBlob->GetBufferPointer()),
-             static_cast<std::streamsize>(pBlob->GetBufferSize()));
-  return file.flush() ? S_OK : HRESULT_FROM_WIN32(ERROR_ACCESS_DENIED);
+  const int error = kaamos::files::write_file(
+      path, {static_cast<const char*>(pBlob->GetBufferPointer()), pBlob->GetBufferSize()});
+  return error == 0 ? S_OK : HRESULT_FROM_WIN32(ERROR_ACCESS_DENIED);
 }

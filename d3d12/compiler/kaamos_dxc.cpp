@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-dxc: the compiler as a program, with DXC's command line and exit codes.
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -12,6 +10,7 @@
 
 #include "d3d12/compiler/arguments.h"
 #include "d3d12/compiler/compile.h"
+#include "runtime/files/write_file.h"
 
 namespace {
 
@@ -25,15 +24,8 @@ int fail(const std::string& text) {
 // Returns the exit status.
 int write_file(const std::string& path, std::string_view bytes) {
   if (path.empty()) return 0;
-  errno = 0;
-  std::ofstream file(path, std::ios::binary);
-  if (!file.is_open()) return fail("cannot write " + path + ": " + std::strerror(errno));
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (file) return 0;
-  const int error = errno;
-  std::remove(path.c_str());
-  return fail("cannot write " + path + ": " + std::strerror(error != 0 ? error : EIO));
+  const int error = kaamos::files::write_file(path, bytes);
+  return error == 0 ? 0 : fail("cannot write " + path + ": " + std::strerror(error));
 }
 
 std::string_view text_of(const void* bytes, size_t size) {

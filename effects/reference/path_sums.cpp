@@ -124,7 +124,7 @@ Status save_path_sums(const std::string& path, const PathSums& sums) {
   header.layout = layout_of(sums);
   header.checksum = checksum_of(std::span(bytes).subspan(sizeof(Header)));
   std::memcpy(bytes.data(), &header, sizeof(header));
-  return write_file_atomically(path, bytes);
+  return write_file(path, bytes);
 }
 
 Status load_path_sums(const std::string& path, PathSums& wanted) {

@@ -352,7 +352,7 @@ rtapi::Result<Outcome> run_claims(const Options& options, const Scene& scene,
   if (const auto s = measure_claims(options, scene, progress, table); !is_done(s)) return s;
   const std::string text = write_csv(as_csv(table)), path = options.out + "/claims.csv";
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
+  if (const auto s = write_file(path, {bytes, text.size()}); !s.ok()) {
     return s.error();
   }
   std::printf("%s, median of %u rounds%s\n%s\nwrote %s\n", options.scene.c_str(), options.repeats,

@@ -32,7 +32,8 @@ class StagedFiles {
   std::string publish();
 
  private:
-  std::string folder_, staging_;
+  std::string folder_, staging_;  // staging_ is of this run alone
+  int lock_ = -1;                 // held while it is
   std::vector<std::string> names_;
 };
 

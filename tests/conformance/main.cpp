@@ -8,9 +8,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <fstream>
+#include <cstring>
 #include <iostream>
 
+#include "runtime/files/write_file.h"
 #include "tests/conformance/report.h"
 
 namespace {
@@ -130,8 +131,9 @@ int main(int argc, char** argv) {
     }
     std::cout << summary_of(each) << "\n";
   }
-  if (!json.empty() && !(std::ofstream(json) << json_of(results) << "\n")) {
-    std::cerr << "cannot write " << json << "\n";
+  const int error = json.empty() ? 0 : kaamos::files::write_file(json, json_of(results) + "\n");
+  if (error != 0) {
+    std::cerr << "cannot write " << json << ": " << std::strerror(error) << "\n";
     return 2;
   }
   return failed || results.empty() ? 1 : 0;

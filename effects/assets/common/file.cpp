@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
+
+#include "runtime/files/write_file.h"
 
 namespace kaamos::effects {
 namespace {
@@ -32,26 +32,10 @@ class FileDescriptor {
     if (fd_ >= 0) ::close(fd_);
   }
   int get() const { return fd_; }
-  /// A network file system may report write errors only on closing.
-  int close() {
-    const int fd = fd_;
-    fd_ = -1;
-    return ::close(fd);
-  }
 
  private:
   int fd_;
 };
-
-int write_all(int fd, std::span<const std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), std::min<std::size_t>(bytes.size(), 1 << 24));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
 
 }  // namespace
 
@@ -80,18 +64,16 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
   }
 }
 
-Status write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes) {
-  static std::atomic<unsigned> counter{0};
-  const std::string temporary =
-      path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1));
-  FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.get() < 0) return file_error("write", path, errno);
-  int error = write_all(file.get(), bytes);
-  if (error == 0 && ::fsync(file.get()) != 0 && errno != EINVAL) error = errno;
-  if (file.close() != 0 && error == 0) error = errno;
-  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+Status write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  const int error =
+      files::write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (error == 0) return {};
-  ::unlink(temporary.c_str());
+  return file_error("write", path, error);
+}
+
+Status place_file(const std::string& from, const std::string& path) {
+  const int error = files::place_file(from, path);
+  if (error == 0) return {};
   return file_error("write", path, error);
 }
 

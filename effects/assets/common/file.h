@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Reads and writes whole files. A file that is replaced keeps its old content until the new one is
-/// complete on disk, so an interrupted or failed run leaves earlier output untouched.
+/// Reads and writes whole files.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +18,14 @@ namespace kaamos::effects {
 Result<std::vector<std::uint8_t>> read_file(const std::string& path,
                                             std::size_t max_bytes = std::size_t{4} << 30);
 
-/// Writes `bytes` to a temporary file beside `path` and renames it over `path`. The folder must
-/// exist. On any error the temporary file is removed and a previous `path` is left as it was.
+/// Writes `bytes` as the whole contents of `path`, in a folder that exists. A regular file is
+/// replaced in one step and keeps its permissions, a link its target: an interrupted or failed run
+/// leaves earlier output untouched. Devices and pipes are written to.
 /// @errors KA3000 no permission, a full disk, a folder that is missing.
-Status write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes);
+Status write_file(const std::string& path, std::span<const std::uint8_t> bytes);
+
+/// Makes the finished file `from` the contents of `path`, as write_file would; `from` is gone then.
+/// @errors as of write_file; `from` is left where it is.
+Status place_file(const std::string& from, const std::string& path);
 
 }  // namespace kaamos::effects

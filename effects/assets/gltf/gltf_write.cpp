@@ -390,7 +390,7 @@ Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene) {
 Status write_glb(const std::string& path, const Scene& scene) {
   const Result<std::vector<std::uint8_t>> bytes = encode_glb(scene);
   if (!bytes.ok()) return bytes.error();
-  return write_file_atomically(path, bytes.value());
+  return write_file(path, bytes.value());
 }
 
 }  // namespace kaamos::effects

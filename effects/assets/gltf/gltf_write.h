@@ -21,7 +21,7 @@ namespace kaamos::effects {
 Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene);
 
 /// Writes the file; an earlier one at `path` stays as it was on any error.
-/// @errors those of encode_glb and write_file_atomically.
+/// @errors those of encode_glb and write_file.
 Status write_glb(const std::string& path, const Scene& scene);
 
 }  // namespace kaamos::effects

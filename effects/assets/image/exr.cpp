@@ -212,7 +212,7 @@ Status write_exr(const std::string& path, const ExrFile& file) {
   const Status status = check(file);
   if (!status.ok()) return within("\"" + path + "\"", status.error(), ErrorId::kExr);
   try {
-    return write_file_atomically(path, encode(file));
+    return write_file(path, encode(file));
   } catch (const std::exception& error) {
     return make_error(ErrorId::kExr, "\"" + path + "\": " + error.what());
   }

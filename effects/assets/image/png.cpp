@@ -65,7 +65,7 @@ Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image) {
 Status write_png(const std::string& path, const ByteImage& image) {
   const Result<std::vector<std::uint8_t>> bytes = encode_png(image);
   if (!bytes.ok()) return within("\"" + path + "\"", bytes.error(), ErrorId::kPng);
-  return write_file_atomically(path, bytes.value());
+  return write_file(path, bytes.value());
 }
 
 Result<ByteImage> read_png(const std::string& path) {

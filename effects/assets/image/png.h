@@ -19,7 +19,7 @@ namespace kaamos::effects {
 Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image);
 
 /// Writes a PNG file; an earlier one at `path` stays as it was on any error.
-/// @errors those of encode_png and write_file_atomically.
+/// @errors those of encode_png and write_file.
 Status write_png(const std::string& path, const ByteImage& image);
 
 /// Reads a PNG of any kind as 4 channels of 8 bits.

@@ -144,7 +144,7 @@ rtapi::Result<Outcome> bake_volume(const rtapi::Device& device, rtapi::CommandQu
 
 /// Writes a volume to a file: little-endian, with a version and the length of everything. An
 /// earlier file at `path` stays as it was on any error.
-/// @errors those of write_file_atomically.
+/// @errors those of write_file.
 Status save_volume(const std::string& path, const IndirectVolume& volume);
 /// Reads a volume from a file that save_volume wrote.
 /// @errors KA3000 as of read_file; KA3045 a file of another version, cut short or damaged.

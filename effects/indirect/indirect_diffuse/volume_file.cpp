@@ -62,7 +62,7 @@ Status save_volume(const std::string& path, const IndirectVolume& volume) {
   header.cell_count = volume.cells.size();
   header.checksum = checksum(std::span(bytes).subspan(sizeof(Header)));
   std::memcpy(bytes.data(), &header, sizeof(header));
-  return write_file_atomically(path, bytes);
+  return write_file(path, bytes);
 }
 
 Result<IndirectVolume> load_volume(const std::string& path) {

@@ -11,7 +11,7 @@ namespace northlight {
 
 rtapi::Status write_text(const std::string& path, const std::string& text) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  if (const auto s = kaamos::effects::write_file_atomically(path, {bytes, text.size()}); !s.ok())
+  if (const auto s = kaamos::effects::write_file(path, {bytes, text.size()}); !s.ok())
     return s.error();
   return {};
 }

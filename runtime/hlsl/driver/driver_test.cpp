@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -150,7 +151,24 @@ TEST_F(Driver, UnwritableOutput) {
   fs::create_directory(folder_ / "taken");
   EXPECT_EQ(run("-no-warnings -o taken main.hlsl").error,
             "kaamos-hlsl: cannot write taken: Is a directory\n");
-  EXPECT_FALSE(fs::exists(folder_ / "taken.new"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "taken"));
+}
+
+// The output may be /dev/null, and the user root; a pipe does no harm if this fails.
+TEST_F(Driver, OutputIsWrittenToPipesAndThroughLinks) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const char* emit : {"cpp", "reflection", "object"}) {
+    const std::string options = std::string("-no-warnings main.hlsl -emit ") + emit;
+    EXPECT_EQ(std::system(("cat '" + (folder_ / "pipe").string() + "' >/dev/null &").c_str()), 0);
+    EXPECT_EQ(run(options + " -o pipe").status, 0);
+    EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
+  }
+  fs::create_symlink("target", folder_ / "link");
+  EXPECT_EQ(run("-no-warnings -o link main.hlsl -emit ir").status, 0);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_GT(fs::file_size(folder_ / "target"), 0u);
+  EXPECT_EQ(run("-no-warnings -o /dev/stdout main.hlsl -emit ir").out,
+            run("-no-warnings main.hlsl -emit ir").out);
 }
 
 TEST_F(Driver, CheckWritesNothing) {

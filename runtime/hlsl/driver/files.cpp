@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/driver/files.h"
 
-#include <unistd.h>
 #include <xxhash.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -17,21 +14,6 @@ std::string read_file(const std::filesystem::path& path) {
   std::stringstream text;
   text << in.rdbuf();
   return text.str();
-}
-
-bool replace_file(const std::filesystem::path& path, std::string_view bytes) {
-  std::string fresh = path.string() + "-XXXXXX";
-  const int opened = mkstemp(fresh.data());
-  if (opened < 0) return false;
-  close(opened);
-  std::ofstream out(fresh, std::ios::binary);
-  out << bytes;
-  out.close();
-  if (out && std::rename(fresh.c_str(), path.c_str()) == 0) return true;
-  const int reason = errno;
-  std::remove(fresh.c_str());
-  errno = reason;
-  return false;
 }
 
 std::string content_hash(std::string_view bytes) {

@@ -12,10 +12,6 @@ namespace kaamos::hlsl {
 // The bytes of a file; none if it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-// Writes a file in one step: whoever reads it meanwhile sees all of it, or what was there before.
-// On failure returns false and errno says why.
-bool replace_file(const std::filesystem::path& path, std::string_view bytes);
-
 // 128 bits as 32 hexadecimal digits.
 std::string content_hash(std::string_view bytes);
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "runtime/files/write_file.h"
 #include "runtime/hlsl/driver/files.h"
 #include "runtime/hlsl/driver/process.h"
 #include "runtime/hlsl/driver/shader_headers.h"
@@ -149,7 +150,7 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
   const fs::path folder = work;
   const fs::path source_path = folder / "shader.cpp";
   const fs::path built = folder / "shader.so";
-  if (!replace_file(source_path, source)) out.error.text = cannot_write(source_path);
+  if (files::write_file(source_path, source) != 0) out.error.text = cannot_write(source_path);
   fs::path headers = compiler.include_folder;
   if (!out.error && headers.empty()) headers = write_shader_headers(cache, out.error.text);
   if (!out.error) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-hlsl: the compiler as a program.
-#include <cerrno>
 #include <cstdio>
-#include <fstream>
+#include <cstring>
 #include <iostream>
 #include <memory>
-#include <system_error>
 
+#include "runtime/files/write_file.h"
 #include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/driver/arguments.h"
 #include "runtime/hlsl/driver/build_library.h"
+#include "runtime/hlsl/driver/files.h"
 #include "runtime/hlsl/driver/frontend.h"
 #include "runtime/hlsl/driver/host_compiler.h"
 #include "runtime/hlsl/driver/reflect.h"
@@ -22,7 +22,7 @@
 namespace {
 
 using namespace kaamos::hlsl;
-namespace fs = std::filesystem;
+namespace files = kaamos::files;
 
 constexpr int kBadUsage = 2;
 
@@ -51,24 +51,10 @@ FrontendOptions frontend_options(const Arguments& arguments) {
   return options;
 }
 
-// Writes to a temporary name first, so that an interrupted run does not leave half a file. Returns
-// the exit status.
-int write_file(const std::string& path, const std::string& text) {
-  const std::string temporary = path + ".new";
-  errno = 0;
-  std::ofstream file(temporary, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code failed;
-  if (file) {
-    fs::rename(temporary, path, failed);
-  } else {
-    failed = std::error_code(errno != 0 ? errno : EIO, std::generic_category());
-  }
-  if (!failed) return 0;
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
-  return fail("cannot write " + path + ": " + failed.message());
+// Returns the exit status.
+int write_file(const std::string& path, std::string_view bytes) {
+  const int error = files::write_file(path, bytes);
+  return error == 0 ? 0 : fail("cannot write " + path + ": " + std::strerror(error));
 }
 
 // "output: source header ..." with spaces escaped the way make and ninja expect.
@@ -95,9 +81,7 @@ int write_object(const Arguments& arguments, const ir::Module& module) {
                      .spirv = arguments.spirv,
                      .wide = !arguments.no_wide});
   if (object.error) return fail(object.error.message());
-  std::error_code failed;
-  fs::copy_file(object.path, arguments.output, fs::copy_options::overwrite_existing, failed);
-  return failed ? fail("cannot write " + arguments.output + ": " + failed.message()) : 0;
+  return write_file(arguments.output, read_file(object.path));
 }
 
 // Writes to the requested file, or to standard output.

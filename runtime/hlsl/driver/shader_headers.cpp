@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/files/write_file.h"
 #include "runtime/hlsl/driver/files.h"
 #include "runtime/hlsl/driver/shader_cache.h"
 
@@ -54,7 +55,7 @@ fs::path write_shader_headers(const fs::path& cache, std::string& error) {
   fs::create_directories(folder / kHeaderFolder, ignored);
   for (const auto* header = kShaderHeaders; !header->first.empty(); ++header) {
     const fs::path file = folder / kHeaderFolder / header->first;
-    if (read_file(file) != header->second && !replace_file(file, header->second)) {
+    if (read_file(file) != header->second && files::write_file(file, header->second) != 0) {
       error = cannot_write(file);
       return {};
     }
