@@ -61,22 +61,8 @@ double milliseconds_since(Clock::time_point start) {
 rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
                             const BuildRaytracingAccelerationStructureInputs& inputs,
                             std::string name, std::uint64_t& bytes) {
-  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs);
-  if (!sizes) return sizes.error();
-  auto result = create_structure_buffer(device, sizes->ResultDataMaxSizeInBytes, name);
-  if (!result) return result.error();
-  const auto scratch =
-      create_scratch_buffer(device, sizes->ScratchDataSizeInBytes, name + " scratch");
-  if (!scratch) return scratch.error();
-  auto list = device.CreateCommandList();
-  if (!list) return list.error();
-  BuildRaytracingAccelerationStructureDesc desc;
-  desc.DestAccelerationStructureData = result->GetGPUVirtualAddress();
-  desc.Inputs = inputs;
-  desc.ScratchAccelerationStructureData = scratch->GetGPUVirtualAddress();
-  list->BuildRaytracingAccelerationStructure(desc);
-  if (const rtapi::Status done = queue.ExecuteAndWait(*list); !done) return done.error();
-  bytes += sizes->ResultDataMaxSizeInBytes;
+  auto result = rtapi::BuildAccelerationStructure(device, queue, inputs, std::move(name));
+  if (result) bytes += result->size();
   return result;
 }
 

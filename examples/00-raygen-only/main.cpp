@@ -38,8 +38,7 @@ static Texture Render(const example::Setup& setup) {
   dispatch.Width = setup.width;
   dispatch.Height = setup.height;
   list.DispatchRays(dispatch);
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

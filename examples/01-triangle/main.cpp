@@ -111,8 +111,7 @@ static Texture Render(const example::Setup& setup) {
                      .HitGroupTable = hit_table.GetTable(),
                      .Width = setup.width,
                      .Height = setup.height});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

@@ -16,7 +16,8 @@ static Texture Render(const example::Setup& setup) {
   const example::Mesh pyramid = example::CreateMesh(
       setup, {-0.5f, 0, -0.5f, 0.5f, 0, -0.5f, 0.5f, 0, 0.5f, -0.5f, 0, 0.5f, 0, 1, 0},
       {0, 4, 1, 1, 4, 2, 2, 4, 3, 3, 4, 0});
-  const Buffer bottom_level = example::BuildBottomLevel(setup, {pyramid.geometry});
+  const Buffer bottom_level =
+      BuildBottomLevel(setup.device, setup.queue, {pyramid.geometry}, "bottom level").value();
 
   // A 5 x 5 field with masks 1 and 2 like the squares of a chess board, each instance turned a bit
   // more.
@@ -34,7 +35,7 @@ static Texture Render(const example::Setup& setup) {
     instance.InstanceMask = i % 2 == 0 ? 1 : 2;
     instances.push_back(instance);
   }
-  const Buffer top_level = example::BuildTopLevel(setup, instances);
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue, instances, "top level").value();
 
   const RootSignature root_signature =
       device.CreateRootSignature("SRV(t0), DescriptorTable(UAV(u0))").value();
@@ -65,8 +66,7 @@ static Texture Render(const example::Setup& setup) {
                      .HitGroupTable = hit_table.GetTable(),
                      .Width = setup.width,
                      .Height = setup.height});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

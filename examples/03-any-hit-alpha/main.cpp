@@ -17,9 +17,12 @@ static Texture Render(const example::Setup& setup) {
   const example::Mesh screen =
       example::CreateMesh(setup, {-2, 0.3f, 0, -2, 2.6f, 0.6f, 2, 2.6f, 0.6f, 2, 0.3f, 0}, quad,
                           RaytracingGeometryFlags::kNone);
-  const Buffer bottom_level = example::BuildBottomLevel(setup, {floor.geometry, screen.geometry});
-  const Buffer top_level =
-      example::BuildTopLevel(setup, {example::Instance(bottom_level, 0, 0, 0)});
+  const Buffer bottom_level =
+      BuildBottomLevel(setup.device, setup.queue, {floor.geometry, screen.geometry}, "bottom level")
+          .value();
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue,
+                                         {example::Instance(bottom_level, 0, 0, 0)}, "top level")
+                               .value();
 
   const RootSignature root_signature =
       device.CreateRootSignature("SRV(t0), DescriptorTable(UAV(u0))").value();
@@ -60,8 +63,7 @@ static Texture Render(const example::Setup& setup) {
                      .HitGroupTable = hit_table.GetTable(),
                      .Width = setup.width,
                      .Height = setup.height});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

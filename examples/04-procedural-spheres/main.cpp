@@ -33,9 +33,11 @@ static Texture Render(const example::Setup& setup) {
   geometry.Type = RaytracingGeometryType::kProceduralPrimitiveAabbs;
   geometry.Flags = RaytracingGeometryFlags::kOpaque;
   geometry.AABBs = {boxes.size(), {box_buffer.GetGPUVirtualAddress(), sizeof(RaytracingAabb)}};
-  const Buffer bottom_level = example::BuildBottomLevel(setup, {geometry});
-  const Buffer top_level =
-      example::BuildTopLevel(setup, {example::Instance(bottom_level, 0, 0.6f, 0)});
+  const Buffer bottom_level =
+      BuildBottomLevel(setup.device, setup.queue, {geometry}, "bottom level").value();
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue,
+                                         {example::Instance(bottom_level, 0, 0.6f, 0)}, "top level")
+                               .value();
 
   const RootSignature root_signature =
       device.CreateRootSignature("SRV(t0), SRV(t1), DescriptorTable(UAV(u0))").value();
@@ -75,8 +77,7 @@ static Texture Render(const example::Setup& setup) {
                      .HitGroupTable = hit_table.GetTable(),
                      .Width = setup.width,
                      .Height = setup.height});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

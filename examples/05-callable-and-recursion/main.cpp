@@ -32,9 +32,11 @@ static Texture Render(const example::Setup& setup) {
   for (const example::Mesh& box : boxes) {
     geometries.push_back(box.geometry);
   }
-  const Buffer bottom_level = example::BuildBottomLevel(setup, geometries);
-  const Buffer top_level =
-      example::BuildTopLevel(setup, {example::Instance(bottom_level, 0, 0, 0)});
+  const Buffer bottom_level =
+      BuildBottomLevel(setup.device, setup.queue, geometries, "bottom level").value();
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue,
+                                         {example::Instance(bottom_level, 0, 0, 0)}, "top level")
+                               .value();
 
   const RootSignature root_signature =
       device.CreateRootSignature("SRV(t0), DescriptorTable(UAV(u0))").value();
@@ -79,8 +81,7 @@ static Texture Render(const example::Setup& setup) {
                      .CallableShaderTable = callable_table.GetTable(),
                      .Width = setup.width,
                      .Height = setup.height});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

@@ -49,7 +49,8 @@ static Texture Render(const example::Setup& setup) {
   geometry.Triangles.IndexFormat = Format::kR32Uint;
   geometry.Triangles.IndexCount = static_cast<uint32_t>(indices.size());
   geometry.Triangles.IndexBuffer = index_buffer.GetGPUVirtualAddress();
-  const Buffer bottom_level = example::BuildBottomLevel(setup, {geometry});
+  const Buffer bottom_level =
+      BuildBottomLevel(setup.device, setup.queue, {geometry}, "bottom level").value();
 
   std::vector<RaytracingInstanceDesc> instances;
   for (uint32_t i = 0; i < 3; ++i) {
@@ -57,7 +58,7 @@ static Texture Render(const example::Setup& setup) {
         example::Instance(bottom_level, -2.2f + 2.2f * static_cast<float>(i), 0, 0));
     instances.back().InstanceContributionToHitGroupIndex = i;  // selects record i
   }
-  const Buffer top_level = example::BuildTopLevel(setup, instances);
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue, instances, "top level").value();
 
   const RootSignature root_signature =
       device.CreateRootSignature("SRV(t0), DescriptorTable(UAV(u0))").value();
@@ -112,8 +113,7 @@ static Texture Render(const example::Setup& setup) {
                      .HitGroupTable = hit_groups,
                      .Width = setup.width,
                      .Height = setup.height});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

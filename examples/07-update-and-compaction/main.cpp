@@ -37,7 +37,7 @@ static Buffer CreateAccelerationStructure(const Device& device, uint64_t bytes, 
 
 static Texture Render(const example::Setup& setup) {
   const Device& device = setup.device;
-  CommandQueue queue = setup.queue;
+  const CommandQueue& queue = setup.queue;
   const example::Image image = example::CreateImage(setup);
 
   std::vector<uint32_t> indices;
@@ -105,8 +105,12 @@ static Texture Render(const example::Setup& setup) {
        .SourceAccelerationStructureData = built.GetGPUVirtualAddress(),
        .ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress()});
   queue.ExecuteAndWait(list).value();
-  const Buffer before = example::BuildTopLevel(setup, {example::Instance(compacted, 0, 0, 0)});
-  const Buffer after = example::BuildTopLevel(setup, {example::Instance(updated, 0, 0, 0)});
+  const Buffer before =
+      BuildTopLevel(setup.device, setup.queue, {example::Instance(compacted, 0, 0, 0)}, "top level")
+          .value();
+  const Buffer after =
+      BuildTopLevel(setup.device, setup.queue, {example::Instance(updated, 0, 0, 0)}, "top level")
+          .value();
 
   const RootSignature root_signature =
       device.CreateRootSignature("SRV(t0), SRV(t1), DescriptorTable(UAV(u0))").value();

@@ -39,8 +39,7 @@ static Texture Render(const example::Setup& setup) {
   list.ResourceBarrier(ResourceBarrier::Uav(image.texture));
   list.SetPipelineState(blur);
   list.Dispatch((setup.width + 63) / 64, setup.height, 1);
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return blurred.texture;
 }
 

@@ -22,9 +22,12 @@ static Texture Render(const example::Setup& setup) {
   RaytracingGeometryDesc sphere;
   sphere.Type = RaytracingGeometryType::kProceduralPrimitiveAabbs;
   sphere.AABBs = {box.size(), {box_buffer.GetGPUVirtualAddress(), sizeof(RaytracingAabb)}};
-  const Buffer ground_level = example::BuildBottomLevel(setup, {ground.geometry});
-  const Buffer fence_level = example::BuildBottomLevel(setup, {fence.geometry});
-  const Buffer sphere_level = example::BuildBottomLevel(setup, {sphere});
+  const Buffer ground_level =
+      BuildBottomLevel(setup.device, setup.queue, {ground.geometry}, "bottom level").value();
+  const Buffer fence_level =
+      BuildBottomLevel(setup.device, setup.queue, {fence.geometry}, "bottom level").value();
+  const Buffer sphere_level =
+      BuildBottomLevel(setup.device, setup.queue, {sphere}, "bottom level").value();
 
   // InstanceID says what was hit; a query knows nothing else about it.
   std::vector<RaytracingInstanceDesc> instances = {example::Instance(ground_level, 0, 0, 0),
@@ -37,7 +40,7 @@ static Texture Render(const example::Setup& setup) {
         example::Instance(sphere_level, x, radius, i % 2 == 0 ? 1.2f : -2.2f, radius));
     instances.back().InstanceID = 2;
   }
-  const Buffer top_level = example::BuildTopLevel(setup, instances);
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue, instances, "top level").value();
 
   const RootSignature root_signature =
       device
@@ -60,8 +63,7 @@ static Texture Render(const example::Setup& setup) {
   list.SetComputeRoot32BitConstants(2, constants);
   list.SetPipelineState(pipeline);
   list.Dispatch((setup.width + 7) / 8, (setup.height + 7) / 8, 1);
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image.texture;
 }
 

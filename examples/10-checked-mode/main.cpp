@@ -49,8 +49,12 @@ World CreateWorld(const example::Setup& setup) {
   w.mesh = example::CreateMesh(setup, {-1, -1, 0, 1, -1, 0, 0, 1, 0}, {});
   w.front = example::CreateMesh(setup, {-1, -1, -0.5f, 1, -1, -0.5f, 0, 1, -0.5f}, {});
   // Two geometries: with a multiplier of 1 they use records 0 and 1. The ray hits the second.
-  w.bottom_level = example::BuildBottomLevel(setup, {w.mesh.geometry, w.front.geometry});
-  w.top_level = example::BuildTopLevel(setup, {example::Instance(w.bottom_level, 0, 0, 0)});
+  w.bottom_level = BuildBottomLevel(setup.device, setup.queue, {w.mesh.geometry, w.front.geometry},
+                                    "bottom level")
+                       .value();
+  w.top_level = BuildTopLevel(setup.device, setup.queue,
+                              {example::Instance(w.bottom_level, 0, 0, 0)}, "top level")
+                    .value();
   w.results =
       setup.device
           .CreateBuffer(

@@ -66,8 +66,7 @@ static Texture Render(const example::Setup& setup) {
   list.RSSetScissorRects(scissor);
   list.OMSetRenderTargets(1, &target);
   list.DrawInstanced(3, 1, 0, 0);
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image;
 }
 

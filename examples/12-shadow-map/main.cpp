@@ -172,8 +172,7 @@ Texture Render(const example::Setup& setup) {
   SetArea(list, setup.width, setup.height);
   list.SetPipelineState(scene_pipeline);
   list.DrawIndexedInstanced(index_count, box_count, 0, 0, 0);
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return image;
 }
 

@@ -125,14 +125,15 @@ Texture Render(const example::Setup& setup) {
 
   // The same cube and the same transforms for rays and for draws.
   const example::Mesh cube = example::CreateMesh(setup, kCube, kSides);
-  const Buffer bottom_level = example::BuildBottomLevel(setup, {cube.geometry});
+  const Buffer bottom_level =
+      BuildBottomLevel(setup.device, setup.queue, {cube.geometry}, "bottom level").value();
   std::vector<RaytracingInstanceDesc> instances;
   std::vector<float> colors;
   for (const Box& box : kBoxes) {
     instances.push_back(InstanceOf(box, bottom_level));
     colors.insert(colors.end(), box.color, box.color + 3);
   }
-  const Buffer top_level = example::BuildTopLevel(setup, instances);
+  const Buffer top_level = BuildTopLevel(setup.device, setup.queue, instances, "top level").value();
   const Buffer transforms = CreateUploadBuffer(device, instances, "instances").value();
   const Buffer box_colors = CreateUploadBuffer(device, colors, "box colors").value();
   const std::vector<VertexBufferView> vertices = {
@@ -220,10 +221,10 @@ Texture Render(const example::Setup& setup) {
 
   // Both kinds of shaders read what was drawn.
   const auto readable = ResourceStates::kAllShaderResource;
-  list.ResourceBarrier(std::vector<ResourceBarrier>{
-      ResourceBarrier::Transition(frame.albedo, ResourceStates::kRenderTarget, readable),
-      ResourceBarrier::Transition(frame.normals, ResourceStates::kRenderTarget, readable),
-      ResourceBarrier::Transition(frame.depth, ResourceStates::kDepthWrite, readable)});
+  list.ResourceBarrier(
+      {ResourceBarrier::Transition(frame.albedo, ResourceStates::kRenderTarget, readable),
+       ResourceBarrier::Transition(frame.normals, ResourceStates::kRenderTarget, readable),
+       ResourceBarrier::Transition(frame.depth, ResourceStates::kDepthWrite, readable)});
   list.SetComputeRootSignature(root_signature);
   list.SetComputeRoot32BitConstants(0, constants);
   list.SetComputeRootShaderResourceView(1, top_level.GetGPUVirtualAddress());
@@ -241,8 +242,7 @@ Texture Render(const example::Setup& setup) {
   list.OMSetRenderTargets(1, &frame.image_target);
   list.SetPipelineState(compose_pipeline);
   list.DrawInstanced(3, 1, 0, 0);
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
+  setup.queue.ExecuteAndWait(list).value();
   return frame.image;
 }
 

@@ -43,31 +43,6 @@ int PrintPixel(const char* name, const Setup& setup, const std::string& text,
   return 0;
 }
 
-Buffer Build(const Setup& setup, const BuildRaytracingAccelerationStructureInputs& inputs,
-             const char* name) {
-  const auto sizes = setup.device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  Buffer result =
-      setup.device
-          .CreateBuffer({.SizeInBytes = sizes.ResultDataMaxSizeInBytes,
-                         .Flags = ResourceFlags::kAllowUnorderedAccess,
-                         .InitialState = ResourceStates::kRaytracingAccelerationStructure,
-                         .Name = name})
-          .value();
-  Buffer scratch = setup.device
-                       .CreateBuffer({.SizeInBytes = sizes.ScratchDataSizeInBytes,
-                                      .Flags = ResourceFlags::kAllowUnorderedAccess,
-                                      .Name = "scratch"})
-                       .value();
-  CommandList list = setup.device.CreateCommandList().value();
-  list.BuildRaytracingAccelerationStructure(
-      {.DestAccelerationStructureData = result.GetGPUVirtualAddress(),
-       .Inputs = inputs,
-       .ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress()});
-  CommandQueue queue = setup.queue;
-  queue.ExecuteAndWait(list).value();
-  return result;
-}
-
 }  // namespace
 
 int Main(int argc, char** argv, const char* name, Body body,
@@ -158,25 +133,6 @@ Image CreateImage(const Setup& setup, uint32_t descriptors) {
       .CreateUnorderedAccessView(image.texture, image.heap.GetCPUDescriptorHandleForHeapStart())
       .value();
   return image;
-}
-
-Buffer BuildBottomLevel(const Setup& setup, const std::vector<RaytracingGeometryDesc>& geometries) {
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
-  inputs.NumDescs = static_cast<uint32_t>(geometries.size());
-  inputs.pGeometryDescs = geometries.data();
-  return Build(setup, inputs, "bottom level");
-}
-
-Buffer BuildTopLevel(const Setup& setup, const std::vector<RaytracingInstanceDesc>& instances) {
-  const Buffer records = CreateUploadBuffer(setup.device, instances, "instances").value();
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kTopLevel;
-  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
-  inputs.NumDescs = static_cast<uint32_t>(instances.size());
-  inputs.InstanceDescs = records.GetGPUVirtualAddress();
-  return Build(setup, inputs, "top level");
 }
 
 Mesh CreateMesh(const Setup& setup, const std::vector<float>& positions,

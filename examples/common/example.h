@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Everything in an example that is not DXR: the command line, the device, building an acceleration
-// structure in one call, and the picture file.
+// Everything in an example that is not DXR: the command line, the device, and the picture file.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -36,13 +35,6 @@ struct Image {
   rtapi::DescriptorHeap heap;
 };
 Image CreateImage(const Setup& setup, uint32_t descriptors = 1);
-
-// Builds a bottom level of `geometries`, or a top level of `instances`, and waits. 01-triangle
-// shows the calls behind this.
-rtapi::Buffer BuildBottomLevel(const Setup& setup,
-                               const std::vector<rtapi::RaytracingGeometryDesc>& geometries);
-rtapi::Buffer BuildTopLevel(const Setup& setup,
-                            const std::vector<rtapi::RaytracingInstanceDesc>& instances);
 
 // A geometry with float3 vertices, and with 32-bit indices unless `indices` is empty. The buffers
 // live as long as the result.

@@ -3,7 +3,6 @@
 
 #include <cstring>
 
-#include "tests/common/structures.h"
 
 namespace kaamos::observed {
 
@@ -62,7 +61,7 @@ std::vector<uint32_t> World::read(const Buffer& words) {
 
 Buffer World::build(const BuildRaytracingAccelerationStructureInputs& inputs,
                     const std::string& name) {
-  return test::try_build_structure(device_, queue_, inputs, name.c_str(), nullptr).value();
+  return rtapi::BuildAccelerationStructure(device_, queue_, inputs, name).value();
 }
 
 Buffer World::boxes(const std::vector<RaytracingAabb>& boxes,

@@ -3,7 +3,6 @@
 
 #include <shaders/support.h>
 
-#include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::support {
@@ -129,8 +128,8 @@ std::vector<uint32_t> Call::compute(const char* entry) {
 
 Result<Buffer> Call::build(const BuildRaytracingAccelerationStructureInputs& inputs,
                            const Buffer* update_of) {
-  auto structure =
-      kaamos::test::try_build_structure(device_, queue_, inputs, "structure", update_of);
+  auto structure = BuildAccelerationStructure(device_, queue_, inputs, "structure",
+                                              update_of != nullptr ? *update_of : Buffer());
   if (structure) keep_.push_back(*structure);
   return structure;
 }

@@ -75,6 +75,10 @@ class CommandList {
   void ResourceBarrier(const rtapi::ResourceBarrier& barrier) {
     ResourceBarrier(std::span<const rtapi::ResourceBarrier>(&barrier, 1));
   }
+  /// @overload
+  void ResourceBarrier(std::initializer_list<rtapi::ResourceBarrier> barriers) {
+    ResourceBarrier(std::span<const rtapi::ResourceBarrier>(barriers.begin(), barriers.size()));
+  }
 
   /// Sets the heaps that descriptor tables and HLSL's descriptor heaps read: at most one of each
   /// type, shader-visible. Replaces both; a type that is not given has none afterwards.

@@ -37,7 +37,7 @@ class Fence {
   /// Sets the value from the host. Queues that waited for it go on in this call, on this thread.
   /// [D3D12: ID3D12Fence::Signal]
   /// @errors KA0904 empty handle.
-  Status Signal(uint64_t value);
+  Status Signal(uint64_t value) const;
   /// Blocks until the fence reaches `value`, for `timeout_ms` milliseconds at most; 0: without end.
   /// [D3D12: ID3D12Fence::SetEventOnCompletion]
   /// @errors KA0904 empty handle; KA0806 the time is up; what Device::GetDeviceRemovedReason says,
@@ -54,6 +54,7 @@ class Fence {
 /// Executes command lists in the order of submission. A copyable handle, thread-safe. Work runs on
 /// the thread that submits it, before the call returns, unless the queue waits for a fence: then on
 /// the thread that signals it. Only one queue of a device executes at a time.
+/// All calls are const: what changes is the queue, not its handle.
 /// [D3D12: ID3D12CommandQueue]
 class CommandQueue {
  public:
@@ -75,21 +76,21 @@ class CommandQueue {
   /// list that is open or that has errors. Nothing is submitted then. Otherwise what
   /// Device::GetDeviceRemovedReason says: an error met while a list executes removes the device,
   /// see CommandList for the ids.
-  Status ExecuteCommandLists(std::span<const CommandList> lists);
+  Status ExecuteCommandLists(std::span<const CommandList> lists) const;
   /// @overload
-  Status ExecuteCommandLists(std::initializer_list<CommandList> lists) {
+  Status ExecuteCommandLists(std::initializer_list<CommandList> lists) const {
     return ExecuteCommandLists(std::span<const CommandList>(lists.begin(), lists.size()));
   }
   /// Sets the fence to `value` when everything submitted so far has completed.
   /// [D3D12: ID3D12CommandQueue::Signal]
   /// @errors KA0904 an empty handle; KA0903 a fence of another device; what
   /// Device::GetDeviceRemovedReason says.
-  Status Signal(const Fence& fence, uint64_t value);
+  Status Signal(const Fence& fence, uint64_t value) const;
   /// Makes what is submitted from now on wait until the fence reaches `value`. The call itself does
   /// not wait. [D3D12: ID3D12CommandQueue::Wait]
   /// @errors KA0904 an empty handle; KA0903 a fence of another device; what
   /// Device::GetDeviceRemovedReason says.
-  Status Wait(const Fence& fence, uint64_t value);
+  Status Wait(const Fence& fence, uint64_t value) const;
 
   /// Returns how many ticks of timestamps a second has. [D3D12: GetTimestampFrequency]
   /// @errors KA0904 an empty handle.
@@ -99,7 +100,7 @@ class CommandQueue {
   /// @errors KA0904 an empty handle; KA0903 a list of another device; the first error of recording;
   /// KA0823 the list was closed with errors; KA0856 freed memory; what
   /// Device::GetDeviceRemovedReason says.
-  Status ExecuteAndWait(CommandList& list);
+  Status ExecuteAndWait(const CommandList& list) const;
 
   /// For the library itself.
   const std::shared_ptr<detail::CommandQueueImpl>& impl() const { return impl_; }

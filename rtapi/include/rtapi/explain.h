@@ -175,13 +175,14 @@ struct DispatchStatistics {
 /// @errors KA0903, KA0904 an empty handle or a list of another device; the first error of
 /// recording; KA0856 memory that the list uses was freed; KA0916 no such dispatch or index, or
 /// memory that the host cannot reach; what Device::GetDeviceRemovedReason says.
-Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,
+Result<PixelExplanation> ExplainPixel(const CommandQueue& queue, const CommandList& list,
                                       const ExplainDesc& desc);
 /// Executes a list in the same way and counts what the rays of every pixel of one dispatch did; X,
 /// Y and Z of `desc` do not count. Every pixel is replayed on one thread: some 10 microseconds for
 /// each ray.
 /// @errors as of ExplainPixel: KA0856, KA0903, KA0904, KA0916, recording, removal.
-Result<DispatchStatistics> CollectPixelStatistics(CommandQueue& queue, CommandList& list,
+Result<DispatchStatistics> CollectPixelStatistics(const CommandQueue& queue,
+                                                  const CommandList& list,
                                                   const ExplainDesc& desc = {});
 
 /// An explanation as lines of text for a terminal, what is nested indented.

@@ -112,12 +112,12 @@ struct OverdrawStatistics {
 /// @errors KA0903, KA0904 an empty handle or a list of another device; the first error of
 /// recording; KA0856 memory that the list uses was freed; KA0916 a pixel outside of the targets, no
 /// such draw, or a backend that cannot; what Device::GetDeviceRemovedReason says.
-Result<DrawPixelExplanation> ExplainDrawPixel(CommandQueue& queue, CommandList& list,
+Result<DrawPixelExplanation> ExplainDrawPixel(const CommandQueue& queue, const CommandList& list,
                                               const ExplainDrawDesc& desc);
 /// Executes a list in the same way and counts what its draws do at every pixel.
 /// @errors as of ExplainDrawPixel, but a list without draws is none: KA0856, KA0903, KA0904,
 /// KA0916, recording, removal.
-Result<OverdrawStatistics> CollectOverdraw(CommandQueue& queue, CommandList& list,
+Result<OverdrawStatistics> CollectOverdraw(const CommandQueue& queue, const CommandList& list,
                                            const DrawRange& draws = {});
 
 /// An explanation as lines of text for a terminal, what is nested indented.

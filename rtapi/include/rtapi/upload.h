@@ -30,7 +30,7 @@ Result<Buffer> CreateUploadBuffer(const Device& device, const std::vector<T>& el
 /// `flags` and `name` are the buffer's.
 /// @errors KA0904 an empty handle; those of Device::CreateBuffer, KA0905, KA0906, KA0990; those of
 /// CommandQueue::ExecuteAndWait.
-Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
+Result<Buffer> CreateDefaultBuffer(const Device& device, const CommandQueue& queue,
                                    std::span<const std::byte> bytes,
                                    ResourceFlags flags = ResourceFlags::kNone,
                                    std::string name = {});
@@ -39,7 +39,7 @@ Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
 /// `queue`, behind all work that was submitted to it; others are read at once.
 /// @errors KA0904 an empty handle; KA0903 a buffer or queue of another device; KA0821 a buffer of
 /// acceleration structures; KA0990 no memory; those of CommandQueue::ExecuteAndWait.
-Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue& queue,
+Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, const CommandQueue& queue,
                                               const Buffer& buffer);
 
 /// Fills one subresource of a texture, in whatever state it is: `texels` are its rows from the top,
@@ -48,14 +48,14 @@ Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue
 /// @errors KA0904 an empty handle; KA0903 a texture or queue of another device; KA0817 no such
 /// subresource, too few texels, or a pitch shorter than a row; KA0990 no memory; those of
 /// CommandQueue::ExecuteAndWait.
-Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& texture,
+Status UploadTexture(const Device& device, const CommandQueue& queue, const Texture& texture,
                      uint32_t subresource, std::span<const std::byte> texels,
                      uint32_t row_pitch_bytes = 0);
 /// Reads one subresource of a texture, in whatever state it is: its rows from the top, slice after
 /// slice, without padding, in the texture's format; rows of whole blocks if it is block-compressed.
 /// @errors KA0904 an empty handle; KA0903 a texture or queue of another device; KA0817 no such
 /// subresource; KA0990 no memory; those of CommandQueue::ExecuteAndWait.
-Result<std::vector<std::byte>> ReadbackTexture(const Device& device, CommandQueue& queue,
+Result<std::vector<std::byte>> ReadbackTexture(const Device& device, const CommandQueue& queue,
                                                const Texture& texture, uint32_t subresource);
 
 }  // namespace rtapi

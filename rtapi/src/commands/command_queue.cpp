@@ -93,7 +93,7 @@ uint64_t Fence::GetCompletedValue() const {
   return impl_->device->removed().ok() ? impl_->value() : UINT64_MAX;
 }
 
-Status Fence::Signal(uint64_t value) {
+Status Fence::Signal(uint64_t value) const {
   if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty fence handle");
   impl_->Signal(value);
   return {};
@@ -133,7 +133,7 @@ Result<CommandQueue> Device::CreateCommandQueue() const {
   return CommandQueue(std::move(queue));
 }
 
-Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) {
+Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) const {
   if (!impl_) return MakeError(Id::kNullHandle, "ExecuteCommandLists on an empty queue handle");
   if (Status s = impl_->device->removed(); !s.ok()) return s;
   for (const CommandList& list : lists) {
@@ -160,24 +160,24 @@ Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) {
   return impl_->device->removed();
 }
 
-Status CommandQueue::Signal(const Fence& fence, uint64_t value) {
+Status CommandQueue::Signal(const Fence& fence, uint64_t value) const {
   if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty queue handle");
   if (Status s = CheckHandle(impl_->device, fence, "Signal: the fence"); !s.ok()) return s;
   impl_->Submit(CommandQueueImpl::SignalFence{fence.impl(), value});
   return impl_->device->removed();
 }
 
-Status CommandQueue::Wait(const Fence& fence, uint64_t value) {
+Status CommandQueue::Wait(const Fence& fence, uint64_t value) const {
   if (!impl_) return MakeError(Id::kNullHandle, "Wait on an empty queue handle");
   if (Status s = CheckHandle(impl_->device, fence, "Wait: the fence"); !s.ok()) return s;
   impl_->Submit(CommandQueueImpl::WaitFence{fence.impl(), value});
   return impl_->device->removed();
 }
 
-Status CommandQueue::ExecuteAndWait(CommandList& list) {
+Status CommandQueue::ExecuteAndWait(const CommandList& list) const {
   if (!impl_) return MakeError(Id::kNullHandle, "ExecuteAndWait on an empty queue handle");
   if (list.is_open()) {
-    if (Status s = list.Close(); !s.ok()) return s;
+    if (Status s = CommandList(list).Close(); !s.ok()) return s;
   }
   if (Status s = ExecuteCommandLists({list}); !s.ok()) return s;
   auto fence = Device(impl_->device).CreateFence();

@@ -5,12 +5,12 @@
 
 namespace rtapi::detail {
 
-Status prepare_explained(CommandQueue& queue, CommandList& list, const char* call) {
+Status prepare_explained(const CommandQueue& queue, const CommandList& list, const char* call) {
   if (!queue) return MakeError(Id::kNullHandle, call, ": the queue is an empty handle");
   const std::shared_ptr<DeviceImpl>& device = queue.impl()->device;
   if (Status s = CheckHandle(device, list, Text(call, ": the list")); !s.ok()) return s;
   if (list.is_open()) {
-    if (Status s = list.Close(); !s.ok()) return s;
+    if (Status s = CommandList(list).Close(); !s.ok()) return s;
   }
   if (!list.GetErrors().empty()) return list.GetErrors().front();
   return device->removed();

@@ -37,6 +37,6 @@ Status execute_held(DeviceImpl& device, const MemoryUses& uses, Run&& run) {
 
 // Makes a list ready to be explained: closes it, and fails as ExecuteCommandLists would. `call`
 // names the caller in messages.
-Status prepare_explained(CommandQueue& queue, CommandList& list, const char* call);
+Status prepare_explained(const CommandQueue& queue, const CommandList& list, const char* call);
 
 }  // namespace rtapi::detail

@@ -60,7 +60,7 @@ Result<Buffer> CreateUploadBuffer(const Device& device, std::span<const std::byt
   return buffer;
 }
 
-Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
+Result<Buffer> CreateDefaultBuffer(const Device& device, const CommandQueue& queue,
                                    std::span<const std::byte> bytes, ResourceFlags flags,
                                    std::string name) {
   if (Status s = check_queue(device, queue); !s.ok()) return s.error();
@@ -76,7 +76,7 @@ Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
   return buffer;
 }
 
-Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue& queue,
+Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, const CommandQueue& queue,
                                               const Buffer& buffer) {
   if (Status s = check_queue(device, queue); !s.ok()) return s.error();
   if (!buffer) return MakeError(Id::kNullHandle, "ReadbackBuffer on an empty buffer handle");
@@ -96,7 +96,7 @@ Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue
   return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
-Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& texture,
+Status UploadTexture(const Device& device, const CommandQueue& queue, const Texture& texture,
                      uint32_t subresource, std::span<const std::byte> texels, uint32_t row_pitch) {
   if (Status s = check_queue(device, queue); !s.ok()) return s;
   auto staging = make_staging(device, texture, subresource, HeapType::kUpload);
@@ -120,7 +120,7 @@ Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& t
   return queue.ExecuteAndWait(*list);
 }
 
-Result<std::vector<std::byte>> ReadbackTexture(const Device& device, CommandQueue& queue,
+Result<std::vector<std::byte>> ReadbackTexture(const Device& device, const CommandQueue& queue,
                                                const Texture& texture, uint32_t subresource) {
   if (Status s = check_queue(device, queue); !s.ok()) return s.error();
   auto staging = make_staging(device, texture, subresource, HeapType::kReadback);

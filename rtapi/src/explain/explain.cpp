@@ -87,7 +87,7 @@ Status CheckMemory(const DeviceImpl& device) {
 
 // Executes `list`, and calls use(replay, command) just before the dispatch.
 template <class Use>
-Status ExecuteWith(CommandQueue& queue, CommandList& list, const ExplainDesc& desc,
+Status ExecuteWith(const CommandQueue& queue, const CommandList& list, const ExplainDesc& desc,
                    const char* call, Use&& use) {
   if (Status s = prepare_explained(queue, list, call); !s.ok()) return s;
   const std::shared_ptr<DeviceImpl>& device = queue.impl()->device;
@@ -116,7 +116,7 @@ Status ExecuteWith(CommandQueue& queue, CommandList& list, const ExplainDesc& de
 
 }  // namespace
 
-Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,
+Result<PixelExplanation> ExplainPixel(const CommandQueue& queue, const CommandList& list,
                                       const ExplainDesc& desc) {
   PixelExplanation out;
   const Status done = ExecuteWith(
@@ -139,7 +139,8 @@ Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,
   return out;
 }
 
-Result<DispatchStatistics> CollectPixelStatistics(CommandQueue& queue, CommandList& list,
+Result<DispatchStatistics> CollectPixelStatistics(const CommandQueue& queue,
+                                                  const CommandList& list,
                                                   const ExplainDesc& desc) {
   DispatchStatistics out;
   const Status done = ExecuteWith(

@@ -22,7 +22,7 @@ using kaamos::explain::number_text;
 using runtime::PixelEvent;
 
 // Executes `list` and notes its draws.
-Status ExecuteObserved(CommandQueue& queue, CommandList& list, const char* call,
+Status ExecuteObserved(const CommandQueue& queue, const CommandList& list, const char* call,
                        runtime::DrawObservation& observation) {
   if (Status s = prepare_explained(queue, list, call); !s.ok()) return s;
   DeviceImpl& device = *queue.impl()->device;
@@ -119,7 +119,7 @@ ExplainedTriangle Explain(const runtime::DrawObservation::LoggedDraw& draw,
 
 }  // namespace
 
-Result<DrawPixelExplanation> ExplainDrawPixel(CommandQueue& queue, CommandList& list,
+Result<DrawPixelExplanation> ExplainDrawPixel(const CommandQueue& queue, const CommandList& list,
                                               const ExplainDrawDesc& desc) {
   runtime::DrawObservation seen;
   seen.first_draw = desc.Draws.FirstDraw;
@@ -153,7 +153,7 @@ Result<DrawPixelExplanation> ExplainDrawPixel(CommandQueue& queue, CommandList& 
   return out;
 }
 
-Result<OverdrawStatistics> CollectOverdraw(CommandQueue& queue, CommandList& list,
+Result<OverdrawStatistics> CollectOverdraw(const CommandQueue& queue, const CommandList& list,
                                            const DrawRange& draws) {
   runtime::DrawObservation seen;
   seen.first_draw = draws.FirstDraw;

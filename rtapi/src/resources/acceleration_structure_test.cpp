@@ -94,6 +94,20 @@ TEST_F(BuildTest, AS_01_OneKindOfGeometry) {
   EXPECT_ERROR(Build(), "KA0700", "type 2");
 }
 
+TEST_F(BuildTest, OneCallBuildsAndSaysWhatIsWrong) {
+  const CommandQueue queue = device_.CreateCommandQueue().value();
+  const std::vector<RaytracingGeometryDesc> geometries = {geometry_};
+  const auto bottom = BuildBottomLevel(device_, queue, geometries, "floor");
+  EXPECT_OK(bottom);
+  EXPECT_EQ(bottom->name(), "floor");
+  RaytracingInstanceDesc instance;
+  instance.AccelerationStructure = bottom->GetGPUVirtualAddress();
+  EXPECT_OK(BuildTopLevel(device_, queue, {instance}));
+  EXPECT_OK(BuildTopLevel(device_, queue, std::vector<RaytracingInstanceDesc>()));
+  EXPECT_ERROR(BuildBottomLevel(device_, CommandQueue(), geometries), "KA0904");
+  EXPECT_ERROR(BuildBottomLevel(Device(), queue, geometries), "KA0904");
+}
+
 TEST_F(BuildTest, AS_06_Indices) {
   auto& t = geometry_.Triangles;
   t.IndexCount = 3;
