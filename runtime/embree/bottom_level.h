@@ -24,7 +24,7 @@ using runtime::BuildFlags;
 struct BuildContext {
   RTCDevice device = nullptr;
   bool robust = true;  // RTC_SCENE_FLAG_ROBUST: only with it is DXR's open t interval exact
-  // Which bottom levels have their triangles tested by our own code: exact.h.
+  // The bottom levels whose triangles are tested by our own code: exact.h.
   enum class Exact : uint8_t { kNone, kNonOpaque, kAll } exact = Exact::kNone;
   PackFilter pack_filter = nullptr;  // for exact
   bool is_exact(std::span<const rtapi::RaytracingGeometryDesc> geometries) const;

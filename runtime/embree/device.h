@@ -83,7 +83,7 @@ class Device final : public runtime::BackendDevice {
  private:
   Device(const rtapi::DeviceDesc& desc, const runtime::Context& context);
   static bool count_bytes(void* self, ssize_t bytes, bool post);
-  // Whether this Embree has what Kaamos needs; if not, why.
+  // Ok if this Embree has what Kaamos needs; if not, the status says why.
   rtapi::Status check_embree() const;
 
   rtapi::DeviceInfo info_;
@@ -104,7 +104,7 @@ class Device final : public runtime::BackendDevice {
   Counters counters_;
 };
 
-// What rtapi/src/backends.cpp lists.
+// The factory that rtapi/src/backends.cpp lists.
 const runtime::BackendFactory& backend_factory();
 
 }  // namespace kaamos::embree

@@ -18,7 +18,7 @@
 
 namespace kaamos::embree {
 
-// What a dispatch needs from its device.
+// The parts of a device that a dispatch needs.
 struct DispatchEnvironment {
   tbb::task_arena* arena = nullptr;
   const Memory* memory = nullptr;

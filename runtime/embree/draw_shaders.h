@@ -24,7 +24,7 @@ struct RunningDraw {
   const GraphicsPipeline& pipeline() const {
     return static_cast<const GraphicsPipeline&>(*command.pipeline);
   }
-  // What the shaders have bound; empty unless they read it.
+  // The resources that the shaders have bound; empty unless they read them.
   std::vector<shader::BoundResource> vertex_bound;
   std::vector<shader::BoundResource> pixel_bound;
 };
@@ -40,7 +40,7 @@ class DrawWorkers final : public raster::Workers {
   void run(uint32_t count, Task task, const void* context) override;
   using raster::Workers::run;
 
-  // Whether a shader failed; then the pass ends as soon as it can.
+  // True if a shader failed; then the pass ends as soon as it can.
   bool failed() const { return failed_.load(std::memory_order_relaxed); }
 
  private:

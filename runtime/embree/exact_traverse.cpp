@@ -175,13 +175,13 @@ bool enter_robust(RayState& state, const InstanceNode& node, RTCRay& ray) {
   return ray.tfar >= state.t_near;
 }
 
-// Whether a hit of Embree's only keeps a later search of a RayQuery short.
+// Returns whether a hit of Embree's only keeps a later search of a RayQuery short.
 bool is_limit(const RayState& state) {
   return state.search != nullptr && !state.search->first;
 }
 
-// Where the ray ends for the boxes of a list. Coincident triangles must all be found, so it is a
-// little behind the hit.
+// Returns where the ray ends for the boxes of a list. Coincident triangles must all be found, so it
+// is a little behind the hit.
 float end_among_boxes(float committed_t) {
   return committed_t * (1 + 8 * FLT_EPSILON);
 }

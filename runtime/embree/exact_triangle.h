@@ -75,7 +75,7 @@ inline int side_of_moved(double side, const ProjectedVertex& a, const ProjectedV
   return 0;
 }
 
-// Whether the line of the ray hits the triangle. Triangles seen edge-on are not hit.
+// Returns whether the line of the ray hits the triangle. Triangles seen edge-on are not hit.
 inline bool intersect(const ExactRay& ray, const float a[3], const float b[3], const float c[3],
                       ExactHit& hit) {
   const ProjectedVertex pa = project(ray, a);
@@ -104,7 +104,7 @@ inline bool intersect(const ExactRay& ray, const float a[3], const float b[3], c
   return true;
 }
 
-// Whether the corners are collinear or coincide. [DXR: Degenerate primitives and instances]
+// Returns whether the corners are collinear or coincide. [DXR: Degenerate primitives and instances]
 inline bool is_degenerate(const float a[3], const float b[3], const float c[3]) {
   double e[3];
   double f[3];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the Embree backend does for each command of a list.
+// Executes each command of a list on the Embree backend.
 #include <algorithm>
 #include <cstring>
 #include <mutex>

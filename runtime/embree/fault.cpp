@@ -23,8 +23,8 @@ constinit runtime::FaultSignals signals(runtime::kShaderFaultSignals);
 // The worker whose guarded code this thread runs; null outside of shaders.
 thread_local Worker* guarded_worker = nullptr;
 
-// How far from the stack pointer an overflow may fault: on the guard page, or past it if a large
-// frame skipped it.
+// An overflow faults at most this far from the stack pointer: on the guard page, or past it if a
+// large frame skipped it.
 constexpr uintptr_t kNearStackPointer = 1u << 20;
 
 uintptr_t stack_pointer_of(const void* context) {

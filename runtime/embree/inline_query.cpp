@@ -48,8 +48,8 @@ RayQueryFound triangle_of(const RTCHit& hit, float t, uint32_t instance, uint32_
   return found;
 }
 
-// Where the ray enters the box, reduced by what rounding may add. If the direction is 0 along an
-// axis, the comparisons are false and the axis is ignored.
+// Returns where the ray enters the box, reduced by what rounding may add. If the direction is 0
+// along an axis, the comparisons are false and the axis is ignored.
 float entry_of(const rtapi::RaytracingAabb& box, const RTCRay& ray, float t_min) {
   const float low[3] = {box.MinX, box.MinY, box.MinZ};
   const float high[3] = {box.MaxX, box.MaxY, box.MaxZ};
@@ -133,7 +133,7 @@ void search(Worker& worker, RayQuery& query) {
   if (search.has_opaque) commit_opaque(query, scene, search.opaque);
 }
 
-// Whether a hit committed in the meantime rules the candidate out.
+// Returns whether a hit committed in the meantime rules the candidate out.
 bool is_beyond(const RayQuery& query, const RayQueryFound& found) {
   return found.procedural ? found.t > query.committed.t : found.t >= query.committed.t;
 }

@@ -20,7 +20,7 @@ struct QuerySearch {
   bool has_opaque = false;
   shader::RayQueryFound opaque;  // if `any`
 
-  // What a filter asks: should Embree commit the hit? That may shorten Embree's ray.
+  // For filters: returns whether Embree should commit the hit, which may shorten Embree's ray.
   bool take_triangle(RayState& state, const GeometryInfo& geometry, RTCRay& ray, const RTCHit& hit,
                      bool is_opaque, bool front_face);
   void take_box(const RayState& state, const GeometryInfo& geometry, uint32_t primitive,

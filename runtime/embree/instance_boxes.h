@@ -24,8 +24,8 @@ inline constexpr uint32_t kMostInstanceBoxes = 32;
 // The boxes that a ray enters, one bit each.
 using EnteredBoxes = uint32_t;
 
-// Where the ray enters them, `stride` floats from box to box. Undefined for boxes that it does not
-// enter.
+// The points where the ray enters them, `stride` floats from box to box. Undefined for boxes that
+// it does not enter.
 template <uint32_t stride>
 struct BoxEntries {
   float operator[](uint32_t box) const { return first[box * stride]; }

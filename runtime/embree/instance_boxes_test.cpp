@@ -29,7 +29,7 @@ RTCRay ray_of(const float (&origin)[3], const float (&direction)[3], float t_nea
   return ray;
 }
 
-// Where a ray enters and leaves a box, in double; entry above exit: it does not.
+// The part of a ray inside a box, in double; if entry is above exit, the ray misses the box.
 struct Interval {
   double entry;
   double exit;

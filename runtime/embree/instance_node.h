@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a traversal needs to know about an instance, in two cache lines, and the ray transform.
+// The data that a traversal needs about an instance, in two cache lines, and the ray transform.
 #pragma once
 
 #include <immintrin.h>
@@ -72,8 +72,8 @@ inline __m128 without_fourth_lane(__m128 v) {
   return _mm_and_ps(v, _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0)));
 }
 
-// Whether Embree may be called with it: finite, and below its limit. That includes the fourth
-// lanes.
+// Returns whether Embree may be called with the ray: finite, and below Embree's limit. That
+// includes the fourth lanes.
 inline bool is_traceable(const ObjectRay& ray) {
   const __m128 absolute = _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF));
   const __m128 limit = _mm_set1_ps(shim::kLargestCoordinate);

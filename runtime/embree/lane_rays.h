@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What TraceRay computes for the rays of several lanes at once, before it traces them one after
-// another: which are valid, their intervals, and the boxes that they enter.
+// Prepares the rays of several lanes at once for TraceRay, before it traces them one after another:
+// which are valid, their intervals, and the boxes that they enter.
 #pragma once
 
 #include "kaamos/shader/abi.h"

@@ -30,9 +30,9 @@ struct PaddedBox {
 
   bool active() const { return _mm_comile_ss(lower, upper) != 0; }
 
-  // Whether the ray passes the box between its tnear and tfar, both included. Never false for one
-  // that does: the relative error of each t is at most 3 half ulps, since differences of floats and
-  // their products are rounded once.
+  // Returns whether the ray passes the box between its tnear and tfar, both included. Never false
+  // for one that does: the relative error of each t is at most 3 half ulps, since differences of
+  // floats and their products are rounded once.
   bool meets(const RTCRay& ray) const {
     const __m128 origin = _mm_load_ps(&ray.org_x);
     const __m128 direction = _mm_load_ps(&ray.dir_x);

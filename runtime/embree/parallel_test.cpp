@@ -34,7 +34,7 @@ TEST(Parallel, RunInArenaReturnsAfterTheBody) {
 }
 
 #if defined(__SANITIZE_THREAD__)
-// What we tell the sanitizer about oneTBB must not hide a real race between two tasks.
+// Our annotations of oneTBB for the sanitizer must not hide a real race between two tasks.
 TEST(Parallel, TheThreadSanitizerSeesARaceBetweenTasks) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto race = [] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What TraceRay and RayQuery do with a ray before Embree sees it.
+// Prepares the rays of TraceRay and RayQuery before Embree sees them.
 #pragma once
 
 #include <cfloat>

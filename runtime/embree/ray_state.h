@@ -44,9 +44,9 @@ struct RayState {
   const shader::TraceRayArguments* arguments;
   const shader::Invocation* caller;
   void* payload;
-  // What the shaders of this ray see. `ray` is TraceRay's argument, and so are ray_flags, without
-  // the pipeline's flags and undefined bits [DXR: RayFlags]. The rest is set before each shader
-  // runs.
+  // The values that the shaders of this ray see. `ray` is TraceRay's argument, and so are
+  // ray_flags, without the pipeline's flags and undefined bits [DXR: RayFlags]. The rest is set
+  // before each shader runs.
   alignas(16) shader::RaySystemValues values;
 
   uint32_t ray_flags;       // including the pipeline's flags

@@ -5,7 +5,7 @@
 
 namespace kaamos::embree {
 
-// What the shaders of this backend may call; one table for all dispatches.
+// The functions that the shaders of this backend may call; one table for all dispatches.
 const shader::Services& services();
 
 }  // namespace kaamos::embree

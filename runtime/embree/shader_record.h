@@ -43,9 +43,9 @@ struct alignas(64) Shader {
 
 using runtime::RecordKind;
 
-// What a shader identifier stands for. Absent shaders run nothing, so kNothing below serves for
-// null identifiers, records out of bounds and identifiers of the wrong kind alike. Shaders are held
-// by value, so that what a hit runs is two loads away instead of three.
+// The shaders that an identifier stands for. Absent shaders run nothing, so kNothing below serves
+// for null identifiers, records out of bounds and identifiers of the wrong kind alike. Shaders are
+// held by value, so that what a hit runs is two loads away instead of three.
 struct RecordTarget {
   Shader shader;   // ray generation, miss, callable
   Shader any_hit;  // hit groups
@@ -63,7 +63,7 @@ struct TargetLookup {
   const void* self = nullptr;
 };
 
-// What was reached in a table but should not have been; one example of each sort is kept.
+// Records that were reached in a table but should not have been; one example of each sort is kept.
 struct RecordProblems {
   static constexpr uint64_t kNone = UINT64_MAX;
   std::atomic<uint64_t> out_of_bounds = kNone;  // an index past the table
@@ -97,7 +97,7 @@ class RecordTable {
     return resolve(slot, index);
   }
 
-  // How many records are inside size_bytes; 1 for a stride of 0.
+  // The number of records inside size_bytes; 1 for a stride of 0.
   uint64_t count() const { return count_; }
 
  private:

@@ -46,8 +46,8 @@ class Texture final : public runtime::BackendTexture {
 
   // The texels, or the blocks.
   const TextureMemory& stored() const { return stored_; }
-  // What goes into Descriptor::address; equal descs share one view. The arena decodes blocks. Null
-  // if out of memory.
+  // Returns the view that goes into Descriptor::address; equal descs share one. The arena decodes
+  // blocks. Null if out of memory.
   const shader::TextureView* view(const runtime::TextureViewDesc& desc, tbb::task_arena& arena);
 
   // Held while elements are written: no view is made meanwhile.

@@ -25,7 +25,7 @@
 
 namespace kaamos::embree {
 
-// What only shaders need from an instance: 3x4, row-major.
+// The transform that only shaders need from an instance: 3x4, row-major.
 struct WorldToObject {
   float rows[12];
 };
@@ -39,7 +39,7 @@ class TopLevel final : public runtime::TopLevelBase {
   TopLevel(const TopLevel&) = delete;
   TopLevel& operator=(const TopLevel&) = delete;
 
-  // Whether nothing can be hit. Otherwise there is either a list of boxes or a scene.
+  // True if nothing can be hit. Otherwise there is either a list of boxes or a scene.
   bool empty() const { return bottom_levels_.empty(); }
   const InstanceBoxes& boxes() const { return boxes_; }
   RTCScene scene() const { return scene_; }
@@ -48,15 +48,15 @@ class TopLevel final : public runtime::TopLevelBase {
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
   bool has_exact() const { return has_exact_; }
-  // What rays see that make all geometry non-opaque, and so may meet any-hit shaders everywhere:
-  // the same instances with all triangles exact. Made when it is first asked for, in robust
-  // precision.
+  // The level for rays that make all geometry non-opaque, and so may meet any-hit shaders
+  // everywhere: the same instances with all triangles exact. Made when it is first asked for, in
+  // robust precision.
   const TopLevel& for_non_opaque() const {
     if (!has_robust_) return *this;
     const TopLevel* made = non_opaque_.load(std::memory_order_acquire);
     return made != nullptr ? *made : make_non_opaque();
   }
-  // Where Embree's coordinates have their origin in a tree with exact bottom levels.
+  // The origin of Embree's coordinates in a tree with exact bottom levels.
   const ExactFrame& frame() const { return frame_; }
   PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }

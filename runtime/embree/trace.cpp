@@ -12,7 +12,7 @@ namespace {
 
 using shader::TraceRayArguments;
 
-// Whether only the existence of a hit matters. This includes forced-opaque rays without a
+// Returns whether only the existence of a hit matters. This includes forced-opaque rays without a
 // closest-hit shader, as long as no intersection shader could see the difference.
 bool asks_visibility(const RayState& state) {
   if ((state.ray_flags & kRaySkipClosestHitShader) == 0) return false;

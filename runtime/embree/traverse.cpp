@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a traversal does at an instance, in robust and fast precision: decides by the instance's
-// mask and flags what the ray sees of it, transforms the ray to object space, and traverses the
-// bottom level with it. For top levels with exact bottom levels see exact_traverse.cpp.
+// Visits an instance in robust and fast precision: decides by the instance's mask and flags what
+// the ray sees of it, transforms the ray to object space, and traverses the bottom level with it.
+// For top levels with exact bottom levels see exact_traverse.cpp.
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
 #include "runtime/embree/lane_rays.h"

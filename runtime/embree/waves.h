@@ -9,7 +9,7 @@
 
 namespace kaamos::embree {
 
-// What waits at a wave operation.
+// A call that waits at a wave operation.
 struct WaveArrival {
   const shader::WaveCall* call = nullptr;
   uint32_t first_lane = 0;  // of the wave; the call's lane 0

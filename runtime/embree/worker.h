@@ -30,7 +30,8 @@ namespace kaamos::embree {
 class TopLevel;
 class Memory;
 
-// What a dispatch did. Summed over tiles; these are integers, so the order does not matter.
+// Counts of what a dispatch did. Summed over tiles; these are integers, so the order does not
+// matter.
 struct Counters {
   uint64_t rays = 0;             // TraceRay calls
   uint64_t visibility_rays = 0;  // those of them that only asked whether there is a hit
@@ -80,7 +81,7 @@ struct RunningDispatch {
   uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
   uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]
   const Memory* memory = nullptr;
-  // What the shaders of a ray tracing pipeline have bound, by Shader::number.
+  // The resources that the shaders of a ray tracing pipeline have bound, by Shader::number.
   std::vector<shader::BoundResource> bound_resources;
   std::vector<const shader::BoundResource*> bound;
   std::vector<Picture> pictures;
@@ -103,8 +104,8 @@ struct RunningDispatch {
   std::unordered_set<uint64_t> reached_hashes;
 };
 
-// What each ray reads from it is in the first cache line: spread over two, primary rays take 5 %
-// longer.
+// The members that each ray reads are in the first cache line: spread over two, primary rays take
+// 5 % longer.
 struct alignas(64) Worker {
   RunningDispatch* dispatch = nullptr;
   const shader::BoundResource* const* bound = nullptr;  // the dispatch's

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which triangles of a batch reach which tiles.
+// Finds the tiles that the triangles of a batch reach.
 #pragma once
 
 #include <cstdint>

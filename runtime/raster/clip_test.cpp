@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is cut away: RAS-26 to RAS-36.
+// Tests what is cut away: RAS-26 to RAS-36.
 #include "runtime/raster/clip.h"
 
 #include <gtest/gtest.h>

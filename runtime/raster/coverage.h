@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which pixels of a tile a triangle covers, block by block of 4 x 2 pixels, in 32-bit integers: an
-// edge that crosses the tile has values that fit, and one that does not needs no test.
+// Finds the pixels of a tile that a triangle covers, block by block of 4 x 2 pixels, in 32-bit
+// integers: an edge that crosses the tile has values that fit, and one that does not needs no test.
 #pragma once
 
 #include "runtime/raster/edges.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pass of draws works on: the textures that it writes and the bytes that it reads.
+// This file holds what a pass of draws works on: the textures that it writes and the bytes that it
+// reads.
 #pragma once
 
 #include <array>
@@ -38,8 +39,8 @@ struct Draw {
   const runtime::DrawState* state = nullptr;
   bool indexed = false;
   rtapi::DrawIndexedArguments arguments;  // as in runtime::DrawCommand
-  // What the views of `state` stand for; without data: nothing is bound. Strides and the format of
-  // indices are those of the views.
+  // The bytes that the views of `state` stand for; a span without data means that nothing is bound.
+  // Strides and the format of indices are those of the views.
   std::array<std::span<const uint8_t>, rtapi::kIAVertexInputResourceSlotCount> vertex_buffers;
   std::span<const uint8_t> indices;
 };

@@ -71,7 +71,7 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
 }
 
 // ---------------------------------------------------------------------------------------------
-// Which vertices there are.
+// Collecting vertices
 
 void FrontEnd::collect_vertices() {
   const uint32_t corners = range_->strip ? range_->count + 2 : range_->count * 3;
@@ -261,7 +261,7 @@ void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
   shading.vertex[2] = vertex[swapped ? 1 : 2];
 }
 
-// Where each triangle may choose its viewport, vertices are transformed here.
+// If each triangle may choose its viewport, vertices are transformed here.
 void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const {
   if (!plan_->picks_viewport) {
     for (int i = 0; i < 3; ++i) {

@@ -36,7 +36,7 @@ class FrontEnd {
                    uint32_t codes);
   // Adds a triangle; null if it need not be drawn.
   Triangle* emit(const ScreenVertex screen[3]);
-  // Of the triangle that was added last; `vertex` and `clip` are left to the caller.
+  // Adds the shading of the triangle that was added last; leaves `vertex` and `clip` to the caller.
   TriangleShading& add_shading(const ScreenVertex screen[3], uint32_t primitive_id);
   void count_vertices(uint32_t first, uint32_t count);
 
@@ -45,7 +45,7 @@ class FrontEnd {
   const DrawPlan* plan_ = nullptr;
   Batch* batch_ = nullptr;
   runtime::DrawCounts* counts_ = nullptr;  // null: nothing is counted
-  // Where the triangle that is being added is drawn to.
+  // The viewport that the triangle being added is drawn to.
   const ViewportState* viewport_ = nullptr;
   uint32_t viewport_flags_ = 0;
   uint32_t slice_ = 0;

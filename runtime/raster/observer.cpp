@@ -105,7 +105,7 @@ float TileObserver::depth_of(uint32_t word) const {
   }
 }
 
-// What the test compares. [pixel_depth.h]
+// Returns the depth that the test compares. [pixel_depth.h]
 float TileObserver::converted(float z, const Triangle& triangle) const {
   const ViewportState& viewport = plan_->viewports[triangle.flags >> kViewportShift];
   if (z < viewport.depth_low) z = viewport.depth_low;

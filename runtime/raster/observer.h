@@ -13,7 +13,7 @@
 
 namespace kaamos::raster {
 
-// What to note of a pass.
+// The draws of a pass that are observed, and where the results go.
 struct Observation {
   struct OfDraw {
     uint32_t number = 0;  // for the log

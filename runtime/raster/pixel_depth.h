@@ -134,7 +134,7 @@ class DepthTest {
       return to_ints(to_doubles(z) * doubles(16777215.0) + doubles(0.5));
     }
   }
-  // Where either is NaN, only what passes for both less and greater passes.
+  // If either is NaN, only functions that pass for both less and greater pass.
   template <class T>
   KAAMOS_INLINE lanes compare(const wide<T>& z, const wide<T>& stored) const {
     if constexpr (kFunc == kPassLess) return less(z, stored);

@@ -32,7 +32,7 @@ void add_slope(Scene& scene, float left, float right) {
   }
 }
 
-// What a pixel shader reads in SV_Position.z of a quad at depth z.
+// Returns what a pixel shader reads in SV_Position.z of a quad at depth z.
 uint32_t position_z(Scene& scene) {
   TestTexture& target = scene.add_target(Format::kR32Float);
   scene.shade_columns(scene.add_pixel_input(scene.linked.pixel_columns.position, 3) + 2, 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which vertices form triangles, and what shaders see of their numbers: RAS-02 to RAS-10, RAS-12,
-// RAS-19, RAS-20.
+// Tests which vertices form triangles, and what shaders see of their numbers: RAS-02 to RAS-10,
+// RAS-12, RAS-19, RAS-20.
 #include "runtime/raster/primitives.h"
 
 #include <gtest/gtest.h>

@@ -204,7 +204,7 @@ inline QuadShader::Edges8 QuadShader::edges_at(const int32_t x[2], const int32_t
           to_floats(doubles(static_cast<double>(area_)) - first - second)};
 }
 
-// What shade() does after the pixel shader, told to the observer.
+// Does what shade() does after the pixel shader, and tells the observer.
 inline void QuadShader::finish_observed(uint32_t first, bool pair, const QuadPlaces& places,
                                         uint32_t live) {
   const QuadQueue& queue = scratch_.queue;
@@ -310,7 +310,7 @@ template <DepthKind kKind>
 inline uint32_t QuadShader::test_late_as(uint32_t* quads[2], const Floats8& z,
                                          uint32_t live) const {
   const ViewportState& viewport = plan_->viewports[triangle_->flags >> kViewportShift];
-  // What was tested before passes again.
+  // Pixels that were tested early pass here.
   const uint32_t func = plan_->late_test ? plan_->depth_func : 7;
   const DepthTest<kKind> test(func, viewport.depth_low, viewport.depth_high);
   return bits_of(test.run(quads[0], quads[1], z, lanes_of(live), plan_->late_write));

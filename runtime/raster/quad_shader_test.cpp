@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What pixel shaders get: RAS-72 to RAS-81, RAS-84 to RAS-86, RAS-89.
+// Tests what pixel shaders get: RAS-72 to RAS-81, RAS-84 to RAS-86, RAS-89.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -48,7 +48,7 @@ struct Extent {
   uint32_t slices = 0;
 };
 
-// What all targets have in common.
+// Returns the extent that all targets have in common.
 Extent common_extent(const Targets& targets) {
   Extent extent;
   const auto add = [&](const Surface& surface) {
@@ -73,7 +73,7 @@ DrawTile draw_tile_function([[maybe_unused]] const RasterizerOptions& options) {
 
 }  // namespace
 
-// What stays from pass to pass.
+// The state that stays from pass to pass.
 struct Rasterizer::Memory {
   RasterizerOptions options;
   DrawTile draw_tile = nullptr;
@@ -132,7 +132,7 @@ struct Rasterizer::Pass {
       }
     }
     flush();
-    // What no tile has written.
+    // Clear the targets that no tile has written.
     each_cleared([](Surface& surface) { write_cleared(surface); });
   }
 

@@ -19,7 +19,7 @@ struct Observation;  // observer.h
 // Results depend on none of them.
 struct RasterizerOptions {
   uint32_t batch_triangles = 2048;
-  // What may wait for tiles to be drawn, roughly; a batch at least.
+  // Bytes that may wait for tiles to be drawn, roughly; a batch at least.
   uint64_t batch_bytes = uint64_t{64} << 20;
   bool any_processor = false;  // leaves what only some processors have unused
 };

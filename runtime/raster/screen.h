@@ -12,7 +12,8 @@
 
 namespace kaamos::raster {
 
-// Where a vertex is. Triangles whose vertices share one of the bits kOutside are not seen.
+// The limits that a vertex is beyond, a bit each. Triangles whose vertices share one of the bits
+// kOutside are not seen.
 enum Outcode : uint32_t {
   kOutNear = 1,
   kOutFar = 2,

@@ -10,7 +10,7 @@
 
 namespace kaamos::raster {
 
-// How fast_encode.h writes a format.
+// The way in which fast_encode.h writes a format.
 enum class FastEncode : uint8_t { kNone, kWords, kHalves, kRgba8, kRgba8Srgb, kBgra8, kBgra8Srgb };
 
 // A texel is up to four words; those of fewer than 32 bits are in the low bits of one. Word w of
@@ -21,7 +21,7 @@ struct TargetCodec {
   FastEncode fast = FastEncode::kNone;
   uint8_t columns = 4;   // of colours that encoding reads
   bool integer = false;  // does not blend
-  // What blending clamps to: 0 to 1, -1 to 1 (clamped_signed), or nothing.
+  // Blending clamps to 0 to 1, to -1 to 1 (clamped_signed), or not at all.
   bool clamped = false;
   bool clamped_signed = false;
   uint32_t component[4][4] = {};  // bits of each component in each word

@@ -81,7 +81,7 @@ class TileDrawing {
     }
   }
 
-  // What happens to the blocks of one triangle.
+  // Draws the blocks of one triangle.
   template <DepthKind kKind, uint32_t kFunc, bool kShades>
   struct Blocks {
     TileDrawing& tile;

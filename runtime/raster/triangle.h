@@ -34,8 +34,8 @@ struct PixelBox {
   int16_t left, top, right, bottom;
 };
 
-// What covering pixels and their depth take, in one line of the cache. Its vertices are clockwise,
-// y down. Vertex 0 is the leading one unless it is clipped.
+// The part of a triangle that its coverage and depth need, in one line of the cache. Its vertices
+// are clockwise, y down. Vertex 0 is the leading one unless it is clipped.
 struct alignas(64) Triangle {
   int32_t x[3];
   int32_t y[3];
@@ -47,7 +47,7 @@ struct alignas(64) Triangle {
 };
 static_assert(sizeof(Triangle) == 64);
 
-// What else its pixels take.
+// The rest of a triangle, which its pixels need.
 struct TriangleShading {
   uint32_t vertex[3];  // of the batch; if it is clipped those of the primitive, in its order
   uint32_t primitive_id;
@@ -55,7 +55,7 @@ struct TriangleShading {
   uint32_t clip;   // number of its ClipWeights
 };
 
-// What a clipped triangle's vertices are made of: weights of the primitive's vertices, by vertex.
+// Weights of the primitive's vertices, by vertex, that make up a clipped triangle's vertices.
 struct ClipWeights {
   float perspective[3][3];  // in clip space
   float screen[3][3];       // on the screen, for what is linear there

@@ -47,7 +47,7 @@ float bias_of(const DrawPlan& plan, const Triangle& t) {
   return bias;
 }
 
-// Whether one of the blocks of 4 x 2 pixels that the box touches reaches beyond `rect`.
+// Returns whether one of the blocks of 4 x 2 pixels that the box touches reaches beyond `rect`.
 bool needs_masks(const PixelRect& box, const PixelRect& rect) {
   return (box.left & ~3) < rect.left || ((box.right + 3) & ~3) > rect.right ||
          (box.top & ~1) < rect.top || ((box.bottom + 1) & ~1) > rect.bottom;

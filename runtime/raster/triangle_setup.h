@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is computed once for each triangle: facing, depth bias, the plane of depth.
+// Computes what is needed once for each triangle: facing, depth bias, the plane of depth.
 // [D3D11.3: 15.10, 15.11, 15.16]
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What vertex buffers give the columns of a vertex shader: RAS-11, RAS-13 to RAS-15.
+// Tests what vertex buffers give the columns of a vertex shader: RAS-11, RAS-13 to RAS-15.
 #include "runtime/raster/vertex_fetch.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pass of draws needs of its caller: threads, and shaders that run on them.
+// This file holds what a pass of draws needs from its caller: threads, and shaders that run on
+// them.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What TraversalPrecision::kExact promises, over scales and distances, compared with what the other
-// two precisions do. [DXR: Watertightness; Top-left rule; Ray extents; Degenerate primitives]
+// Tests what TraversalPrecision::kExact promises, over scales and distances, compared with what the
+// other two precisions do. [DXR: Watertightness; Top-left rule; Ray extents; Degenerate primitives]
 #include <gtest/gtest.h>
 
 #include <algorithm>

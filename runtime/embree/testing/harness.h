@@ -120,8 +120,8 @@ struct GeometryInput {
 inline constexpr auto kOpaque = rtapi::RaytracingGeometryFlags::kOpaque;
 inline constexpr auto kNonOpaque = rtapi::RaytracingGeometryFlags::kNone;
 
-// Whether a triangle's t, which must be representable as a float, is `expected`: to the bit, except
-// within 2 ulps where Embree multiplies by a reciprocal that has an error (robust and fast
+// Succeeds if a triangle's t, which must be representable as a float, is `expected`: to the bit,
+// except within 2 ulps where Embree multiplies by a reciprocal that has an error (robust and fast
 // precision, CPUs without AVX-512).
 ::testing::AssertionResult is_distance(float t, float expected);
 ::testing::AssertionResult is_distance(float t, float expected,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the rasterizer must compute, pixel by pixel and as the rules are written: 64-bit integers,
-// no tiles, no clipping. For triangles in front of the eye that do not reach beyond the guard band.
+// Computes what the rasterizer must compute, pixel by pixel and as the rules are written: 64-bit
+// integers, no tiles, no clipping. For triangles in front of the eye that do not reach beyond the
+// guard band.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ class ReferenceTriangle {
   // Corners in clip space.
   ReferenceTriangle(const float corners[3][4], const rtapi::Viewport& viewport);
 
-  // Whether the centre of a pixel is inside, or on a top or left edge.
+  // Returns whether the centre of a pixel is inside, or on a top or left edge.
   bool covers(int32_t x, int32_t y) const;
   // z at the centre, from the snapped corners.
   long double depth(int32_t x, int32_t y) const;

@@ -41,7 +41,7 @@ class TestTexture {
       }
     }
   }
-  // How many texels begin with this value.
+  // Counts the texels that begin with this value.
   template <class T>
   uint32_t count(T value) {
     uint32_t found = 0;
@@ -143,7 +143,7 @@ class Scene {
   std::function<void(shader::PixelLanes&)> pixel;
 };
 
-// How many texels hold another float.
+// Counts the texels that hold another float.
 uint32_t texels_other_than(TestTexture& texture, float expected);
 
 }  // namespace kaamos::raster::testing
