@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which GPU virtual addresses are alive, and what their buffers are called. rtapi maintains it;
-// while it executes, a backend looks up what it is about to read or write.
+// Keeps track of the GPU virtual addresses that are alive, and of what their buffers are called.
+// rtapi maintains it; while it executes, a backend looks up what it is about to read or write.
 #pragma once
 
 #include <algorithm>
@@ -110,8 +110,8 @@ class AddressMap {
     std::inplace_merge(out.begin(), out.begin() + middle, out.end(), by_address);
     return out;
   }
-  // Where the host sees the byte at `address`. An address outside every allocation is taken for a
-  // host address.
+  // Returns where the host sees the byte at `address`. An address outside every allocation is taken
+  // for a host address.
   uint8_t* host(uint64_t address) const {
     std::shared_lock lock(mutex_);
     const Allocation* a = locate(address);

@@ -86,16 +86,16 @@ class BackendDevice {
   // MipLevels must be resolved.
   virtual rtapi::Result<std::shared_ptr<BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) = 0;
-  // What goes into Descriptor::address. Lives as long as the texture; views with equal descs may
-  // share one.
+  // Creates a view and returns what goes into Descriptor::address. The view lives as long as the
+  // texture; views with equal descs may share one.
   virtual rtapi::Result<uint64_t> create_texture_view(BackendTexture& texture,
                                                       const TextureViewDesc& desc) = 0;
   // The same for samplers; they live as long as the device, and equal ones are shared.
   virtual rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) = 0;
-  // Whether typed buffers, textures and their views can have this format.
+  // Returns whether typed buffers, textures and their views can have this format.
   virtual bool supports_format(rtapi::Format format, bool unordered_access) const = 0;
-  // Whether draws can write to textures in this format, as colours or as depth, and whether they
-  // can blend there.
+  // Returns whether draws can write to textures in this format, as colours or as depth, and whether
+  // they can blend there.
   virtual bool supports_target(rtapi::Format format, bool blended) const = 0;
 
   // Pipelines
@@ -145,7 +145,7 @@ struct ReachedFrom {
   shader::ReachedCall call;
 };
 
-// Which tables, by RecordKind, a dispatch needed a record from that was missing.
+// The tables, by RecordKind, in which a record that a dispatch needed was missing.
 struct MissingRecords {
   bool past_the_end[4] = {};
   // The record had no identifier of that kind from this pipeline, and was not NULL.
@@ -179,16 +179,16 @@ class CommandObserver {
     (void)command;
     (void)counts;
   }
-  // Whether before() or after() reads GPU memory for this command.
+  // Returns whether before() or after() reads GPU memory for this command.
   virtual bool needs_memory(const Command& command) const = 0;
-  // Whether after() reads what the command wrote.
+  // Returns whether after() reads what the command wrote.
   virtual bool needs_memory_after(const Command& command) const {
     (void)command;
     return false;
   }
 };
 
-// What a backend gets from rtapi. All of it outlives the backend.
+// Everything that a backend gets from rtapi. All of it outlives the backend.
 struct Context {
   const AddressMap* addresses = nullptr;
   std::function<void(const rtapi::Message&)> message;  // never empty; may be called from any thread

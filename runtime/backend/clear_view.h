@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What ClearUnorderedAccessViewUint and ClearUnorderedAccessViewFloat write. [D3D12]
+// Clears views as ClearUnorderedAccessViewUint and ClearUnorderedAccessViewFloat do. [D3D12]
 #pragma once
 
 #include <cstdint>

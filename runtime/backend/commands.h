@@ -44,7 +44,7 @@ struct DispatchCommand {
   std::shared_ptr<const LinkedCompute> linked = nullptr;
 };
 
-// Where the arguments of a command signature come from and go to: byte offsets in a command of the
+// The source and destination of a command signature's arguments: byte offsets in a command of the
 // argument buffer, and in RootArguments.
 struct IndirectArgument {
   uint32_t source_offset = 0;
@@ -177,7 +177,7 @@ using Command =
                  CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand, DrawCommand,
                  ClearTargetCommand, TimestampCommand, ResolveTimestampsCommand>;
 
-// What the application called, for messages: "DispatchRays".
+// Names the application's call, for messages: "DispatchRays".
 const char* command_name(const Command& command);
 
 }  // namespace kaamos::runtime

@@ -19,7 +19,7 @@ class BackendPipeline;
 class BackendTexture;
 struct LinkedGraphics;
 
-// What a render target or depth-stencil descriptor stood for when a call read it.
+// The view that a render target or depth-stencil descriptor stood for when a call read it.
 struct TargetView {
   std::shared_ptr<BackendTexture> texture;  // null: no target
   rtapi::Format format = rtapi::Format::kUnknown;
@@ -42,7 +42,7 @@ struct DrawTargets {
   bool operator==(const DrawTargets&) const = default;
 };
 
-// What a list has set when it draws. Draws share it if nothing was set between them.
+// The state that a list has set when it draws. Draws share it if nothing was set between them.
 struct DrawState {
   DrawTargets targets;
   std::array<rtapi::Viewport, rtapi::kViewportAndScissorRectCount> viewports;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a backend that rasterizes by itself can note while it draws: sums for each draw, counts for
-// each pixel, and all that became of one pixel.
+// The notes that a backend that rasterizes by itself can take while it draws: sums for each draw,
+// counts for each pixel, and all that became of one pixel.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace kaamos::runtime {
 
 struct LinkedGraphics;  // linked_graphics.h
 
-// Where something was found first, in the order of drawing as far as it has one.
+// The pixel where something was found first, in the order of drawing as far as it has one.
 struct FirstPixel {
   uint32_t x = 0;
   uint32_t y = 0;
@@ -91,14 +91,14 @@ inline void DrawCounts::add(const DrawCounts& other) {
   depth.add(other.depth);
 }
 
-// How many triangles did what at a pixel.
+// Counts of the triangles at a pixel, by what they did there.
 struct PixelCounts {
   uint32_t covered = 0;
   uint32_t shaded = 0;
   uint32_t written = 0;
 };
 
-// Of one slice of the targets; row by row.
+// The counts of one slice of the targets; row by row.
 struct PixelMap {
   uint32_t width = 0;
   uint32_t height = 0;
@@ -157,7 +157,7 @@ struct DrawObservation {
   uint32_t left_out = 0;  // draws to targets of another size
   uint32_t width = 0;     // of what targets have in common; 0: nothing noted yet
   uint32_t height = 0;
-  // Of draws in the log, by number.
+  // The draws in the log, by number.
   struct LoggedDraw {
     std::shared_ptr<const LinkedGraphics> linked;
     std::string label;  // "DrawInstanced, command 3"

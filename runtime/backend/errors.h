@@ -41,7 +41,7 @@ rtapi::Error make_error(Id id, const std::string& detail);
 std::string hexadecimal(uint64_t address);
 
 inline constexpr char kMultisampledUse[] = "it used a Texture2DMS or RWTexture2DMS";
-// What ended a dispatch.
+// Returns the id for the reason that ended a dispatch.
 Id removal_id(shader::RemovalReason reason);
 // With a code that the row cannot know.
 rtapi::Error make_error(Id id, rtapi::ErrorCode code, const std::string& detail);

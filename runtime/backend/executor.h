@@ -17,10 +17,10 @@
 
 namespace kaamos::runtime {
 
-// What came of a dispatch. An error removes the device.
+// The outcome of a dispatch. An error removes the device.
 struct DispatchOutcome {
   rtapi::Status status;
-  // What ran, or did not, unlike what the application may have meant.
+  // Something that ran, or did not, unlike what the application may have meant.
   struct Warning {
     Id id;
     std::string text;
@@ -31,7 +31,7 @@ struct DispatchOutcome {
   MissingRecords missing = {};
 };
 
-// What a backend does for each command. `label` names the command in messages.
+// A backend's work for each command. `label` names the command in messages.
 class CommandTarget {
  public:
   virtual ~CommandTarget() = default;

@@ -10,7 +10,7 @@
 
 namespace kaamos::runtime {
 
-// What faulty shader code raises.
+// The signals that faulty shader code raises.
 inline constexpr int kShaderFaultSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
 class FaultSignals {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What linking makes of state objects and compute pipelines: everything a backend needs to run
+// The result of linking state objects and compute pipelines: everything a backend needs to run
 // them, with names resolved, root arguments assigned and sizes checked. Immutable.
 #pragma once
 
@@ -38,7 +38,7 @@ struct LinkedShader {
 // kNone: no identifier of this pipeline.
 enum class RecordKind : uint8_t { kRayGeneration, kMiss, kCallable, kHitGroup, kNone };
 
-// What an identifier stands for. Absent shaders are null.
+// The record that an identifier stands for. Absent shaders are null.
 struct LinkedRecord {
   rtapi::ShaderIdentifier identifier = {};
   std::string name;

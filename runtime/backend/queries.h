@@ -11,14 +11,14 @@ namespace kaamos::runtime {
 
 class BackendBuffer;
 
-// What timestamps were written to it, by index.
+// Remembers by index which timestamps were written to it.
 class BackendQueryHeap {
  public:
   explicit BackendQueryHeap(uint32_t count) : written_(count) {}
   virtual ~BackendQueryHeap() = default;
 
-  // What has been written when commands have run up to the present one. For the thread that
-  // executes.
+  // Tells whether a timestamp has been written when commands have run up to the present one. For
+  // the thread that executes.
   bool written(uint32_t index) const { return written_[index]; }
   void set_written(uint32_t index) { written_[index] = true; }
 

@@ -22,15 +22,15 @@ struct alignas(16) RootArguments {
   std::array<uint8_t, kRootArgumentBytes> bytes = {};
 };
 
-// What DispatchRays, Dispatch and draws share. They share a snapshot if nothing was set between
-// them.
+// The bindings that DispatchRays, Dispatch and draws have in common. They share a snapshot if
+// nothing was set between them.
 struct RootBindings {
   std::shared_ptr<const RootArguments> root_arguments;  // never null
   // The heaps set on the list; [begin, end) of shader::DispatchConstants. Null: none set.
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
   rtapi::RootSignature root_signature;  // the one that was set; may be empty
-  // Where its parameters' arguments lie in `root_arguments`; null without a signature.
+  // The places of its parameters' arguments in `root_arguments`; null without a signature.
   std::shared_ptr<const std::vector<uint32_t>> argument_offsets;
   // Bits of root parameters that were set since; and of those that were set before, under another
   // signature. For checked mode.

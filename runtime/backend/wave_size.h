@@ -7,8 +7,8 @@
 
 namespace kaamos::runtime {
 
-// Whether the waves of a device, which have from `least` to `most` lanes, can be as the shader's
-// [WaveSize] asks; `device` says how they are, for the error KA0550.
+// Checks that the waves of a device, which have from `least` to `most` lanes, can be as the
+// shader's [WaveSize] asks; `device` says how they are, for the error KA0550.
 rtapi::Status check_wave_size(const LinkedCompute& pipeline, uint32_t least, uint32_t most,
                               const std::string& device);
 

@@ -16,8 +16,8 @@ using runtime::LinkedRecord;
 using runtime::LinkedShader;
 using runtime::RecordKind;
 
-// How deep shaders may call each other; DXR's own limits are 31 for TraceRay and the stack for
-// CallShader.
+// The depth to which shaders may call each other; DXR's own limits are 31 for TraceRay and the
+// stack for CallShader.
 constexpr uint32_t kMaxNesting = 96;
 
 const char* table_name(RecordKind kind) {

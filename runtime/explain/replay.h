@@ -24,7 +24,7 @@
 
 namespace kaamos::explain {
 
-// What a replay needs from its device; all of it outlives the replay.
+// The parts of a device that a replay needs; all of them outlive the replay.
 struct Environment {
   const runtime::BackendDevice* backend = nullptr;
   const runtime::AddressMap* addresses = nullptr;
@@ -99,7 +99,7 @@ class Replay {
   const runtime::DispatchRaysCommand& command_;
   shader::DispatchConstants dispatch_;
   Scenes scenes_;
-  // What each shader has bound, looked up when it first runs.
+  // The resources that each shader has bound, looked up when it first runs.
   std::map<const runtime::LinkedShader*, std::vector<shader::BoundResource>> bound_;
 
   // State of the index that is running. Whatever must survive across shader calls is kept here,

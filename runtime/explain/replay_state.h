@@ -74,7 +74,7 @@ struct Replay::Query {
   std::vector<Candidate> candidates;
   size_t next = 0;
   Search search;
-  // Where it is recorded; null: nowhere.
+  // The shader where it is recorded; null: nowhere.
   rtapi::ExplainedShader* node = nullptr;
   size_t call = 0;
   size_t offered = SIZE_MAX;     // the candidate that the shader has not answered yet

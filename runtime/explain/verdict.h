@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which candidates a ray sees, and why it does not see the others. [DXR: TraceRay control flow]
+// Decides which candidates a ray sees, and says why it does not see the others.
+// [DXR: TraceRay control flow]
 #pragma once
 
 #include <optional>
@@ -12,7 +13,7 @@
 
 namespace kaamos::explain {
 
-// What decides about the candidates of one ray at one moment.
+// The state of one ray at one moment, which decides about its candidates.
 struct Search {
   uint32_t flags = 0;  // including the pipeline's
   uint32_t inclusion_mask = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What a build reads from GPU memory: vertices in all DXR formats, indices, transforms, boxes. All
-// of it is first checked against the allocations, so that a wrong count or address becomes an error
-// instead of a stray read, and then copied, because DXR lets the application free its inputs once
-// the build has run.
+// Reads the inputs of a build from GPU memory: vertices in all DXR formats, indices, transforms,
+// boxes. All of it is first checked against the allocations, so that a wrong count or address
+// becomes an error instead of a stray read, and then copied, because DXR lets the application free
+// its inputs once the build has run.
 #pragma once
 
 #include <cstdint>

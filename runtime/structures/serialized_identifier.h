@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How a device recognizes serialized acceleration structures that it can read. All backends share
-// the format, so they share the identifier. [runtime/structures/serialized_structure.h]
+// The identifier by which a device recognizes serialized acceleration structures that it can read.
+// All backends share the format, so they share the identifier.
+// [runtime/structures/serialized_structure.h]
 #pragma once
 
 #include <cstring>

@@ -29,7 +29,7 @@ SerializedSize serialized_size(const AccelerationStructure& structure);
 // `out` has serialized_size() bytes.
 void serialize(const AccelerationStructure& structure, std::span<uint8_t> out);
 
-// What deserialization builds from.
+// The data that deserialization builds from.
 struct SerializedStructure {
   rtapi::RaytracingAccelerationStructureType type =
       rtapi::RaytracingAccelerationStructureType::kTopLevel;

@@ -51,7 +51,7 @@ rtapi::Status emit_postbuild_info(
 
 // KA0795 if `bytes` extend past the end of the buffer at `address`.
 rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes);
-// Whether two ranges of `bytes` bytes overlap.
+// Returns whether two ranges of `bytes` bytes overlap.
 bool overlap(uint64_t a, uint64_t b, uint64_t bytes);
 // COMPACTED_SIZE of a structure that takes `held_bytes` bytes.
 uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes);
@@ -59,9 +59,9 @@ uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes);
 // KA0794: more primitives than DXR allows in a geometry.
 rtapi::Status check_primitive_count(const rtapi::RaytracingGeometryDesc& desc, uint32_t index);
 
-// Whether an update of a bottom level with these inputs keeps to DXR's rules: the same geometries,
-// counts, formats and flags, and a null transform only where it was null. KA0793 says which rule is
-// broken. [DXR: Bottom-level acceleration structure updates]
+// Checks that an update of a bottom level with these inputs keeps to DXR's rules: the same
+// geometries, counts, formats and flags, and a null transform only where it was null. KA0793 says
+// which rule is broken. [DXR: Bottom-level acceleration structure updates]
 rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags built_flags,
                            std::span<const rtapi::RaytracingGeometryDesc> geometries,
                            BuildFlags flags);

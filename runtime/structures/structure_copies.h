@@ -16,8 +16,8 @@
 
 namespace kaamos::runtime {
 
-// How a backend builds what was deserialized. Both functions set compacted_bytes as a BuildLevel
-// does.
+// The functions by which a backend builds what was deserialized. Both functions set compacted_bytes
+// as a BuildLevel does.
 struct RebuildLevel {
   // `geometries` have host addresses, all valid. The level adopts `shapes`, so that updates are
   // checked against the formats of the first build.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Which acceleration structures are where. A structure is a range of bytes in the application's
-// memory. A small header in those bytes says that it is still there, so overwriting them ends it,
-// and so does a later build or copy to any part of the range, or the end of the buffer. What it
-// consists of belongs to the backend. [DXR: Data rules]
+// Keeps track of where acceleration structures are. A structure is a range of bytes in the
+// application's memory. A small header in those bytes says that it is still there, so overwriting
+// them ends it, and so does a later build or copy to any part of the range, or the end of the
+// buffer. What it consists of belongs to the backend. [DXR: Data rules]
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@ struct Bounds {
   float upper[3] = {0, 0, 0};
 };
 
-// What an update is checked against.
+// The shape of a geometry, which an update is checked against.
 struct GeometryShape {
   rtapi::RaytracingGeometryType type = rtapi::RaytracingGeometryType::kTriangles;
   rtapi::Format vertex_format = rtapi::Format::kUnknown;
@@ -47,7 +47,7 @@ struct GeometryContents {
   std::span<const rtapi::RaytracingAabb> boxes;
 };
 
-// What every backend knows about its bottom levels.
+// The facts that every backend knows about its bottom levels.
 struct BottomLevelBase {
   virtual ~BottomLevelBase() = default;
   // Has no active primitive, so its instances are degenerate. [DXR: Degenerate primitives and
@@ -61,7 +61,7 @@ struct TopLevelBase {
   virtual ~TopLevelBase() = default;
 };
 
-// What is at an address. Exactly one of the two levels is set.
+// The structure at an address. Exactly one of the two levels is set.
 struct AccelerationStructure {
   uint64_t address = 0;
   uint8_t* host = nullptr;       // the same address for the host
@@ -88,7 +88,7 @@ class StructureMap {
 
   // The structure at exactly this address, if its header is intact.
   std::shared_ptr<const AccelerationStructure> find(uint64_t address) const;
-  // Whether another structure, a clone, uses the same bottom level.
+  // Returns whether another structure, a clone, uses the same bottom level.
   bool is_shared(const BottomLevelBase* level) const;
   // Every top level whose header is intact.
   std::vector<std::shared_ptr<const AccelerationStructure>> top_levels() const;

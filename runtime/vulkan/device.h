@@ -95,7 +95,7 @@ class Device final : public runtime::BackendDevice {
   rtapi::RaytracingStatistics statistics_;
 };
 
-// What rtapi/src/backends.cpp lists.
+// The factory that rtapi/src/backends.cpp lists.
 const runtime::BackendFactory& backend_factory();
 
 }  // namespace kaamos::vulkan

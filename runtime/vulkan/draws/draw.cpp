@@ -81,7 +81,7 @@ bool DrawPass::is_checked() const {
 
 CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::string& label) {
   CountedOutcome outcome;
-  // What writes the indices, or the memory of checks, must be done.
+  // Whatever writes the indices, or the memory of checks, must be done first.
   if (needs_rewriting(command) || is_checked()) outcome = flush();
   if (outcome.status) outcome.status = record(command, label);
   if (!outcome.status || !is_checked()) return outcome;
@@ -132,7 +132,7 @@ rtapi::Result<uint64_t> DrawPass::write_block(const runtime::DrawCommand& comman
   shader::spirv::DispatchBlock block = dispatch_block(command.bindings, scene_);
   block.status = place->address;
   block.dimensions[0] = pass_.area().layers;
-  // What an SV_Depth that is not a number becomes: below every viewport's range, to whose lower end
+  // An SV_Depth that is not a number becomes this: below every viewport's range, to whose lower end
   // it is limited then. [RAS-69]
   const bool replaces = environment_.stream->gpu().workarounds().has(Workaround::kReplaceNanDepth);
   block.base[0] = std::bit_cast<uint32_t>(replaces ? std::numeric_limits<float>::lowest()

@@ -48,7 +48,7 @@ class DrawPass {
   rtapi::Status clear(const runtime::ClearTargetCommand& command) { return pass_.clear(command); }
   // Orders everything before it against everything after it.
   void barrier();
-  // Whether there is anything that flush() would run or check.
+  // Returns whether there is anything that flush() would run or check.
   bool waits() const { return !waiting_.empty() || pass_.waits(); }
   // Runs what waits. An error removes the device: KA0890, KA0892, KA0893, KA0955.
   CountedOutcome flush();
@@ -76,7 +76,7 @@ class DrawPass {
   bool has_scene_ = false;
   SceneTables scene_;  // if has_scene_
   uint64_t checks_ = 0;
-  // What the open rendering has set. Pipelines and states live as long as the list.
+  // The state that the open rendering has set. Pipelines and states live as long as the list.
   uint64_t set_in_ = 0;  // RenderPass::number()
   VkPipeline set_pipeline_ = VK_NULL_HANDLE;
   std::shared_ptr<const runtime::DrawState> set_state_;

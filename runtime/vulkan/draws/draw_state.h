@@ -19,7 +19,7 @@ struct ViewportsAndScissors {
 ViewportsAndScissors viewports_and_scissors(const runtime::DrawState& state,
                                             const RenderArea& area);
 
-// What a draw without targets can reach: its scissor rectangles. [RAS-106]
+// Returns the area that a draw without targets can reach: its scissor rectangles. [RAS-106]
 RenderArea reach_of(const runtime::DrawState& state, const Gpu& gpu);
 
 }  // namespace kaamos::vulkan

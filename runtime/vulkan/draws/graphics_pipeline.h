@@ -17,12 +17,12 @@
 
 namespace kaamos::vulkan {
 
-// What is bound when a pipeline draws.
+// The targets and buffers that are bound when a pipeline draws.
 struct GraphicsVariant {
   std::array<rtapi::Format, rtapi::kSimultaneousRenderTargetCount> colors = {};  // kUnknown: none
   uint32_t color_count = 0;
   rtapi::Format depth = rtapi::Format::kUnknown;
-  // Of the targets; 0 unless the pipeline's own code picks one.
+  // The layers of the targets; 0 unless the pipeline's own code picks one.
   uint32_t layers = 0;
   // A bit for each binding without a buffer, whose elements are four zeros. [RAS-14]
   uint32_t unbound = 0;
@@ -46,9 +46,10 @@ class GraphicsPipeline final : public runtime::BackendPipeline {
   const VertexInput& inputs() const { return inputs_; }
   // Thread-safe; made once each. Errors: KA0952.
   rtapi::Result<VkPipeline> variant(const GraphicsVariant& wanted);
-  // Whether GraphicsVariant::layers is needed: a geometry shader of the backend's own picks layers.
+  // Returns whether GraphicsVariant::layers is needed: a geometry shader of the backend's own picks
+  // layers.
   bool needs_layers() const;
-  // Whether its pixel shader writes memory, whose writes are not to be lost. [RAS-104]
+  // Returns whether its pixel shader writes memory, whose writes are not to be lost. [RAS-104]
   bool pixels_write_memory() const;
 
  private:

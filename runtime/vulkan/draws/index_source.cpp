@@ -23,7 +23,7 @@ uint64_t indices_in_view(const runtime::DrawCommand& command) {
   return view.BufferLocation == 0 ? 0 : view.SizeInBytes / bytes_of_index(command);
 }
 
-// Whether an index of the draw may end a strip. The cut value is compared as it is, so that
+// Returns whether an index of the draw may end a strip. The cut value is compared as it is, so that
 // 0xFFFFFFFF never does with indices of 16 bits. [RAS-05, RAS-06]
 bool cuts(const runtime::DrawCommand& command) {
   const Cut cut = command.linked->strip_cut;

@@ -30,9 +30,9 @@ struct IndexSource {
   bool restarts = false;
 };
 
-// Whether the host has to read the indices, so that everything that may write them must be done: a
-// draw that reads beyond its view, where indices are 0, or one whose cut value is not the largest
-// number of the indices' format. [RAS-05, RAS-07]
+// Returns whether the host has to read the indices, so that everything that may write them must be
+// done: a draw that reads beyond its view, where indices are 0, or one whose cut value is not the
+// largest number of the indices' format. [RAS-05, RAS-07]
 bool needs_rewriting(const runtime::DrawCommand& command);
 
 rtapi::Result<IndexSource> index_source(Gpu& gpu, const Memory& memory,

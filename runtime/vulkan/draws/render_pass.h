@@ -12,7 +12,7 @@
 
 namespace kaamos::vulkan {
 
-// What is common to all targets of a rendering.
+// The extent that is common to all targets of a rendering.
 struct RenderArea {
   uint32_t width = 0;
   uint32_t height = 0;
@@ -33,7 +33,7 @@ class RenderPass {
   // it. `label` names the first draw. Errors: KA0952, KA0990.
   rtapi::Result<VkCommandBuffer> open(const runtime::DrawTargets& targets, const RenderArea& wanted,
                                       const std::string& label);
-  // Whether finish() has anything to do.
+  // Returns whether finish() has anything to do.
   bool waits() const { return open_ || !waiting_.empty(); }
   // Goes up whenever a rendering is opened, which has no state of the one before.
   uint64_t number() const { return number_; }
@@ -48,7 +48,7 @@ class RenderPass {
   rtapi::Status finish();
 
  private:
-  // Where the open rendering has a view.
+  // The place of a view among the attachments of the open rendering.
   struct Place {
     bool found = false;
     uint32_t attachment = 0;

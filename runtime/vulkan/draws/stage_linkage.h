@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pixel shader's SPIR-V needs to know of the rest of its pipeline. [spirv_interface.h:
-// Vertex and pixel shaders]
+// This file holds what a pixel shader's SPIR-V needs to know of the rest of its pipeline.
+// [spirv_interface.h: Vertex and pixel shaders]
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which vertex buffers feed which inputs of a vertex shader, in Vulkan's terms.
+// Assigns vertex buffers to the inputs of a vertex shader, in Vulkan's terms.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct VertexBinding {
   uint32_t step_rate = 0;
   uint32_t extent_bytes = 0;  // up to the end of the last element of a vertex
 
-  // Whether Vulkan takes the stride with the buffer. Strides that let elements overlap must be part
-  // of the pipeline. [VUID-vkCmdBindVertexBuffers2-pStrides-06210]
+  // Returns whether Vulkan takes the stride with the buffer. Strides that let elements overlap must
+  // be part of the pipeline. [VUID-vkCmdBindVertexBuffers2-pStrides-06210]
   bool takes(uint32_t stride_bytes) const {
     return stride_bytes == 0 || stride_bytes >= extent_bytes;
   }

@@ -103,7 +103,7 @@ VkResult Gpu::bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bi
 
 VkResult Gpu::allocate(GpuBuffer& buffer) {
   VkBufferCreateInfo info = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  // Where Vulkan places it is known only afterwards, so leave room to move up to the alignment.
+  // The address is known only afterwards, so leave room to move up to the alignment.
   info.size = std::max<uint64_t>(buffer.size_bytes_, 1) + kAddressAlignment;
   info.usage = kEveryUsage;
   VkResult r = vk_.vkCreateBuffer(device_, &info, nullptr, &buffer.handle_);

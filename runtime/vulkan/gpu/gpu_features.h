@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a device must support, and what it may support. The same structures query a physical device
-// and enable the features when the device is created.
+// The features that a device must support, and those that it may support. The same structures query
+// a physical device and enable the features when the device is created.
 #pragma once
 
 #include <volk.h>
@@ -23,7 +23,7 @@ class FeatureChain {
   FeatureChain(const FeatureChain&) = delete;
   FeatureChain& operator=(const FeatureChain&) = delete;
 
-  // What the device lacks, e.g. "VK_KHR_ray_tracing_pipeline"; "" if it lacks nothing.
+  // Names what the device lacks, e.g. "VK_KHR_ray_tracing_pipeline"; "" if it lacks nothing.
   const std::string& missing() const { return missing_; }
   const VkPhysicalDeviceFeatures2& chain() const { return features_; }
   const std::vector<const char*>& extensions() const { return extensions_; }

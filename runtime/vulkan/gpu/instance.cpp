@@ -116,8 +116,7 @@ VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                               VkDebugUtilsMessageTypeFlagsEXT,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   auto& instance = *static_cast<Instance*>(self);
-  // What is written to an attachment without a format goes nowhere, as D3D12 has it for a null
-  // view.
+  // Writes to an attachment without a format go nowhere, as D3D12 has it for a null view.
   const std::string_view text = data->pMessage;
   if (text.find("InterfaceTypeMismatch") != text.npos &&
       text.find("VK_FORMAT_UNDEFINED") != text.npos) {

@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kDriversLevels = 31;
 constexpr uint64_t kLanes = 8;
 
-// What "glslangValidator --target-env vulkan1.3 -g0" makes of this GLSL:
+// The SPIR-V that "glslangValidator --target-env vulkan1.3 -g0" makes of this GLSL:
 //   #version 460
 //   #extension GL_EXT_ray_tracing : require
 //   layout(constant_id = 0) const uint kWords = 64;

@@ -27,7 +27,7 @@ struct Table {
 
   // With a stride of 0 every index means the first record.
   bool repeats() const { return source.count() == 1 && source.stride_bytes == 0; }
-  // What the shader compares its index with; the record at this index is a null record.
+  // The shader compares its index with this limit; the record at this index is a null record.
   uint32_t limit() const {
     return repeats() ? UINT32_MAX
                      : static_cast<uint32_t>(std::min<uint64_t>(source.count(), UINT32_MAX));

@@ -32,7 +32,7 @@ class DispatchMemory {
   std::unique_ptr<GpuBuffer> buffer_;
 };
 
-// What a dispatch needs from its device.
+// The parts of a device that a dispatch needs.
 struct DispatchEnvironment {
   CommandStream* stream = nullptr;
   const Memory* memory = nullptr;
@@ -76,7 +76,8 @@ static_assert(sizeof(shader::spirv::DispatchFeedback) <= kStatusBytes);
 static_assert(sizeof(shader::spirv::DispatchBlock) <= kBlockBytes);
 // Submits what was recorded and waits; wild addresses in shaders are errors.
 rtapi::Status flush_guarded(CommandStream& stream, const std::string& label);
-// Whether a shader removed the device, and why. `status`: what shaders wrote.
+// Returns an error that says why a shader removed the device, if one did. `status`: what shaders
+// wrote.
 rtapi::Status status_of(const uint8_t* status, uint32_t declared_depth, uint32_t depth_limit,
                         const std::string& label);
 // Both.

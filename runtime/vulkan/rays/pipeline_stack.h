@@ -11,8 +11,8 @@
 
 namespace kaamos::vulkan {
 
-// Whether callable shaders of the pipeline call others. If so, its stack size is dynamic state, to
-// be set to pipeline_stack_bytes.
+// Returns whether callable shaders of the pipeline call others. If so, its stack size is dynamic
+// state, to be set to pipeline_stack_bytes.
 bool needs_own_stack(const runtime::LinkedPipeline& pipeline);
 
 // `groups` in the order of creation.
@@ -21,9 +21,9 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
                               const std::vector<const runtime::LinkedRecord*>& records,
                               uint32_t trace_depth, uint32_t callable_depth);
 
-// How many traces lavapipe can nest with a payload of this size (PAYLOAD). It keeps the payloads of
-// all 8 lanes on its thread's stack, and for each level both the shader's own payload and the one
-// that is passed on.
+// Returns how many traces lavapipe can nest with a payload of this size (PAYLOAD). It keeps the
+// payloads of all 8 lanes on its thread's stack, and for each level both the shader's own payload
+// and the one that is passed on.
 uint32_t nested_payload_limit(uint32_t payload_bytes, uint64_t stack_bytes);
 // The stack of a thread for which nobody set a size: the process's limit, usually 8 MiB.
 uint64_t default_thread_stack_bytes();

@@ -46,7 +46,7 @@ struct ApplicationTable {
   uint64_t size_bytes = 0;
   uint64_t stride_bytes = 0;
 
-  // How many records are inside size_bytes; 1 for a stride of 0, where every index means the first
+  // The number of records inside size_bytes; 1 for a stride of 0, where every index means the first
   // record. [DXR: Shader record stride]
   uint64_t count() const {
     if (host == nullptr || size_bytes < kIdentifierBytes) return 0;
@@ -54,7 +54,7 @@ struct ApplicationTable {
   }
 };
 
-// What layout a driver wants for its tables.
+// The layout that a driver wants for its tables.
 struct TableLayout {
   uint32_t handle_bytes = 32;
   uint32_t handle_alignment = 32;

@@ -211,7 +211,7 @@ RaytracingPipeline::~RaytracingPipeline() {
 
 namespace {
 
-// What the GLSL of waves uses. [runtime/hlsl/glsl/waves.cpp]
+// The subgroup operations that the GLSL of waves uses. [runtime/hlsl/glsl/waves.cpp]
 constexpr VkSubgroupFeatureFlags kWaveOperations =
     VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
     VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |

@@ -56,7 +56,8 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   const GroupHandles& groups() const { return groups_; }
   // Binds it; the caller still has to push a block.
   void bind(VkCommandBuffer commands) const;
-  // How deep traces may nest: what the pipeline declares, or the device's limit if that is lower.
+  // The depth to which traces may nest: what the pipeline declares, or the device's limit if that
+  // is lower.
   uint32_t max_trace_depth() const { return max_trace_depth_; }
   // Indexed by kShaderConstant - 1.
   const std::vector<const runtime::LinkedShader*>& stage_shaders() const { return stage_shaders_; }
@@ -97,8 +98,8 @@ class ComputePipeline final : public runtime::BackendPipeline {
   VkPipeline handle_ = VK_NULL_HANDLE;
 };
 
-// How deep callable shaders may nest. In DXR only the stack limits them, and drivers offer no way
-// to query it. [DXR: Ray recursion limit]
+// The depth to which callable shaders may nest. In DXR only the stack limits them, and drivers
+// offer no way to query it. [DXR: Ray recursion limit]
 inline constexpr uint32_t kMaxCallableDepth = 63;
 // On lavapipe without workaround CALLABLES.
 inline constexpr uint32_t kMaxBareCallableDepth = 31;

@@ -15,8 +15,8 @@
 
 namespace kaamos::vulkan {
 
-// What a DispatchBlock says about the live structures. Everything it refers to stays valid until
-// the next call that changes structures.
+// The part of a DispatchBlock that describes the live structures. Everything it refers to stays
+// valid until the next call that changes structures.
 struct SceneTables {
   uint64_t instances = 0;
   uint64_t top_levels = 0;

@@ -392,7 +392,7 @@ TEST(VulkanScene, NothingCrashesOnAnyInput) {
 }
 
 // -------------------------------------------------------------------------------------------------
-// What goes wrong on lavapipe without the workarounds.
+// These tests show what goes wrong on lavapipe without the workarounds.
 
 TEST(Workarounds, B5FirstVertexIsAppliedTwice) {
   const auto second_is_hit = [](const std::shared_ptr<Gpu>& gpu) {

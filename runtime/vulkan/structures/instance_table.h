@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What hit shaders need to know about an instance besides what the driver tells them. One table for
-// all top levels of a device, because gl_InstanceCustomIndexEXT is the index into it.
+// Holds what hit shaders need to know about an instance besides what the driver tells them. One
+// table for all top levels of a device, because gl_InstanceCustomIndexEXT is the index into it.
 #pragma once
 
 #include <cstdint>

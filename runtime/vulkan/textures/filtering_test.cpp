@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How exactly textures are filtered. [D3D11.3 7.18.8: linear sample addressing]
+// Tests how exactly textures are filtered. [D3D11.3 7.18.8: linear sample addressing]
 #include <gtest/gtest.h>
 #include <unistd.h>
 

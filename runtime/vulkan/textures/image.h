@@ -29,7 +29,7 @@ class Image final : public runtime::BackendTexture {
   VkImage handle() const { return handle_; }
   VkImageType type() const { return type_; }
   const rtapi::TextureDesc& desc() const { return desc_; }
-  // Of a texel, or of a block of block_side() x block_side() texels.
+  // The bytes of a texel, or of a block of block_side() x block_side() texels.
   uint32_t element_bytes() const { return rtapi::GetFormatInfo(desc_.Format).bytes; }
   uint32_t block_side() const { return rtapi::GetFormatInfo(desc_.Format).block_side; }
   VkExtent3D extent(uint32_t mip) const;

@@ -64,8 +64,8 @@ uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t element_bytes) {
   return gpu_buffer_of(*place.buffer).offset() + first_byte(place, element_bytes);
 }
 
-// Whether Vulkan can describe these rows and slices: everything must be a whole number of elements
-// and rows.
+// Returns whether Vulkan can describe these rows and slices: everything must be a whole number of
+// elements and rows.
 bool expressible(const TextureCopyPlace& place, uint32_t element_bytes) {
   return place.row_pitch % element_bytes == 0 &&
          buffer_offset(place, element_bytes) % element_bytes == 0 &&

@@ -14,7 +14,7 @@ namespace kaamos::vulkan {
 
 struct TextureFormat {
   VkFormat format = VK_FORMAT_UNDEFINED;  // UNDEFINED: textures cannot have it
-  // Where to find the channels of the DXGI format.
+  // The places where the channels of the DXGI format are found.
   VkComponentMapping channels = {VK_COMPONENT_SWIZZLE_R, VK_COMPONENT_SWIZZLE_G,
                                  VK_COMPONENT_SWIZZLE_B, VK_COMPONENT_SWIZZLE_A};
   bool plain = true;  // channels are in Vulkan's own places, which storage images and targets need
@@ -26,11 +26,11 @@ struct TextureFormat {
 TextureFormat texture_format(rtapi::Format format);
 // The same for a view of a depth image, where R32_FLOAT and R16_UNORM are depth, too.
 TextureFormat depth_view_format(rtapi::Format format);
-// Of an image: a depth format if it can be a depth-stencil target.
+// Returns the format of an image: a depth format if it can be a depth-stencil target.
 TextureFormat image_format(const rtapi::TextureDesc& desc);
 
 VkFormatFeatureFlags2 format_features(VkPhysicalDevice device, VkFormat format);
-// Whether shaders can read and write images in the format without naming it.
+// Returns whether shaders can read and write images in the format without naming it.
 bool can_be_storage(VkPhysicalDevice device, VkFormat format);
 
 }  // namespace kaamos::vulkan
