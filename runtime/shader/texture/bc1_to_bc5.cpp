@@ -41,7 +41,7 @@ void decode_colours(const uint8_t* block, bool may_be_transparent, uint8_t* texe
   for (int i = 0; i < 16; ++i, indices >>= 2) std::memcpy(texels + 4 * i, palette[indices & 3], 4);
 }
 
-// Which value of a palette of eight each of 16 texels takes.
+// Reads which value of a palette of eight each of 16 texels takes.
 void take_indices(const uint8_t* block, uint8_t indices[16]) {
   uint64_t bits = read<uint64_t>(block) >> 16;
   for (int i = 0; i < 16; ++i, bits >>= 3) indices[i] = bits & 7;

@@ -21,8 +21,8 @@ struct Run {
 };
 using Layout = std::array<Run, 25>;
 
-// What follows the mode's bits, lowest first. "bz4" is bit 4 of endpoint z's blue, "rw:10" its ten
-// lowest bits; endpoints are called w, x, y and z. [D3D11.3 table 2 of 19.5.13.5]
+// Parses what follows the mode's bits, lowest first. "bz4" is bit 4 of endpoint z's blue, "rw:10"
+// its ten lowest bits; endpoints are called w, x, y and z. [D3D11.3 table 2 of 19.5.13.5]
 constexpr Layout layout_of(const char* text) {
   Layout layout = {};
   for (size_t i = 0; *text != '\0'; ++i) {

@@ -11,7 +11,7 @@
 namespace kaamos::shader {
 namespace {
 
-// How many bits each part of a block has.
+// The number of bits of each part of a block.
 struct Mode {
   uint8_t subsets;
   uint8_t partition;

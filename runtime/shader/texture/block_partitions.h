@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which subset of a block's endpoints each texel of BC6H and BC7 takes, and the weights of the
+// The subset of a block's endpoints that each texel of BC6H and BC7 takes, and the weights of the
 // indices. [D3D11.3 19.5.13.4, 19.5.14.3, 19.5.14.5, 19.5.14.6]
 #pragma once
 
@@ -19,7 +19,7 @@ struct BlockPartition {
 // `subsets` is 1 to 3; index is below 64 (of two or three subsets).
 BlockPartition block_partition(uint32_t subsets, uint32_t index);
 
-// How much of the second endpoint an index of 2, 3 or 4 bits takes, in 64ths.
+// The share of the second endpoint that an index of 2, 3 or 4 bits takes, in 64ths.
 inline constexpr uint8_t kBlockWeights2[4] = {0, 21, 43, 64};
 inline constexpr uint8_t kBlockWeights3[8] = {0, 9, 18, 27, 37, 46, 55, 64};
 inline constexpr uint8_t kBlockWeights4[16] = {0,  4,  9,  13, 17, 21, 26, 30,

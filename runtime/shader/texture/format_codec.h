@@ -11,7 +11,7 @@
 
 namespace kaamos::shader {
 
-// What the 32-bit values of a texel are.
+// The type of the 32-bit values of a texel.
 enum class NumberClass : uint8_t { kFloat, kUint, kSint };
 
 struct FormatCodec {

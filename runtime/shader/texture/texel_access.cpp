@@ -19,7 +19,7 @@ bool is_r32(const FormatCodec& codec) {
   return codec.bytes == 4 && codec.channels == 1;
 }
 
-// What atomics work on: 4 bytes of R32, 8 bytes of R32G32 in integers; 0 otherwise.
+// Returns the bytes that atomics work on: 4 of R32, 8 of R32G32 in integers; 0 otherwise.
 uint32_t atomic_bytes(uint32_t format) {
   constexpr uint32_t kR32G32Uint = 17, kR32G32Sint = 18;
   if (format == kR32G32Uint || format == kR32G32Sint) return 8;

@@ -35,7 +35,7 @@ bool is_cube(TextureDimension dimension) {
   return dimension == TextureDimension::kCube || dimension == TextureDimension::kCubeArray;
 }
 
-// How many coordinates address texels, and which one is the array element.
+// The number of coordinates that address texels, and which one is the array element.
 struct Axes {
   int spatial;
   int element;  // -1: none

@@ -51,14 +51,14 @@ struct alignas(8) Descriptor {
 };
 static_assert(sizeof(Descriptor) == 32);
 
-// What a view and an HLSL declaration must have in common: D3D12_SRV_DIMENSION, and the type of
-// numbers, 0 float (also normalized ones), 1 signed, 2 unsigned.
+// The shape that a view and an HLSL declaration must have in common: D3D12_SRV_DIMENSION, and the
+// type of numbers, 0 float (also normalized ones), 1 signed, 2 unsigned.
 constexpr uint32_t texture_shape(uint32_t dimension, uint32_t number_class) {
   return dimension | number_class << 8;
 }
-// Whether a texture declared as `declared`, 0 if that is unknown, can read a view. An array and a
-// single one fit each other: the declaration without an element reads the view's first, and a view
-// without elements has one.
+// Returns whether a texture declared as `declared`, 0 if that is unknown, can read a view. An array
+// and a single one fit each other: the declaration without an element reads the view's first, and a
+// view without elements has one.
 constexpr bool fits_shape(uint32_t view, uint32_t declared) {
   if (view == declared || declared == 0) return true;
   const uint32_t low = view < declared ? view : declared;
@@ -110,7 +110,7 @@ struct BindingSlot {
 };
 
 // ---------------------------------------------------------------------------------------------
-// What runs
+// Dispatches and invocations
 
 struct Services;
 
@@ -140,7 +140,7 @@ struct DispatchConstants {
   const AddressRange* ranges_begin = nullptr;
   const AddressRange* ranges_end = nullptr;
   uint32_t max_recursion_depth = 0xFFFFFFFFu;  // for checked libraries
-  // Whether shaders may read and write texels directly through a descriptor's TextureView;
+  // True if shaders may read and write texels directly through a descriptor's TextureView;
   // otherwise only the services know what a texture's address stands for.
   bool direct_texels = false;
 };
@@ -154,8 +154,8 @@ struct RayDesc {
 };
 static_assert(sizeof(RayDesc) == 32);
 
-// What the system-value intrinsics return in one ray shader invocation. A miss shader may use only
-// the first three. Without initialisers, because TraceRay makes one for each ray.
+// The values that the system-value intrinsics return in one ray shader invocation. A miss shader
+// may use only the first three. Without initialisers, because TraceRay makes one for each ray.
 struct RaySystemValues {
   RayDesc ray;      // WorldRayOrigin, WorldRayDirection, RayTMin; t_max is RayDesc.TMax
   float t_current;  // RayTCurrent, by stage [DXR: RayTCurrent]
@@ -215,7 +215,7 @@ using ComputeLanesFn = void (*)(Invocation&, ComputeGroup&, uint32_t first);
 using AnyFn = void (*)();
 
 // ---------------------------------------------------------------------------------------------
-// What a shader calls its backend for
+// Calls from a shader to its backend
 
 struct TraceRayArguments {
   uint64_t acceleration_structure;  // GPU virtual address; every ray misses 0
@@ -295,7 +295,7 @@ enum class RemovalReason : uint32_t {
 // Inline ray tracing [DXR: RayQuery]. Plain bytes, because a shader may be left by a jump and the
 // object may be moved between two calls.
 
-// What is known about a candidate or the committed hit.
+// The state of a candidate or of the committed hit.
 struct RayQueryHit {
   uint32_t type = 0;  // CANDIDATE_TYPE, COMMITTED_STATUS
   float t = 0;        // committed: RayDesc.TMax as long as nothing is committed

@@ -30,8 +30,8 @@ constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, Descri
   return !has_access || access == DescriptorAccess::kOther || view_access(descriptor) == access;
 }
 
-// Whether it is what the declaration says in every respect, as most are. The access is always exact
-// for what shaders read most.
+// Returns whether it is what the declaration says in every respect, as most are. The access is
+// always exact for what shaders read most.
 KAAMOS_INLINE bool is_exactly(const Descriptor& found, const BindingSlot& slot) {
   return found.kind == slot.kind && found.access == slot.access &&
          (found.kind != DescriptorKind::kTexture || found.stride_bytes == slot.stride_bytes);

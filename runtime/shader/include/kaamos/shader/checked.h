@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What shaders of a checked library (kaamos-hlsl -check-access) do where others trust the
+// Shaders of a checked library (kaamos-hlsl -check-access) call this where others trust the
 // application: they give the same results wherever DXR defines them, and send a CheckReport to the
 // backend where it does not. Root descriptors end with their allocation here, so nothing outside is
 // read or written.
@@ -195,7 +195,7 @@ KAAMOS_INLINE const Descriptor& access_element(Invocation& invocation, uint32_t 
   return buffer;
 }
 
-// Where the accessed value is: the view that emitted code reads or writes at offset 0.
+// Returns where the accessed value is: the view that emitted code reads or writes at offset 0.
 KAAMOS_INLINE MemoryView access_view(Invocation& invocation, uint32_t site,
                                      const Descriptor& buffer, uint32_t offset, uint32_t bytes,
                                      uint32_t alignment, uint32_t write) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which version of a shader library this machine runs. All versions give the same bits.
+// Tells which version of a shader library this machine runs. All versions give the same bits.
 #pragma once
 
 #include <cstdio>

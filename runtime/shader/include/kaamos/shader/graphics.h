@@ -36,8 +36,8 @@ enum class SystemValue : uint8_t {
 
 enum class ColumnType : uint8_t { kFloat, kInt, kUint };
 
-// How a pixel shader's input comes from the three vertices. `centroid` and `sample` are linear, as
-// targets have one sample.
+// The way in which a pixel shader's input comes from the three vertices. `centroid` and `sample`
+// are linear, as targets have one sample.
 enum class Interpolation : uint8_t {
   kLinear,           // perspective correct
   kNoPerspective,    // linear on the screen

@@ -58,7 +58,7 @@ struct Extent<array<T, N>, L, RowMajor> {
   static constexpr uint32_t bytes = stride * (N - 1) + element_bytes;
 };
 
-// Where a value is: [0, bytes) may be read from `base`.
+// The place of a value: [0, bytes) may be read from `base`.
 struct Window {
   uint8_t* base;
   uint64_t bytes;

@@ -87,8 +87,8 @@ struct DispatchBlock {
   uint64_t empty_top_level = 0;  // Vulkan's address of a top level that every ray misses
   uint64_t status = 0;           // DispatchFeedback
   uint32_t top_level_mask = 0;
-  // How many records the bound tables have. Larger indices become index `count`, a null record that
-  // the backend puts after the last one.
+  // The number of records in each of the bound tables. Larger indices become index `count`, a null
+  // record that the backend puts after the last one.
   uint32_t miss_count = 0;
   uint32_t callable_count = 0;
   uint32_t hit_group_count = 0;
@@ -128,7 +128,7 @@ struct InstanceEntry {
 };
 static_assert(sizeof(InstanceEntry) == 16);
 
-// What the driver sees as a shader record: this and nothing else, after the driver's handle. So the
+// The shader record as the driver sees it: this and nothing else, after the driver's handle. So the
 // application's record can stay where it is, and the driver is free in its sizes and alignments.
 //   layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; };
 // local_arguments: the address of byte 32 of the application's record; 0 in a null record.
@@ -136,7 +136,7 @@ struct RecordData {
   uint64_t local_arguments = 0;
 };
 
-// What shaders count: TraceRay calls, those that only ask whether there is a hit, and invocations.
+// Shaders count TraceRay calls, those that only ask whether there is a hit, and invocations.
 enum Count : uint32_t {
   kTraceRayCalls,
   kVisibilityRays,
@@ -158,7 +158,7 @@ struct DispatchFeedback {
 };
 static_assert(offsetof(DispatchFeedback, checks) == 72);
 
-// What shaders of checked libraries read, and where they write what they found.
+// The memory that shaders of checked libraries read, and where they write what they found.
 struct CheckState {
   uint64_t ranges = 0;   // AddressRange[range_count], sorted by address
   uint64_t entries = 0;  // CheckEntry[kCheckEntries], a hash table, all zeros at first

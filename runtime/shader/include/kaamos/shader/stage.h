@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What calls the backend: TraceRay, ReportHit, CallShader, barriers; and reading hit attributes.
+// Calls to the backend: TraceRay, ReportHit, CallShader, barriers; and reading hit attributes.
 #pragma once
 
 #include "kaamos/shader/abi.h"

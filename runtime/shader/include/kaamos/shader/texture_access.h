@@ -205,7 +205,7 @@ KAAMOS_INLINE const Descriptor& descriptor_of(const Descriptor& texture) {
   return texture;
 }
 
-// Whether it read one of the short formats. Texture is a Descriptor or a BoundResource.
+// Returns whether it read one of the short formats. Texture is a Descriptor or a BoundResource.
 template <class Texture, class V>
 KAAMOS_INLINE bool load_short(const Texture& texture, const int4& at, V& value) {
   if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 2) {

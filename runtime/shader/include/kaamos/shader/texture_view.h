@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the address in a texture's or sampler's descriptor points to for native shader code. It is
-// part of the interface so that plain loads and stores need no call. Plain data: the backend owns
-// it and the texels.
+// The data that the address in a texture's or sampler's descriptor points to for native shader
+// code. It is part of the interface so that plain loads and stores need no call. Plain data: the
+// backend owns it and the texels.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What emitted code reads and writes structs through, member by member: one interface for raw and
-// constant buffers and for an element of a structured buffer.
+// The views through which emitted code reads and writes structs, member by member: one interface
+// for raw and constant buffers and for an element of a structured buffer.
 #pragma once
 
 #include "kaamos/shader/memory.h"
@@ -35,8 +35,8 @@ KAAMOS_INLINE Window window(const MemoryView& view, uint32_t offset) {
 }
 }  // namespace memory
 
-// Whether `bytes` at byte `at` are inside. A single comparison; the length of a window would take
-// two more steps.
+// Returns whether `bytes` at byte `at` are inside. A single comparison; the length of a window
+// would take two more steps.
 KAAMOS_INLINE bool is_inside(const MemoryView& view, uint32_t at, uint64_t bytes) {
   return __builtin_expect(view.bytes >= at + bytes, 1);
 }

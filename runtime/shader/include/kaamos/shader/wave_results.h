@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a wave operation gives to each lane, from the values of all lanes that take part. Lanes are
-// combined in ascending order, so that a sum of floats is the same on every run.
+// Computes what a wave operation gives to each lane, from the values of all lanes that take part.
+// Lanes are combined in ascending order, so that a sum of floats is the same on every run.
 #pragma once
 
 #include "kaamos/shader/intrinsics_scalar.h"

@@ -135,7 +135,7 @@ KAAMOS_INLINE void set(W& x, int lane, const V& value) {
   x.set(lane, value);
 }
 
-// What one lane of a W contains.
+// The type of one lane of a W.
 template <class W>
 struct lane_of {
   using type = typename W::lane;
@@ -237,7 +237,7 @@ template <class T, uint32_t N>
 KAAMOS_INLINE void fill_lanes(array<T, N>& out, const Lane<array<T, N>>& value) {
   for (uint32_t i = 0; i < N; ++i) fill_lanes(out.e[i], value.e[i]);
 }
-// Whether W consists of nothing but 32-bit words, in the order of a lane's memory.
+// True if W consists of nothing but 32-bit words, in the order of a lane's memory.
 template <class W>
 constexpr bool is_words = false;
 template <class T>

@@ -14,9 +14,9 @@ namespace kaamos::shader {
 template <class V>
 using Wide = with_scalar<V, wide<scalar_of<V>>>;
 
-// Whether lanes read a row of texels in order, starting at x, y. Coordinates that differ from known
-// ones by the same offset in every lane need no new check: a shader that reads the neighbours of
-// its pixel only has to check the pixel itself.
+// Tells whether lanes read a row of texels in order, starting at x, y. Coordinates that differ from
+// known ones by the same offset in every lane need no new check: a shader that reads the neighbours
+// of its pixel only has to check the pixel itself.
 struct TexelRow {
   bool in_order;
   uint32_t x, y;

@@ -318,7 +318,7 @@ operator*(const wide<T>& a, const wide<T>& b) {
 
 namespace simd {
 
-// Whether any, or every, component is nonzero.
+// Returns whether any, or every, component is nonzero.
 template <class V>
 KAAMOS_INLINE lanes any_component(const V& x) {
   lanes set = map<op::AnyBit>(component(x, 0));
