@@ -34,10 +34,10 @@ struct CommandListImpl;
 /// error is kept, and Close() returns the first of them. The errors listed below are those. On a
 /// closed list every call is KA0800; on an empty handle it does nothing, but for Reset and Close.
 ///
-/// What only execution can tell removes the device, for all commands with KA0990 (no memory) and on
-/// Vulkan KA0952, KA0955 (device lost), KA0956 (over a limit) and KA0959 (validation layers); each
-/// call says what else. Warnings come through DeviceDesc::OnMessage, and work goes on.
-/// [D3D12: ID3D12GraphicsCommandList4]
+/// Errors that only execution can find remove the device, for all commands with KA0990 (no memory)
+/// and on Vulkan KA0952, KA0955 (device lost), KA0956 (over a limit) and KA0959 (validation
+/// layers); each call says what else. Warnings come through DeviceDesc::OnMessage, and work goes
+/// on. [D3D12: ID3D12GraphicsCommandList4]
 class CommandList {
  public:
   /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
@@ -60,7 +60,7 @@ class CommandList {
   Status Close();
   /// All errors since Reset, in order. Valid until the next call on the list.
   const std::vector<Error>& GetErrors() const;
-  /// Whether commands can be recorded; false for an empty handle.
+  /// Tells whether commands can be recorded; false for an empty handle.
   bool is_open() const;
 
   /// Orders what comes before and after, and says what resources are used for next. Each barrier of

@@ -29,7 +29,7 @@ namespace detail {
 struct CommandSignatureImpl;
 }
 
-/// What an argument is. [D3D12: D3D12_INDIRECT_ARGUMENT_TYPE]
+/// The type of an argument. [D3D12: D3D12_INDIRECT_ARGUMENT_TYPE]
 enum class IndirectArgumentType : uint32_t {
   kDraw = 0,                 ///< DrawArguments, 16 bytes
   kDrawIndexed = 1,          ///< DrawIndexedArguments, 20 bytes
@@ -61,7 +61,7 @@ struct IndirectRootView {
 
 /// One argument of a command. [D3D12: D3D12_INDIRECT_ARGUMENT_DESC]
 struct IndirectArgumentDesc {
-  /// Which member of the union counts; draws, dispatches and the index buffer have none.
+  /// Selects the member of the union that counts; draws, dispatches and the index buffer have none.
   IndirectArgumentType Type = IndirectArgumentType::kDispatchRays;
   union {
     IndirectConstant Constant = {0, 0, 0};  ///< kConstant
@@ -72,7 +72,7 @@ struct IndirectArgumentDesc {
   };
 };
 
-/// What kDispatch reads from the argument buffer. [D3D12: D3D12_DISPATCH_ARGUMENTS]
+/// The arguments that kDispatch reads from the argument buffer. [D3D12: D3D12_DISPATCH_ARGUMENTS]
 struct DispatchArguments {
   /// Thread groups along an axis: up to 65535; nothing runs where one of the three is 0.
   ///@{
@@ -95,8 +95,8 @@ struct CommandSignatureDesc {
   std::string Name = {};  ///< for messages
 };
 
-/// What the bytes of an argument buffer mean. A copyable handle; a recorded ExecuteIndirect keeps
-/// what it needs. [D3D12: ID3D12CommandSignature]
+/// Describes what the bytes of an argument buffer mean. A copyable handle; a recorded
+/// ExecuteIndirect keeps what it needs. [D3D12: ID3D12CommandSignature]
 class CommandSignature {
  public:
   /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
@@ -109,7 +109,7 @@ class CommandSignature {
   bool operator==(const CommandSignature&) const = default;
   ///@}
 
-  /// What the signature was created with; a default desc for an empty handle.
+  /// Returns the desc that the signature was created with; a default desc for an empty handle.
   const CommandSignatureDesc& GetDesc() const;
   /// For the library itself.
   const std::shared_ptr<detail::CommandSignatureImpl>& impl() const { return impl_; }

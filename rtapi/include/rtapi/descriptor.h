@@ -15,14 +15,14 @@ namespace detail {
 struct DescriptorHeapImpl;
 }
 
-/// What a heap holds. [D3D12: D3D12_DESCRIPTOR_HEAP_TYPE]
+/// The kind of descriptors that a heap holds. [D3D12: D3D12_DESCRIPTOR_HEAP_TYPE]
 enum class DescriptorHeapType : uint32_t {
   kCbvSrvUav = 0,
   kSampler = 1,
   kRtv = 2,  ///< render target views; never shader-visible
   kDsv = 3,  ///< depth-stencil views; never shader-visible
 };
-/// Whether shaders see a heap. [D3D12: D3D12_DESCRIPTOR_HEAP_FLAGS]
+/// Tells whether shaders see a heap. [D3D12: D3D12_DESCRIPTOR_HEAP_FLAGS]
 enum class DescriptorHeapFlags : uint32_t { kNone = 0, kShaderVisible = 1 };
 template <>
 inline constexpr bool kIsFlags<DescriptorHeapFlags> = true;
@@ -51,7 +51,7 @@ class DescriptorHeap {
   bool operator==(const DescriptorHeap&) const = default;
   ///@}
 
-  /// What the heap was created with; a default desc for an empty handle.
+  /// Returns the desc that the heap was created with; a default desc for an empty handle.
   const DescriptorHeapDesc& GetDesc() const;
   /// Slot 0 for the host to write; 0 for an empty handle.
   /// [D3D12: GetCPUDescriptorHandleForHeapStart]
@@ -77,8 +77,8 @@ class DescriptorHeap {
 // ---------------------------------------------------------------------------------------------
 // Shader resource views
 
-/// What a shader resource view looks at, and which member of ShaderResourceViewDesc counts.
-/// [D3D12: D3D12_SRV_DIMENSION; DXR: Additional SRV type]
+/// The kind of resource that a shader resource view looks at, and so the member of
+/// ShaderResourceViewDesc that counts. [D3D12: D3D12_SRV_DIMENSION; DXR: Additional SRV type]
 enum class SrvDimension : uint32_t {
   kUnknown = 0,
   kBuffer = 1,
@@ -193,8 +193,8 @@ struct ShaderResourceViewDesc {
 // ---------------------------------------------------------------------------------------------
 // Unordered access views
 
-/// What an unordered access view looks at, and which member of UnorderedAccessViewDesc counts.
-/// [D3D12: D3D12_UAV_DIMENSION]
+/// The kind of resource that an unordered access view looks at, and so the member of
+/// UnorderedAccessViewDesc that counts. [D3D12: D3D12_UAV_DIMENSION]
 enum class UavDimension : uint32_t {
   kUnknown = 0,
   kBuffer = 1,
@@ -275,10 +275,10 @@ struct ConstantBufferViewDesc {
 // ---------------------------------------------------------------------------------------------
 // Samplers
 
-/// How a sampler filters: when the texture is reduced (min), enlarged (mag), and between mip
-/// levels. Comparison filters serve SampleCmp; minimum and maximum filters return the least or the
-/// largest of the texels that have a weight. Any other combination of D3D12_FILTER's bits is
-/// accepted too. [D3D12: D3D12_FILTER]
+/// The way in which a sampler filters: when the texture is reduced (min), enlarged (mag), and
+/// between mip levels. Comparison filters serve SampleCmp; minimum and maximum filters return the
+/// least or the largest of the texels that have a weight. Any other combination of D3D12_FILTER's
+/// bits is accepted too. [D3D12: D3D12_FILTER]
 enum class Filter : uint32_t {
   kMinMagMipPoint = 0,
   kMinMagPointMipLinear = 0x1,
@@ -304,7 +304,7 @@ enum class Filter : uint32_t {
   kMaximumMinMagMipLinear = 0x195,
 };
 
-/// What lies outside of the texture. [D3D12: D3D12_TEXTURE_ADDRESS_MODE]
+/// The way in which a texture continues beyond its edges. [D3D12: D3D12_TEXTURE_ADDRESS_MODE]
 enum class TextureAddressMode : uint32_t {
   kWrap = 1,
   kMirror = 2,
@@ -313,7 +313,7 @@ enum class TextureAddressMode : uint32_t {
   kMirrorOnce = 5,
 };
 
-/// How a comparison sampler compares the reference value with a texel.
+/// The function by which a comparison sampler compares the reference value with a texel.
 /// [D3D12: D3D12_COMPARISON_FUNC]
 enum class ComparisonFunc : uint32_t {
   kNone = 0,
@@ -340,7 +340,7 @@ inline constexpr float kFloat32Max = 3.402823466e+38f;
 /// Describes a sampler for Device::CreateSampler. [D3D12: D3D12_SAMPLER_DESC]
 struct SamplerDesc {
   rtapi::Filter Filter = rtapi::Filter::kMinMagMipLinear;  ///< how texels are mixed
-  /// What lies outside of the texture, along each axis.
+  /// The way in which the texture continues beyond its edges, along each axis.
   ///@{
   TextureAddressMode AddressU = TextureAddressMode::kWrap;
   TextureAddressMode AddressV = TextureAddressMode::kWrap;

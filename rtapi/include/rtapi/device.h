@@ -47,10 +47,10 @@ enum class TraversalPrecision : uint32_t {
   kExact  ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
 };
 
-/// How grave a message is.
+/// The severity of a message.
 enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
 
-/// What DeviceDesc::OnMessage is given.
+/// A message for DeviceDesc::OnMessage.
 struct Message {
   MessageSeverity Severity = MessageSeverity::kError;  ///< how grave it is
   ErrorId Id;                                          ///< KA0715 is number 715
@@ -79,13 +79,13 @@ struct DeviceDesc {
   std::function<void(const Message&)> OnMessage = {};
 };
 
-/// What ran since the device was made, see Device::GetStatistics.
+/// Counts of what ran since the device was made, see Device::GetStatistics.
 struct RaytracingStatistics {
   uint64_t TraceRayCalls = 0;   ///< without RayQuery
   uint64_t VisibilityRays = 0;  ///< of them: first hit ends the search, no closest-hit shader
   uint64_t Hits = 0;            ///< rays with a committed hit
   uint64_t Misses = 0;          ///< rays without one
-  /// How often shaders of a stage ran.
+  /// The number of times that shaders of a stage ran.
   ///@{
   uint64_t AnyHitInvocations = 0;
   uint64_t IntersectionInvocations = 0;
@@ -126,10 +126,10 @@ class Device {
   bool operator==(const Device&) const = default;
   ///@}
 
-  /// What the device is. Valid as long as the device lives; empty for an empty handle.
+  /// Describes the device. Valid as long as the device lives; empty for an empty handle.
   const DeviceInfo& GetInfo() const;
-  /// What the device was created with. Valid as long as the device lives; a default desc for an
-  /// empty handle.
+  /// Returns the desc that the device was created with. Valid as long as the device lives; a
+  /// default desc for an empty handle.
   const DeviceDesc& GetDesc() const;
   /// Ok while the device works, else why it was removed.
   /// [D3D12: ID3D12Device::GetDeviceRemovedReason]
@@ -156,12 +156,12 @@ class Device {
   /// format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures; the
   /// reason if the device is removed.
   Result<Texture> CreateTexture(const TextureDesc& desc) const;
-  /// Where `count` subresources of such a texture, from `first_subresource` on, lie in a buffer
-  /// that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`, rounded up
-  /// to 512, the others behind it. Appends to each vector that is not null one element for each
-  /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Of a
-  /// block-compressed format rows are rows of blocks, and footprints whole blocks large. Returns
-  /// the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
+  /// Finds where `count` subresources of such a texture, from `first_subresource` on, lie in a
+  /// buffer that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`,
+  /// rounded up to 512, the others behind it. Appends to each vector that is not null one element
+  /// for each subresource: the footprint, its rows per slice, the bytes of a row without padding.
+  /// Of a block-compressed format rows are rows of blocks, and footprints whole blocks large.
+  /// Returns the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
   /// [D3D12: GetCopyableFootprints]
   /// @errors KA0817 more subresources than there are; KA0570, KA0571, KA0907-0909 as of
   /// CreateTexture.
@@ -338,8 +338,8 @@ class Device {
   GetRaytracingAccelerationStructurePrebuildInfo(
       const BuildRaytracingAccelerationStructureInputs& inputs) const;
 
-  /// Whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this identifier,
-  /// which is the start of its header. An empty handle recognizes none. Never fails.
+  /// Tells whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this
+  /// identifier, which is the start of its header. An empty handle recognizes none. Never fails.
   /// [DXR: CheckDriverMatchingIdentifier]
   DriverMatchingIdentifierStatus CheckDriverMatchingIdentifier(
       SerializedDataType type, const SerializedDataDriverMatchingIdentifier& identifier) const;

@@ -23,7 +23,7 @@
 
 namespace rtapi {
 
-/// What ExplainPixel explains.
+/// Selects what ExplainPixel explains.
 struct ExplainDesc {
   uint32_t Dispatch = 0;  ///< which DispatchRays of the list, from 0; indirect ones do not count
   /// The pixel: its DispatchRaysIndex.
@@ -42,7 +42,7 @@ struct ExplainedValue {
   std::string Text = {};  ///< "0.5 0.25 1"
 };
 
-/// How a record was chosen.
+/// Explains how a record was chosen.
 struct ExplainedRecord {
   std::string Table = {};       ///< "hit group", "miss", "callable", "ray generation"
   uint64_t Index = 0;           ///< in its table
@@ -68,7 +68,7 @@ struct ExplainedShader {
   std::string Result = {};           ///< any-hit: "accepted", "ignored", "accepted, search ended"
 };
 
-/// What became of a candidate.
+/// The outcome of a candidate.
 enum class CandidateOutcome : uint32_t {
   kCommitted,           ///< opaque, or accepted by a shader
   kReplaced,            ///< was committed until a nearer or later hit took its place
@@ -105,7 +105,7 @@ struct ExplainedCandidate {
   std::vector<ExplainedShader> Shaders = {};                         ///< any-hit or intersection
 };
 
-/// What a shader asked for.
+/// The kind of call that a shader made.
 enum class ExplainedCallKind : uint32_t { kTraceRay, kCallShader, kRayQuery, kReportHit };
 
 /// One call of a shader, and what came of it.
@@ -135,12 +135,12 @@ struct ExplainedCall {
   std::vector<ExplainedValue> Before = {};
   std::vector<ExplainedValue> After = {};
   ///@}
-  /// What ran at its end: closest-hit or miss; callable; any-hit of ReportHit.
+  /// The shaders that ran at its end: closest-hit or miss; callable; any-hit of ReportHit.
   std::vector<ExplainedShader> Shaders = {};
   std::string Note = {};  ///< what else is to be said
 };
 
-/// What ExplainPixel found: a tree of shaders and their calls.
+/// The result of ExplainPixel: a tree of shaders and their calls.
 struct PixelExplanation {
   uint32_t Index[3] = {0, 0, 0};       ///< DispatchRaysIndex
   uint32_t Dimensions[3] = {0, 0, 0};  ///< DispatchRaysDimensions
@@ -150,7 +150,7 @@ struct PixelExplanation {
   std::string Removal = {};  ///< not empty: why the dispatch removes the device at this pixel
 };
 
-/// What the rays of one pixel did, RayQueries and nested rays included.
+/// Counts of what the rays of one pixel did, RayQueries and nested rays included.
 struct PixelStatistics {
   uint32_t TraceRayCalls = 0;  ///< at any depth
   uint32_t RayQueries = 0;     ///< TraceRayInline calls
@@ -161,7 +161,7 @@ struct PixelStatistics {
   uint32_t MaxDepth = 0;           ///< of TraceRay: 1 for rays of the ray generation shader
 };
 
-/// What CollectPixelStatistics counted.
+/// The counts of CollectPixelStatistics.
 struct DispatchStatistics {
   uint32_t Dimensions[3] = {0, 0, 0};        ///< DispatchRaysDimensions
   std::vector<PixelStatistics> Pixels = {};  ///< Dimensions product of them, x fastest
@@ -171,7 +171,7 @@ struct DispatchStatistics {
 /// Executes a list as CommandQueue::ExecuteAndWait does (it is closed if it is open), and explains
 /// one pixel of one of its dispatches, as memory is when that dispatch begins. Takes the replay of
 /// one pixel, some 10 microseconds for each ray, and a copy of every buffer that shaders may write.
-/// Where the replay ends early, Removal says why and no error is returned: the device says its own.
+/// If the replay ends early, Removal says why and no error is returned: the device says its own.
 /// @errors KA0903, KA0904 an empty handle or a list of another device; the first error of
 /// recording; KA0856 memory that the list uses was freed; KA0916 no such dispatch or index, or
 /// memory that the host cannot reach; what Device::GetDeviceRemovedReason says.

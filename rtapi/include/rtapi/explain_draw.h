@@ -19,9 +19,9 @@
 
 namespace rtapi {
 
-/// Which draws of a list are noted. They are numbered from 0 in the order of execution; each draw
-/// of an ExecuteIndirect has a number. Of these draws, those whose targets have the size that the
-/// first of them has are noted, as one pixel stands for one place only in targets of one size;
+/// The draws of a list that are noted. They are numbered from 0 in the order of execution; each
+/// draw of an ExecuteIndirect has a number. Of these draws, those whose targets have the size that
+/// the first of them has are noted, as one pixel stands for one place only in targets of one size;
 /// draws without targets are not.
 struct DrawRange {
   uint32_t FirstDraw = 0;           ///< number of the first
@@ -29,7 +29,7 @@ struct DrawRange {
   uint32_t Slice = 0;               ///< array slice, counted from the first of the bound views
 };
 
-/// What ExplainDrawPixel explains.
+/// Selects what ExplainDrawPixel explains.
 struct ExplainDrawDesc {
   DrawRange Draws = {};  ///< which draws
   /// The pixel of the targets; (0, 0) is the upper left one.
@@ -39,7 +39,7 @@ struct ExplainDrawDesc {
   ///@}
 };
 
-/// What became of a triangle at a pixel that it covers.
+/// The outcome of a triangle at a pixel that it covers.
 enum class TriangleOutcome : uint32_t {
   kWritten,       ///< passed everything
   kCulledByFace,  ///< CullMode: nothing was drawn of it
@@ -78,7 +78,7 @@ struct ExplainedTriangle {
   TriangleOutcome Outcome = TriangleOutcome::kWritten;  ///< in one word
 };
 
-/// What ExplainDrawPixel found.
+/// The result of ExplainDrawPixel.
 struct DrawPixelExplanation {
   uint32_t X = 0;                                 ///< the pixel
   uint32_t Y = 0;                                 ///< the pixel
@@ -91,14 +91,14 @@ struct DrawPixelExplanation {
   std::vector<ExplainedTriangle> Triangles = {};  ///< in the order of drawing
 };
 
-/// How many triangles did what at a pixel.
+/// Counts of the triangles at a pixel, by what they did.
 struct PixelOverdraw {
   uint32_t Covered = 0;  ///< those that cover it and are not culled
   uint32_t Shaded = 0;   ///< calls of the pixel shader, without helper lanes
   uint32_t Written = 0;  ///< those that passed depth test and discard
 };
 
-/// What CollectOverdraw counted.
+/// The counts of CollectOverdraw.
 struct OverdrawStatistics {
   uint32_t Width = 0;                      ///< of the targets; 0: no draw was noted
   uint32_t Height = 0;                     ///< of the targets

@@ -7,9 +7,9 @@
 
 namespace rtapi {
 
-/// How one element of a texture, typed buffer or vertex is stored. Names and numbers are those of
-/// DXGI_FORMAT; GetFormatInfo tells which of them can be used, and backends may lack some as views
-/// (KA0626, KA0961). [DXGI_FORMAT]
+/// The layout in which one element of a texture, typed buffer or vertex is stored. Names and
+/// numbers are those of DXGI_FORMAT; GetFormatInfo tells which of them can be used, and backends
+/// may lack some as views (KA0626, KA0961). [DXGI_FORMAT]
 enum class Format : uint32_t {
   kUnknown = 0,
   kR32G32B32A32Typeless = 1,
@@ -114,12 +114,12 @@ enum class Format : uint32_t {
   kB4G4R4A4Unorm = 115,
 };
 
-/// How the channels of a format are read. Typeless formats can be stored and copied, and are viewed
-/// as a typed format of their family.
+/// The way in which the channels of a format are read. Typeless formats can be stored and copied,
+/// and are viewed as a typed format of their family.
 enum class FormatClass : uint8_t { kUnsupported, kTypeless, kFloat, kUnorm, kSnorm, kUint, kSint };
 
-/// What a format looks like in memory. The channel that a name names first lies first, in
-/// B8G8R8A8 and B8G8R8X8 too (blue first).
+/// The layout of a format in memory. The channel that a name names first lies first, in B8G8R8A8
+/// and B8G8R8X8 too (blue first).
 struct FormatInfo {
   FormatClass type = FormatClass::kUnsupported;  ///< kUnsupported: bytes and channels are 0
   uint8_t bytes = 0;                             ///< of one element: a texel, or a block of texels
@@ -132,9 +132,9 @@ struct FormatInfo {
   uint8_t block_side = 1;
 };
 
-/// What a format looks like, for every format that textures, typed buffers and vertices can have.
-/// The type is kUnsupported for all others (video and packed YUV formats, and numbers that are
-/// none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
+/// Returns the layout of a format in memory, for every format that textures, typed buffers and
+/// vertices can have. The type is kUnsupported for all others (video and packed YUV formats, and
+/// numbers that are none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
 constexpr FormatInfo GetFormatInfo(Format format) {
   using F = Format;
   using C = FormatClass;
@@ -330,14 +330,14 @@ constexpr FormatInfo GetFormatInfo(Format format) {
   }
 }
 
-/// Whether a depth-stencil view can have the format. Shaders read such textures through the other
-/// formats of the family. [D3D12: depth-stencil formats]
+/// Returns whether a depth-stencil view can have the format. Shaders read such textures through the
+/// other formats of the family. [D3D12: depth-stencil formats]
 constexpr bool IsDepthFormat(Format format) {
   return format == Format::kD32Float || format == Format::kD16Unorm ||
          format == Format::kD24UnormS8Uint || format == Format::kD32FloatS8X24Uint;
 }
 
-/// Whether a depth format has stencil, too.
+/// Returns whether a depth format has stencil, too.
 constexpr bool HasStencil(Format format) {
   return format == Format::kD24UnormS8Uint || format == Format::kD32FloatS8X24Uint;
 }

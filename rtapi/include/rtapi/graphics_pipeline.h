@@ -19,7 +19,7 @@ namespace rtapi {
 // ---------------------------------------------------------------------------------------------
 // Input assembler
 
-/// Whether an element changes with the vertex or with the instance.
+/// Tells whether an element changes with the vertex or with the instance.
 /// [D3D12: D3D12_INPUT_CLASSIFICATION]
 enum class InputClassification : uint32_t { kPerVertexData = 0, kPerInstanceData = 1 };
 
@@ -41,11 +41,11 @@ struct InputElementDesc {
   uint32_t InstanceDataStepRate = 0;
 };
 
-/// Which index ends a triangle strip, whatever the format of the index buffer.
+/// The index that ends a triangle strip, whatever the format of the index buffer.
 /// [D3D12: D3D12_INDEX_BUFFER_STRIP_CUT_VALUE]
 enum class IndexBufferStripCutValue : uint32_t { kDisabled = 0, k0xFFFF = 1, k0xFFFFFFFF = 2 };
 
-/// What a pipeline draws. [D3D12: D3D12_PRIMITIVE_TOPOLOGY_TYPE]
+/// The kind of primitives that a pipeline draws. [D3D12: D3D12_PRIMITIVE_TOPOLOGY_TYPE]
 enum class PrimitiveTopologyType : uint32_t {
   kUndefined = 0,  ///< refused (KA0720)
   kPoint = 1,      ///< refused (KA0721)
@@ -54,7 +54,7 @@ enum class PrimitiveTopologyType : uint32_t {
   kPatch = 4,  ///< refused (KA0721)
 };
 
-/// How a draw's vertices form triangles. [D3D12: D3D12_PRIMITIVE_TOPOLOGY]
+/// The way in which a draw's vertices form triangles. [D3D12: D3D12_PRIMITIVE_TOPOLOGY]
 enum class PrimitiveTopology : uint32_t {
   kUndefined = 0,
   kPointList = 1,  ///< refused by draws (KA0822)
@@ -89,13 +89,13 @@ struct IndexBufferView {
 // ---------------------------------------------------------------------------------------------
 // Rasterizer
 
-/// How triangles are filled. [D3D12: D3D12_FILL_MODE]
+/// The way in which triangles are filled. [D3D12: D3D12_FILL_MODE]
 enum class FillMode : uint32_t {
   kWireframe = 2,  ///< refused (KA0721)
   kSolid = 3,
 };
 
-/// Which triangles are left out. Those without area always are. [D3D12: D3D12_CULL_MODE]
+/// The triangles that are left out. Those without area always are. [D3D12: D3D12_CULL_MODE]
 enum class CullMode : uint32_t { kNone = 1, kFront = 2, kBack = 3 };
 
 /// Describes the rasterizer. [D3D12: D3D12_RASTERIZER_DESC]
@@ -109,7 +109,7 @@ struct RasterizerDesc {
   float DepthBiasClamp = 0;  ///< the largest bias, or if negative the least; 0: no limit
   /// Times the larger of |dz/dx| and |dz/dy|, per pixel.
   float SlopeScaledDepthBias = 0;
-  /// Whether triangles are cut at depth 0 and 1; else only their depth is limited to the viewport's
+  /// True if triangles are cut at depth 0 and 1; else only their depth is limited to the viewport's
   /// range, as it always is.
   bool DepthClipEnable = true;
 };
@@ -117,7 +117,7 @@ struct RasterizerDesc {
 // ---------------------------------------------------------------------------------------------
 // Depth and blending
 
-/// Whether pixels that pass the depth test write their depth. [D3D12: D3D12_DEPTH_WRITE_MASK]
+/// Tells whether pixels that pass the depth test write their depth. [D3D12: D3D12_DEPTH_WRITE_MASK]
 enum class DepthWriteMask : uint32_t { kZero = 0, kAll = 1 };
 
 /// Describes the depth test: a pixel passes if its depth compared with the stored one holds. The
@@ -150,7 +150,8 @@ enum class Blend : uint32_t {
   kInvSrc1Alpha = 19,  ///< refused (KA0721)
 };
 
-/// What joins source and destination; kMin and kMax ignore the factors. [D3D12: D3D12_BLEND_OP]
+/// The operation that joins source and destination; kMin and kMax ignore the factors.
+/// [D3D12: D3D12_BLEND_OP]
 enum class BlendOp : uint32_t { kAdd = 1, kSubtract = 2, kRevSubtract = 3, kMin = 4, kMax = 5 };
 
 /// Components that are written. [D3D12: D3D12_COLOR_WRITE_ENABLE]
@@ -165,7 +166,7 @@ enum class ColorWriteEnable : uint8_t {
 template <>
 inline constexpr bool kIsFlags<ColorWriteEnable> = true;
 
-/// How a render target takes colours. [D3D12: D3D12_RENDER_TARGET_BLEND_DESC]
+/// Describes how a render target takes colours. [D3D12: D3D12_RENDER_TARGET_BLEND_DESC]
 struct RenderTargetBlendDesc {
   bool BlendEnable = false;                       ///< false: the source replaces the destination
   bool LogicOpEnable = false;                     ///< true is refused (KA0721)
@@ -178,7 +179,7 @@ struct RenderTargetBlendDesc {
   ColorWriteEnable RenderTargetWriteMask = ColorWriteEnable::kAll;  ///< also without blending
 };
 
-/// How all render targets take colours. [D3D12: D3D12_BLEND_DESC]
+/// Describes how all render targets take colours. [D3D12: D3D12_BLEND_DESC]
 struct BlendDesc {
   bool AlphaToCoverageEnable = false;   ///< true is refused (KA0721)
   bool IndependentBlendEnable = false;  ///< false: RenderTarget[0] holds for all
@@ -216,10 +217,10 @@ struct GraphicsPipelineStateDesc {
 };
 
 // ---------------------------------------------------------------------------------------------
-// What a list sets for draws
+// State that a list sets for draws
 
-/// Where normalized coordinates -1 to 1 come to lie, in pixels from the upper left corner of the
-/// target, and depth. [D3D12: D3D12_VIEWPORT]
+/// The place where normalized coordinates -1 to 1 come to lie, in pixels from the upper left corner
+/// of the target, and depth. [D3D12: D3D12_VIEWPORT]
 struct Viewport {
   /// The upper left corner, which need not be whole.
   ///@{
@@ -261,7 +262,7 @@ struct DrawIndexedArguments {
   uint32_t StartInstanceLocation = 0;  ///< added to the element that is read, not to SV_InstanceID
 };
 
-/// What CommandList::ClearDepthStencilView clears. [D3D12: D3D12_CLEAR_FLAGS]
+/// The parts that CommandList::ClearDepthStencilView clears. [D3D12: D3D12_CLEAR_FLAGS]
 enum class ClearFlags : uint32_t { kDepth = 1, kStencil = 2 };
 template <>
 inline constexpr bool kIsFlags<ClearFlags> = true;

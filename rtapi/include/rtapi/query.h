@@ -13,13 +13,13 @@ namespace detail {
 struct QueryHeapImpl;
 }
 
-/// What a heap of queries holds. [D3D12: D3D12_QUERY_HEAP_TYPE]
+/// The kind of queries that a heap holds. [D3D12: D3D12_QUERY_HEAP_TYPE]
 enum class QueryHeapType : uint32_t {
   kOcclusion = 0,  ///< not offered (KA0744)
   kTimestamp = 1,  ///< points in time: uint64_t, in ticks
 };
 
-/// What CommandList::EndQuery asks for. [D3D12: D3D12_QUERY_TYPE]
+/// The kind of query that CommandList::EndQuery asks for. [D3D12: D3D12_QUERY_TYPE]
 enum class QueryType : uint32_t {
   kOcclusion = 0,        ///< not offered (KA0745)
   kBinaryOcclusion = 1,  ///< not offered (KA0745)
@@ -34,8 +34,8 @@ struct QueryHeapDesc {
   std::string Name = {};                           ///< for messages
 };
 
-/// Where queries keep what they found until ResolveQueryData copies it to a buffer. A copyable
-/// handle; command lists keep the heap alive. [D3D12: ID3D12QueryHeap]
+/// Keeps what queries found until ResolveQueryData copies it to a buffer. A copyable handle;
+/// command lists keep the heap alive. [D3D12: ID3D12QueryHeap]
 class QueryHeap {
  public:
   /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
@@ -47,7 +47,7 @@ class QueryHeap {
   bool operator==(const QueryHeap&) const = default;
   ///@}
 
-  /// What the heap was created with; a default desc for an empty handle.
+  /// Returns the desc that the heap was created with; a default desc for an empty handle.
   const QueryHeapDesc& GetDesc() const;
   /// For the library itself.
   const std::shared_ptr<detail::QueryHeapImpl>& impl() const { return impl_; }
