@@ -10,9 +10,9 @@
 
 namespace rtapi {
 
-/// What ray tracing a device has; DeviceDesc::Tier chooses. Tier 1.1 adds RayQuery, the two skip
-/// flags of rays and pipelines, AddToStateObject, GeometryIndex, indirect DispatchRays and seven
-/// vertex formats. [DXR: D3D12_RAYTRACING_TIER]
+/// The level of ray tracing that a device has; DeviceDesc::Tier chooses. Tier 1.1 adds RayQuery,
+/// the two skip flags of rays and pipelines, AddToStateObject, GeometryIndex, indirect DispatchRays
+/// and seven vertex formats. [DXR: D3D12_RAYTRACING_TIER]
 enum class RaytracingTier : uint32_t { kNotSupported = 0, kTier1_0 = 10, kTier1_1 = 11 };
 
 /// HLSL's RAY_FLAG values, for code that shares them with shaders. At most one of kForceOpaque,
@@ -40,11 +40,12 @@ inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
 /// HitKind() of a triangle met at its back face. [DXR: HitKind]
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;
 
-/// What a geometry is made of; all geometries of a bottom level are of one type (KA0702).
+/// The kind of primitives of a geometry; all geometries of a bottom level are of one type (KA0702).
 /// [DXR: D3D12_RAYTRACING_GEOMETRY_TYPE]
 enum class RaytracingGeometryType : uint32_t { kTriangles = 0, kProceduralPrimitiveAabbs = 1 };
 
-/// What any-hit shaders see of a geometry's primitives. [DXR: D3D12_RAYTRACING_GEOMETRY_FLAGS]
+/// Flags that control what any-hit shaders see of a geometry's primitives.
+/// [DXR: D3D12_RAYTRACING_GEOMETRY_FLAGS]
 enum class RaytracingGeometryFlags : uint32_t {
   kNone = 0,
   kOpaque = 0x1,                       ///< no any-hit shader runs, unless instance or ray say so
@@ -140,8 +141,8 @@ struct RaytracingInstanceDesc {
 /// The level of an acceleration structure. [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE]
 enum class RaytracingAccelerationStructureType : uint32_t { kTopLevel = 0, kBottomLevel = 1 };
 
-/// How a structure is built and what may be done with it later. All combinations are legal, but for
-/// kPreferFastTrace with kPreferFastBuild (KA0701).
+/// Flags that say how a structure is built and what may be done with it later. All combinations are
+/// legal, but for kPreferFastTrace with kPreferFastBuild (KA0701).
 /// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_BUILD_FLAGS]
 enum class RaytracingAccelerationStructureBuildFlags : uint32_t {
   kNone = 0,
@@ -155,10 +156,10 @@ enum class RaytracingAccelerationStructureBuildFlags : uint32_t {
 template <>
 inline constexpr bool kIsFlags<RaytracingAccelerationStructureBuildFlags> = true;
 
-/// Whether inputs lie in one array or each on its own. [DXR: D3D12_ELEMENTS_LAYOUT]
+/// Tells whether inputs lie in one array or each on its own. [DXR: D3D12_ELEMENTS_LAYOUT]
 enum class ElementsLayout : uint32_t { kArray = 0, kArrayOfPointers = 1 };
 
-/// What a build is made of, for builds and for prebuild info.
+/// The inputs of a build, for builds and for prebuild info.
 /// [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_INPUTS]
 struct BuildRaytracingAccelerationStructureInputs {
   /// The level to build.
@@ -183,8 +184,8 @@ struct BuildRaytracingAccelerationStructureInputs {
 /// A build for CommandList::BuildRaytracingAccelerationStructure. The three addresses are multiples
 /// of 256. [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_DESC]
 struct BuildRaytracingAccelerationStructureDesc {
-  /// Where the structure goes: ResultDataMaxSizeInBytes in a buffer that was created in state
-  /// kRaytracingAccelerationStructure; of an update as many bytes as the source has.
+  /// The place where the structure goes: ResultDataMaxSizeInBytes in a buffer that was created in
+  /// state kRaytracingAccelerationStructure; of an update as many bytes as the source has.
   GpuVirtualAddress DestAccelerationStructureData = 0;
   BuildRaytracingAccelerationStructureInputs Inputs = {};  ///< what is built
   /// With kPerformUpdate: what is refitted, the destination itself or one that does not overlap it.
@@ -203,7 +204,7 @@ struct RaytracingAccelerationStructurePrebuildInfo {
   uint64_t UpdateScratchDataSizeInBytes = 0;  ///< for any later update; 0 without kAllowUpdate
 };
 
-/// Which numbers of a built structure are written to memory.
+/// The numbers of a built structure that are written to memory.
 /// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_TYPE]
 enum class RaytracingAccelerationStructurePostbuildInfoType : uint32_t {
   kCompactedSize = 0,       ///< RaytracingAccelerationStructurePostbuildInfoCompactedSizeDesc
@@ -217,7 +218,7 @@ enum class RaytracingAccelerationStructurePostbuildInfoType : uint32_t {
 struct RaytracingAccelerationStructurePostbuildInfoDesc {
   /// A multiple of 8 in a buffer that allows unordered access.
   GpuVirtualAddress DestBuffer = 0;
-  /// What is written: 8 bytes for each source, kSerialization 16.
+  /// The numbers that are written: 8 bytes for each source, kSerialization 16.
   RaytracingAccelerationStructurePostbuildInfoType InfoType =
       RaytracingAccelerationStructurePostbuildInfoType::kCompactedSize;
 };
@@ -246,7 +247,7 @@ struct RaytracingAccelerationStructurePostbuildInfoCurrentSizeDesc {
   uint64_t CurrentSizeInBytes = 0;  ///< the prebuild size, or that of the compacted copy
 };
 
-/// What CommandList::CopyRaytracingAccelerationStructure makes.
+/// The kind of copy that CommandList::CopyRaytracingAccelerationStructure makes.
 /// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]
 enum class RaytracingAccelerationStructureCopyMode : uint32_t {
   kClone = 0,                        ///< the same structure, as many bytes
@@ -256,10 +257,11 @@ enum class RaytracingAccelerationStructureCopyMode : uint32_t {
   kDeserialize = 4,                  ///< a structure of such bytes
 };
 
-/// What Device::CheckDriverMatchingIdentifier is asked about. [DXR: D3D12_SERIALIZED_DATA_TYPE]
+/// The type of data that Device::CheckDriverMatchingIdentifier is asked about.
+/// [DXR: D3D12_SERIALIZED_DATA_TYPE]
 enum class SerializedDataType : uint32_t { kRaytracingAccelerationStructure = 0 };
 
-/// What Device::CheckDriverMatchingIdentifier says of serialized data.
+/// The verdict of Device::CheckDriverMatchingIdentifier on serialized data.
 /// [DXR: D3D12_DRIVER_MATCHING_IDENTIFIER_STATUS]
 enum class DriverMatchingIdentifierStatus : uint32_t {
   kCompatibleWithDevice = 0,  ///< the device can read it
@@ -290,10 +292,10 @@ struct SerializedDataDriverMatchingIdentifier {
   uint8_t DriverOpaqueVersioningData[16] = {};  ///< of the form of the data
 };
 
-/// What kSerialize writes begins with it. Then come the 8-byte addresses of the bottom levels, one
-/// for each instance in their order, which the application replaces by those of their copies before
-/// kDeserialize, and opaque data. The address of an instance without a bottom level is 0.
-/// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER]
+/// The header of what kSerialize writes. It is followed by the 8-byte addresses of the bottom
+/// levels, one for each instance in their order, which the application replaces by those of their
+/// copies before kDeserialize, and opaque data. The address of an instance without a bottom level
+/// is 0. [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER]
 struct SerializedRaytracingAccelerationStructureHeader {
   SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};  ///< who can read it
   uint64_t SerializedSizeInBytesIncludingHeader = 0;  ///< header, addresses and data
@@ -301,11 +303,11 @@ struct SerializedRaytracingAccelerationStructureHeader {
   uint64_t NumBottomLevelAccelerationStructurePointersAfterHeader = 0;  ///< bottom levels: 0
 };
 
-/// What kVisualizationDecodeForTools writes begins with it. Then come NumDescs instance or geometry
-/// descs without a gap, in the order of the inputs, and what their addresses name.
+/// The header of what kVisualizationDecodeForTools writes. It is followed by NumDescs instance or
+/// geometry descs without a gap, in the order of the inputs, and what their addresses name.
 /// [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER]
 struct BuildRaytracingAccelerationStructureToolsVisualizationHeader {
-  /// Which of the two kinds of descs follow.
+  /// Tells which of the two kinds of descs follow.
   RaytracingAccelerationStructureType Type = RaytracingAccelerationStructureType::kTopLevel;
   uint32_t NumDescs = 0;  ///< how many of them
 };

@@ -10,13 +10,13 @@
 
 namespace rtapi {
 
-/// What a render target view looks at. [D3D12: D3D12_RTV_DIMENSION]
+/// The kind of resource that a render target view looks at. [D3D12: D3D12_RTV_DIMENSION]
 enum class RtvDimension : uint32_t { kUnknown = 0, kTexture2D = 4, kTexture2DArray = 5 };
-/// What a depth-stencil view looks at. [D3D12: D3D12_DSV_DIMENSION]
+/// The kind of resource that a depth-stencil view looks at. [D3D12: D3D12_DSV_DIMENSION]
 enum class DsvDimension : uint32_t { kUnknown = 0, kTexture2D = 3, kTexture2DArray = 4 };
 
-/// Which parts of a depth-stencil view draws leave alone, so that shaders may read them at the same
-/// time. [D3D12: D3D12_DSV_FLAGS]
+/// The parts of a depth-stencil view that draws leave alone, so that shaders may read them at the
+/// same time. [D3D12: D3D12_DSV_FLAGS]
 enum class DsvFlags : uint32_t { kNone = 0, kReadOnlyDepth = 1, kReadOnlyStencil = 2 };
 template <>
 inline constexpr bool kIsFlags<DsvFlags> = true;

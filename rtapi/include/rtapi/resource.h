@@ -21,14 +21,15 @@ struct BufferImpl;
 struct TextureImpl;
 }  // namespace detail
 
-/// Where a buffer lies, and so who can read and write it. [D3D12: D3D12_HEAP_TYPE]
+/// The kind of memory that a buffer lies in, and so who can read and write it.
+/// [D3D12: D3D12_HEAP_TYPE]
 enum class HeapType : uint32_t {
   kDefault = 1,  ///< for shaders and commands; the host cannot map it
   kUpload = 2,   ///< the host writes, shaders and copies read
   kReadback = 3  ///< copies write, the host reads
 };
 
-/// What a resource is. [D3D12: D3D12_RESOURCE_DIMENSION]
+/// The kind of resource. [D3D12: D3D12_RESOURCE_DIMENSION]
 enum class ResourceDimension : uint32_t {
   kUnknown = 0,
   kBuffer = 1,
@@ -37,7 +38,7 @@ enum class ResourceDimension : uint32_t {
   kTexture3D = 4,
 };
 
-/// What a resource may be used for beyond reading. [D3D12: D3D12_RESOURCE_FLAGS]
+/// The uses that a resource allows beyond reading. [D3D12: D3D12_RESOURCE_FLAGS]
 enum class ResourceFlags : uint32_t {
   kNone = 0,
   kAllowRenderTarget = 0x1,     ///< 2-D textures: draws may write colours to it
@@ -48,8 +49,8 @@ enum class ResourceFlags : uint32_t {
 template <>
 inline constexpr bool kIsFlags<ResourceFlags> = true;
 
-/// What a resource is used for between two barriers. Checked mode reports uses that do not go with
-/// the state (KA0451), and transitions from another state than the present one (KA0452).
+/// The use of a resource between two barriers. Checked mode reports uses that do not go with the
+/// state (KA0451), and transitions from another state than the present one (KA0452).
 /// [D3D12: D3D12_RESOURCE_STATES]
 enum class ResourceStates : uint32_t {
   kCommon = 0,
@@ -88,7 +89,7 @@ struct BufferDesc {
 /// Linear memory with a GPU virtual address, which is a multiple of 64 KiB as in D3D12. A copyable
 /// handle. The address is live as long as a handle exists.
 ///
-/// What keeps a buffer alive, and what does not:
+/// A buffer is kept alive by some uses and not by others:
 /// - A call that takes the handle (copies, barriers, ExecuteIndirect, clears) keeps it until the
 ///   list is reset and its work is done.
 /// - A call that takes an address keeps nothing: shader tables, root views, inputs and results of
@@ -113,8 +114,8 @@ class Buffer {
   bool operator==(const Buffer&) const = default;
   ///@}
 
-  /// What the buffer was created with, and its present name. Valid as long as the buffer lives. An
-  /// empty handle has a default BufferDesc.
+  /// Returns the desc that the buffer was created with, and its present name. Valid as long as the
+  /// buffer lives. An empty handle has a default BufferDesc.
   const BufferDesc& GetDesc() const;
   /// Bytes of the buffer; 0 for an empty handle.
   uint64_t size() const { return GetDesc().SizeInBytes; }
@@ -185,8 +186,9 @@ class Texture {
   bool operator==(const Texture&) const = default;
   ///@}
 
-  /// What the texture was created with, where MipLevels is the number of levels even if 0 was
-  /// given. Valid as long as the texture lives. An empty handle has a default TextureDesc.
+  /// Returns the desc that the texture was created with, where MipLevels is the number of levels
+  /// even if 0 was given. Valid as long as the texture lives. An empty handle has a default
+  /// TextureDesc.
   const TextureDesc& GetDesc() const;
   /// Subresources: MipLevels * array elements; a 3-D texture has one for each mip. Subresource
   /// `mip + element * MipLevels` is a mip of an array element. 0 for an empty handle.
@@ -211,7 +213,7 @@ using Resource = std::variant<std::monostate, Buffer, Texture>;
 // ---------------------------------------------------------------------------------------------
 // Barriers
 
-/// What a barrier does. kAliasing is refused (KA0802): there are no placed resources.
+/// The kind of barrier. kAliasing is refused (KA0802): there are no placed resources.
 /// [D3D12: D3D12_RESOURCE_BARRIER_TYPE]
 enum class ResourceBarrierType : uint32_t { kTransition = 0, kAliasing = 1, kUav = 2 };
 
@@ -219,7 +221,7 @@ enum class ResourceBarrierType : uint32_t { kTransition = 0, kAliasing = 1, kUav
 /// [D3D12: D3D12_RESOURCE_BARRIER]
 struct ResourceBarrier {
   ResourceBarrierType Type = ResourceBarrierType::kUav;  ///< kTransition or kUav
-  /// What the barrier is for. Empty in a UAV barrier: every resource.
+  /// The resource that the barrier is for. Empty in a UAV barrier: every resource.
   /// [DXR: Synchronizing acceleration structure memory writes/reads]
   rtapi::Resource Resource = {};
   /// Transitions of textures: one subresource, or all of them.
@@ -249,7 +251,7 @@ struct ResourceBarrier {
 // ---------------------------------------------------------------------------------------------
 // Copies between buffers and textures
 
-/// How the texels of one subresource lie in a buffer: rows of RowPitch bytes, Height rows to a
+/// The layout of one subresource's texels in a buffer: rows of RowPitch bytes, Height rows to a
 /// slice, Depth slices. In block-compressed formats a row is one of blocks, and Width and Height
 /// are multiples of 4. [D3D12: D3D12_SUBRESOURCE_FOOTPRINT]
 struct SubresourceFootprint {
@@ -267,7 +269,7 @@ struct PlacedSubresourceFootprint {
   SubresourceFootprint Footprint = {};  ///< what lies there
 };
 
-/// Which member of a TextureCopyLocation counts. [D3D12: D3D12_TEXTURE_COPY_TYPE]
+/// Tells which member of a TextureCopyLocation counts. [D3D12: D3D12_TEXTURE_COPY_TYPE]
 enum class TextureCopyType : uint32_t { kSubresourceIndex = 0, kPlacedFootprint = 1 };
 
 /// One side of a CopyTextureRegion: a subresource of a texture, or texels in a buffer.

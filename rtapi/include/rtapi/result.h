@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How calls report failure: by a `Result<T>` or a Status. No exception leaves the library.
+/// Calls report failure by a `Result<T>` or a Status. No exception leaves the library.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct ErrorId {
   bool operator==(const ErrorId&) const = default;
 };
 
-/// What went wrong. Programs branch on the id or the code; the message is for people.
+/// Describes what went wrong. Programs branch on the id or the code; the message is for people.
 struct Error {
   ErrorId id;                           ///< which error it is
   ErrorCode code = ErrorCode::kFailed;  ///< the family of the id
@@ -47,7 +47,7 @@ struct Error {
   std::string message;
 };
 
-/// What value() throws, in the caller's own code; the library throws nothing else.
+/// The exception that value() throws, in the caller's own code; the library throws nothing else.
 class ResultError : public std::runtime_error {
  public:
   /// what() is the error's message.

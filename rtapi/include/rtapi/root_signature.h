@@ -18,11 +18,11 @@ namespace detail {
 struct RootSignatureImpl;
 }
 
-/// Which registers a range feeds: t, u, b or s. [D3D12: D3D12_DESCRIPTOR_RANGE_TYPE]
+/// The kind of registers that a range feeds: t, u, b or s. [D3D12: D3D12_DESCRIPTOR_RANGE_TYPE]
 enum class DescriptorRangeType : uint32_t { kSrv = 0, kUav = 1, kCbv = 2, kSampler = 3 };
 
-/// What a driver may assume of descriptors and their data. Accepted and without effect.
-/// [D3D12: D3D12_DESCRIPTOR_RANGE_FLAGS]
+/// Promises that a driver may rely on about descriptors and their data. Accepted and without
+/// effect. [D3D12: D3D12_DESCRIPTOR_RANGE_FLAGS]
 enum class DescriptorRangeFlags : uint32_t {
   kNone = 0,
   kDescriptorsVolatile = 0x1,
@@ -62,7 +62,7 @@ struct RootConstants {
   uint32_t Num32BitValues = 0;  ///< at least 1 (KA0609)
 };
 
-/// What a driver may assume of a root descriptor's data. Accepted and without effect.
+/// Promises that a driver may rely on about a root descriptor's data. Accepted and without effect.
 /// [D3D12: D3D12_ROOT_DESCRIPTOR_FLAGS]
 enum class RootDescriptorFlags : uint32_t {
   kNone = 0,
@@ -82,7 +82,7 @@ struct RootDescriptor {
   RootDescriptorFlags Flags = RootDescriptorFlags::kNone;  ///< without effect
 };
 
-/// What a root parameter is. [D3D12: D3D12_ROOT_PARAMETER_TYPE]
+/// The kind of root parameter. [D3D12: D3D12_ROOT_PARAMETER_TYPE]
 enum class RootParameterType : uint32_t {
   kDescriptorTable = 0,  ///< DescriptorTable counts
   k32BitConstants = 1,   ///< Constants counts
@@ -91,7 +91,7 @@ enum class RootParameterType : uint32_t {
   kUav = 4,              ///< Descriptor counts
 };
 
-/// Which shaders see a parameter. Compute and ray tracing shaders see only those with kAll.
+/// The shaders that see a parameter. Compute and ray tracing shaders see only those with kAll.
 /// [D3D12: D3D12_SHADER_VISIBILITY; DXR: Note on shader visibility]
 enum class ShaderVisibility : uint32_t {
   kAll = 0,
@@ -114,7 +114,7 @@ struct RootParameter {
   RootConstants Constants = {};
   RootDescriptor Descriptor = {};
   ///@}
-  /// Which shaders see it; in a local root signature kAll (KA0603).
+  /// The shaders that see it; in a local root signature kAll (KA0603).
   rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;
 
   /// A descriptor table. It costs 1 DWORD, in a shader record 8 bytes.
@@ -158,7 +158,7 @@ struct RootParameter {
 /// those of SamplerDesc, by its rules. [D3D12: D3D12_STATIC_SAMPLER_DESC]
 struct StaticSamplerDesc {
   rtapi::Filter Filter = rtapi::Filter::kAnisotropic;  ///< how texels are mixed
-  /// What lies outside of the texture, along each axis.
+  /// The way in which the texture continues beyond its edges, along each axis.
   ///@{
   TextureAddressMode AddressU = TextureAddressMode::kWrap;
   TextureAddressMode AddressV = TextureAddressMode::kWrap;
@@ -176,12 +176,12 @@ struct StaticSamplerDesc {
   ///@}
   uint32_t ShaderRegister = 0;  ///< s register
   uint32_t RegisterSpace = 0;   ///< up to 0xFFFFFFEF (KA0605)
-  /// Which shaders see it; in a local root signature kAll (KA0603).
+  /// The shaders that see it; in a local root signature kAll (KA0603).
   rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;
 };
 
-/// What a root signature is for. Flags of stages that do not exist here are without effect.
-/// [D3D12: D3D12_ROOT_SIGNATURE_FLAGS]
+/// Flags that say what a root signature is for. Those of stages that do not exist here are without
+/// effect. [D3D12: D3D12_ROOT_SIGNATURE_FLAGS]
 enum class RootSignatureFlags : uint32_t {
   kNone = 0,
   kAllowInputAssemblerInputLayout = 0x1,  ///< needed by pipelines with an InputLayout
@@ -220,9 +220,10 @@ Result<RootSignatureDesc> ParseRootSignature(std::string_view text);
 /// @errors KA0600 to KA0607, KA0609 and KA0610, as of Device::CreateRootSignature
 Status CheckRootSignature(const RootSignatureDesc& desc);
 
-/// What arguments there are: global ones set on a command list, local ones in shader records. A
-/// copyable handle; state objects, pipelines, command signatures and lists keep what they use
-/// alive. [D3D12: ID3D12RootSignature; DXR: Local root signatures vs global root signatures]
+/// Describes what arguments there are: global ones set on a command list, local ones in shader
+/// records. A copyable handle; state objects, pipelines, command signatures and lists keep what
+/// they use alive. [D3D12: ID3D12RootSignature; DXR: Local root signatures vs global root
+/// signatures]
 class RootSignature {
  public:
   /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
@@ -235,12 +236,12 @@ class RootSignature {
   bool operator==(const RootSignature&) const = default;
   ///@}
 
-  /// What the signature was created with, appended ranges with the offsets that they got. A default
-  /// desc for an empty handle.
+  /// Returns the desc that the signature was created with, appended ranges with the offsets that
+  /// they got. A default desc for an empty handle.
   const RootSignatureDesc& GetDesc() const;
   /// True for a local root signature; false for an empty handle.
   bool is_local() const;
-  /// Where the argument of a parameter starts, in bytes. Local ones: from the end of the
+  /// Returns where the argument of a parameter starts, in bytes. Local ones: from the end of the
   /// identifier, i.e. from byte 32 of the record. Constants lie at multiples of 4; everything else
   /// takes 8 bytes at multiples of 8. 0 for a parameter that does not exist, and for an empty
   /// handle. [DXR: Shader table memory initialization]

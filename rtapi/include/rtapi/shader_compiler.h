@@ -30,7 +30,7 @@ struct ShaderSourceFile {
   std::string Text = {};  ///< as it was read
 };
 
-/// What to compile and how. The members are DXC's options by their meaning.
+/// Says what to compile and how. The members are DXC's options by their meaning.
 struct ShaderCompileOptions {
   std::string File = {};                   ///< the main source file; also names it in messages
   std::optional<std::string> Source = {};  ///< the text, instead of reading File
@@ -75,7 +75,7 @@ struct ShaderCompileOptions {
   uint64_t InterpretStepLimit = 0;
 };
 
-/// How grave a diagnostic is. Errors stop compilation; warnings do with WarningsAsErrors.
+/// The severity of a diagnostic. Errors stop compilation; warnings do with WarningsAsErrors.
 enum class ShaderDiagnosticSeverity : uint32_t { kNote, kWarning, kError };
 
 /// One thing that the compiler has to say about the source.
@@ -89,7 +89,7 @@ struct ShaderDiagnostic {
   std::string Text;       ///< the whole of it as a terminal shows it: place, source line, caret
 };
 
-/// What came of a compilation.
+/// The result of a compilation.
 struct ShaderCompilation {
   rtapi::Status Status;   ///< an error's message holds every error diagnostic's Text
   ShaderLibrary Library;  ///< empty on error
@@ -110,7 +110,7 @@ struct ShaderCompilation {
 /// cannot be loaded.
 ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options);
 
-/// What came of preprocessing.
+/// The result of preprocessing.
 struct ShaderPreprocessing {
   rtapi::Status Status;  ///< an error's message holds every error diagnostic's Text
   std::string Text;      ///< with line directives; empty on error

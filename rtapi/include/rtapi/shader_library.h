@@ -34,7 +34,7 @@ enum class ShaderStage : uint32_t {
   kCallable = 12,
 };
 
-/// What is known about an exported function. [D3D12: ID3D12FunctionReflection]
+/// Describes an exported function. [D3D12: ID3D12FunctionReflection]
 struct ShaderExportInfo {
   std::string Name = {};                      ///< as in HLSL: "ClosestHit"
   std::string MangledName;                    ///< tells overloads apart; Name where it has none
@@ -61,7 +61,7 @@ class ShaderLibrary {
 
   /// The main source file; empty for an empty handle.
   const std::string& name() const;
-  /// What it was compiled for, e.g. "lib_6_6"; empty for an empty handle.
+  /// Returns the target that it was compiled for, e.g. "lib_6_6"; empty for an empty handle.
   const std::string& target() const;
   /// Every export, in the order of the source. Valid as long as the library is loaded.
   const std::vector<ShaderExportInfo>& GetExports() const;

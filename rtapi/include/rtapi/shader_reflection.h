@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the compiler knows of a source's shaders and of what they bind, without compiling them to
-/// code.
+/// Tells what the compiler knows of a source's shaders and of what they bind, without compiling
+/// them to code.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ struct ShaderVariableInfo {
   ShaderTypeInfo Type;         ///< its type
 };
 
-/// What a resource is. [DXR: HLSL resource types]
+/// The type of a resource. [DXR: HLSL resource types]
 enum class ShaderResourceType : uint32_t {
   kConstantBuffer,
   kByteAddressBuffer,

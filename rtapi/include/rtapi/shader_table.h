@@ -46,7 +46,7 @@ class LocalArgument {
 
   /// Constants, an address, or a descriptor table.
   using Value = std::variant<std::vector<std::byte>, GpuVirtualAddress, GpuDescriptorHandle>;
-  /// What was given.
+  /// Returns the value that was given.
   const Value& value() const { return value_; }
 
  private:

@@ -44,7 +44,7 @@ enum class StateSubobjectType : uint32_t {
   kRaytracingPipelineConfig1 = 12,
 };
 
-/// What state objects may have to do with each other. Undefined bits: KA0539.
+/// Flags that say what state objects may have to do with each other. Undefined bits: KA0539.
 /// [DXR: D3D12_STATE_OBJECT_FLAGS]
 enum class StateObjectFlags : uint32_t {
   kNone = 0,
@@ -60,8 +60,8 @@ enum class StateObjectFlags : uint32_t {
 template <>
 inline constexpr bool kIsFlags<StateObjectFlags> = true;
 
-/// What a hit group is for; it must go with the geometry that reaches its record (checked mode:
-/// KA0434). [DXR: D3D12_HIT_GROUP_TYPE]
+/// The kind of geometry that a hit group is for; it must go with the geometry that reaches its
+/// record (checked mode: KA0434). [DXR: D3D12_HIT_GROUP_TYPE]
 enum class HitGroupType : uint32_t { kTriangles = 0, kProceduralPrimitive = 1 };
 
 /// Ray flags that are added to those of every TraceRay of a pipeline; at most one of the two
@@ -91,7 +91,7 @@ struct GlobalRootSignature {
 struct LocalRootSignature {
   RootSignature pLocalRootSignature = {};  ///< created with kLocalRootSignature (KA0536)
 };
-/// Which of several nodes a state object is for. [DXR: D3D12_NODE_MASK]
+/// Tells which of several nodes a state object is for. [DXR: D3D12_NODE_MASK]
 struct NodeMask {
   uint32_t Mask = 1;  ///< 0 or 1: there is one node (KA0500)
 };
@@ -140,8 +140,8 @@ struct RaytracingShaderConfig {
   /// At least those of every shader (KA0523), at most 32 (KA0521). Triangles have 8.
   uint32_t MaxAttributeSizeInBytes = 8;
 };
-/// How deep rays nest. Required, and the same for all exports of a state object (KA0512, KA0514).
-/// [DXR: D3D12_RAYTRACING_PIPELINE_CONFIG]
+/// Limits how deep rays nest. Required, and the same for all exports of a state object (KA0512,
+/// KA0514). [DXR: D3D12_RAYTRACING_PIPELINE_CONFIG]
 struct RaytracingPipelineConfig {
   /// 0 to 31 (KA0519). 1: only ray generation shaders trace; 0: nobody does. A deeper TraceRay
   /// removes the device (KA0890). [DXR: Ray recursion limit]
@@ -174,7 +174,7 @@ using StateSubobject =
 /// D3D12's number for the kind of a subobject.
 StateSubobjectType GetSubobjectType(const StateSubobject& subobject);
 
-/// What a state object is made of. [D3D12: D3D12_STATE_OBJECT_DESC]
+/// Describes what a state object is made of. [D3D12: D3D12_STATE_OBJECT_DESC]
 struct StateObjectDesc {
   StateObjectType Type = StateObjectType::kRaytracingPipeline;  ///< collection or pipeline
   /// In any order. A config or root signature that no association names is the default for all
@@ -191,11 +191,11 @@ struct StateObjectDesc {
 // ---------------------------------------------------------------------------------------------
 // State objects
 
-/// What a shader record begins with: 32 opaque bytes. All zero is NULL: nothing runs.
+/// The start of a shader record: 32 opaque bytes. All zero is NULL: nothing runs.
 /// [DXR: Shader identifier]
 using ShaderIdentifier = std::array<uint8_t, kShaderIdentifierSizeInBytes>;
 
-/// What GetShaderStackSize returns for a name it does not know. [DXR: GetShaderStackSize]
+/// The value that GetShaderStackSize returns for a name it does not know. [DXR: GetShaderStackSize]
 inline constexpr uint64_t kNoShaderStackSize = 0xFFFFFFFFu;
 
 /// A collection or a ray tracing pipeline, with ID3D12StateObjectProperties' methods. A copyable

@@ -24,7 +24,7 @@ struct RayTypeDesc {
   uint32_t MissShaderIndex = 0;                                   ///< low 16 bits count
 };
 
-/// What DescribeShaderTables describes, and how much of it.
+/// Selects what DescribeShaderTables describes, and how much of it.
 struct TableDescriptionDesc {
   DispatchRaysDesc Dispatch = {};  ///< the tables; those that start at 0 are left out
   /// A top level that is built: with it and ray types each hit record says who reaches it. 0: none.
@@ -36,7 +36,7 @@ struct TableDescriptionDesc {
   uint32_t MaxDescriptorsPerTable = 16;  ///< of each descriptor table
 };
 
-/// Where an address points: into a live buffer, or nowhere.
+/// Tells where an address points: into a live buffer, or nowhere.
 struct AddressDescription {
   GpuVirtualAddress Address = 0;  ///< as it stands in memory
   bool Live = false;              ///< whether it is in a live buffer; else the rest is empty
@@ -75,7 +75,7 @@ struct TableArgument {
   uint32_t DescriptorsLeftOut = 0;                      ///< past MaxDescriptorsPerTable
 };
 
-/// What the identifier of a record is.
+/// Tells what the identifier of a record is.
 enum class TableRecordState : uint32_t {
   kNull,        ///< the NULL identifier: nothing runs
   kKnown,       ///< an identifier of this state object that may stand in this table
@@ -124,7 +124,7 @@ struct DescribedTable {
   uint64_t RecordsLeftOut = 0;            ///< past MaxRecords, or behind one that cannot be read
 };
 
-/// What DescribeShaderTables found.
+/// The result of DescribeShaderTables.
 struct TableDescription {
   std::string StateObject = {};            ///< its name
   std::vector<RayTypeDesc> RayTypes = {};  ///< as they were given

@@ -93,8 +93,8 @@ inline constexpr uint32_t kDefaultShader4ComponentMapping = 0x1688;
 /// [D3D12: GetDescriptorHandleIncrementSize]
 inline constexpr uint32_t kDescriptorHandleIncrementSize = 32;
 
-/// Where elements start in GPU memory and how far apart they are. The members have no default
-/// values because unions hold this struct. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
+/// The start of elements in GPU memory, and the distance from one to the next. The members have no
+/// default values because unions hold this struct. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
 struct GpuVirtualAddressAndStride {
   GpuVirtualAddress StartAddress;  ///< of the first element
   uint64_t StrideInBytes;          ///< from one element to the next; 0: one element for all indices

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Which Kaamos this is. CMakeLists.txt reads the three numbers from here, so that the package, the
-/// library and the programs' --version agree; CHANGELOG.md says what changed.
+/// The version of Kaamos. CMakeLists.txt reads the three numbers from here, so that the package,
+/// the library and the programs' --version agree; CHANGELOG.md says what changed.
 #pragma once
 
 #include <cstdint>
