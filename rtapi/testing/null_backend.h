@@ -19,7 +19,7 @@ struct NullPipeline : kaamos::runtime::BackendPipeline {
   std::shared_ptr<const kaamos::runtime::LinkedGraphics> graphics;
 };
 
-// What the backend of one device saw.
+// A record of what the backend of one device saw.
 struct NullLog {
   std::vector<kaamos::runtime::Command> executed;
   std::vector<kaamos::runtime::TextureViewDesc> texture_views;

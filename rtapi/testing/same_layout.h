@@ -26,7 +26,7 @@
 
 namespace rtapi::testing {
 
-// How many comparisons each file makes.
+// Each returns the number of comparisons that its file makes.
 int layout_formats();
 int layout_graphics();
 int layout_numbers();

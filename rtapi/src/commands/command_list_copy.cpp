@@ -169,8 +169,8 @@ Status check_copy_formats(const CopySide& to, const CopySide& from) {
       a.block_side == b.block_side ? "" : ", or blocks go with integers of the same bytes");
 }
 
-// Whether an edge of a box, or the place that it goes to, lies between blocks. The far edge may
-// also be that of the subresource.
+// Checks that no edge of a box, nor the place that it goes to, lies between blocks. The far edge
+// may also be that of the subresource.
 Status check_block_edges(const CopySide& side, int axis, uint32_t first, uint32_t last) {
   const uint32_t step = side.step(axis);
   if (first % step == 0 && (last % step == 0 || last == side.size[axis])) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What draws and clears record, and what lists refuse.
+// Tests what draws and clears record, and what lists refuse.
 #include "rtapi/src/device/device_impl.h"
 #include "rtapi/src/resources/resource_impl.h"
 #include "rtapi/testing/graphics_fixture.h"

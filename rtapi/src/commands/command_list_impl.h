@@ -40,9 +40,9 @@ struct CommandListImpl {
   PipelineState pipeline_state;  // compute or graphics; at most one of the two is set
   StateObject raytracing_pipeline;
   std::shared_ptr<runtime::DrawState> draw_state = std::make_shared<runtime::DrawState>();
-  // What draws refer to and no draw has used yet: targets, and buffers by slot, where the index
-  // buffer has the slot behind those of vertices. They are looked up when they are set, since their
-  // memory may be freed, and taken again, before the draw.
+  // The resources that draws refer to and no draw has used yet: targets, and buffers by slot, where
+  // the index buffer has the slot behind those of vertices. They are looked up when they are set,
+  // since their memory may be freed, and taken again, before the draw.
   std::vector<MemoryUse> target_uses;
   std::map<uint32_t, MemoryUse> input_uses;
   uint32_t open_events = 0;

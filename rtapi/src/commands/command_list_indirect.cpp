@@ -114,7 +114,7 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   command.arguments_offset = arguments_offset;
   if (count) command.count = count.impl()->memory;
   command.count_offset = count_offset;
-  // What the commands bring along is looked at when they are read.
+  // The commands bring these arguments along, so they are looked at when they are read.
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
     root.views.erase(argument.root_parameter);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What queries record, and what is refused.
+// Tests what queries record, and what is refused.
 #include <rtapi/query.h>
 
 #include "rtapi/testing/command_list_fixture.h"

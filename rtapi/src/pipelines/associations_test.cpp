@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which config and root signature an export gets, and which root argument feeds each resource.
+// Tests which config and root signature an export gets, and which root argument feeds each
+// resource.
 #include <chrono>
 
 #include "rtapi/testing/state_object_fixture.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pipeline takes from a collection: copies of its exports, with everything that the
+// Takes from a collection what a pipeline needs: copies of its exports, with everything that the
 // collection resolved. [DXR: Collection state object]
 #include "rtapi/src/pipelines/state_object_gatherer.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a state object takes from a shader library: exports, and subobjects declared in HLSL.
+// Takes from a shader library what a state object needs: exports, and subobjects declared in HLSL.
 // [DXR: Subobjects in DXIL libraries]
 #include <algorithm>
 #include <cstdio>
@@ -58,7 +58,7 @@ bool Gatherer::is_listed(const DxilLibraryDesc& sub, const char* name) {
 
 void Gatherer::add_shader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
                           const std::string& renamed) {
-  // What a state object has no use for.
+  // A state object has no use for these.
   if (code.stage == shader::Stage::kCompute || code.stage == shader::Stage::kVertex ||
       code.stage == shader::Stage::kPixel) {
     return;

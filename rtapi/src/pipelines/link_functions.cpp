@@ -125,7 +125,7 @@ class FunctionLinker {
     return found;
   }
 
-  // What mangled names say behind the function's own.
+  // Compares what mangled names say behind the function's own name.
   static bool same_parameters(const shader::ExportDesc& code, const shader::ImportDesc& import) {
     const auto behind = [](std::string_view mangled) {
       const size_t end = mangled.find("@@");

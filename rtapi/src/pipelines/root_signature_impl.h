@@ -37,7 +37,7 @@ struct RegisterRange {
   ShaderVisibility visibility = ShaderVisibility::kAll;
 };
 std::vector<RegisterRange> get_register_ranges(const RootSignatureDesc& desc);
-// Whether some shader sees a register of both.
+// Returns whether some shader sees a register of both.
 bool overlap(const RegisterRange& a, const RegisterRange& b);
 std::string register_text(shader::RegisterClass register_class, uint32_t index, uint32_t space);
 

@@ -23,8 +23,8 @@
 
 namespace rtapi::detail {
 
-// What can be associated with exports and has an effect; node masks and state object configs do
-// not.
+// The kinds of subobjects that can be associated with exports and have an effect; node masks and
+// state object configs do not.
 enum class Category : uint8_t {
   kShaderConfig,
   kPipelineConfig,
@@ -63,8 +63,8 @@ struct Subject {
   bool hidden = false;        // in a collection that does not export it
   bool referable = true;      // hit groups outside its collection may import it
   Associations associations;
-  // What the library itself says of a shader whose code comes from several libraries, and the
-  // functions of others that it can reach.
+  // The library's own view of a shader whose code comes from several libraries, and the functions
+  // of others that it can reach.
   const shader::ExportDesc* written = nullptr;
   ShaderLibrary written_library;
   std::vector<std::shared_ptr<Subject>> linked_functions;

@@ -47,8 +47,8 @@ std::string geometry_text(size_t index) {
   return Text("geometry ", index);
 }
 
-// What a description is checked for. Sizes depend on no address; at most on whether one is null.
-// [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
+// The purpose that a description is checked for. Sizes depend on no address; at most on whether one
+// is null. [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
 enum class Purpose { kSize, kBuild };
 
 Status check_addresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_unit,

@@ -101,7 +101,8 @@ Status check_texture_flags(const TextureDesc& desc, const std::string& name) {
   return {};
 }
 
-// Whether draws can write to a texture as its flags say. Typeless formats are tried by their views.
+// Checks that draws can write to a texture as its flags say. Typeless formats are tried by their
+// views.
 Status check_target_support(const DeviceImpl& device, const TextureDesc& desc) {
   const bool depth = HasAny(desc.Flags, ResourceFlags::kAllowDepthStencil);
   if (!depth && !HasAny(desc.Flags, ResourceFlags::kAllowRenderTarget)) return {};

@@ -10,7 +10,7 @@ namespace detail {
 
 namespace {
 
-// What both kinds of views ask for, before "all the rest" is resolved.
+// The request that both kinds of views make, before "all the rest" is resolved.
 struct AskedTarget {
   Format format;
   bool whole;        // all elements of mip 0

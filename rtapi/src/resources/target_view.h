@@ -15,7 +15,7 @@ namespace rtapi::detail {
 
 struct DeviceImpl;
 
-// What a handle stands for now. A null descriptor gives a view without texture.
+// The target that a handle stands for now. A null descriptor gives a view without texture.
 struct ReadTarget {
   kaamos::runtime::TargetView view;
   std::weak_ptr<const void> owner;

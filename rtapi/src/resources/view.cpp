@@ -18,7 +18,7 @@ using shader::Descriptor;
 using shader::DescriptorAccess;
 using shader::DescriptorKind;
 
-// What the SRVs and UAVs of buffers have in common.
+// The part that the SRVs and UAVs of buffers have in common.
 struct BufferView {
   Format format;
   uint64_t first;

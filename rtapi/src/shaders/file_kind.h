@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a file is, for messages about files of the wrong kind.
+// Names the kind of a file, for messages about files of the wrong kind.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What KA0910 says about files that are no shader libraries.
+// Tests what KA0910 says about files that are no shader libraries.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -12,7 +12,7 @@
 
 namespace rtapi::detail {
 
-// Which definition an import means: exports and imports by index, libraries by their place in
+// The definition that an import means: exports and imports by index, libraries by their place in
 // LinkPlan::libraries.
 struct LinkedImport {
   uint32_t library = 0;

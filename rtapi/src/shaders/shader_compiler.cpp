@@ -57,7 +57,7 @@ class CallbackLoader : public hlsl::FileLoader {
   const ShaderCompileOptions& options_;
 };
 
-// What reads the files: the application, or the disk.
+// Chooses what reads the files: the application, or the disk.
 class Loaders {
  public:
   explicit Loaders(const ShaderCompileOptions& options) : options_(options), callback_(options) {}
