@@ -17,13 +17,13 @@ namespace kaamos::effects {
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> direct_library();
 
-/// How a light's shadow map and its contact shadow become its visibility. [survey 5.3.1]
+/// The way a light's shadow map and its contact shadow become its visibility. [survey 5.3.1]
 enum class ContactCombination : std::uint32_t {
   kProduct,  ///< as Control does; where both see the same penumbra, it counts twice
   kMinimum,  ///< the darker of the two; where they see different occluders, one of them counts
 };
 
-/// Which lights main lighting looks at for a pixel. What it finds is the same. [Northlight deck:
+/// The lights that main lighting looks at for a pixel. What it finds is the same. [Northlight deck:
 /// Light Culling; survey 5.3.1]
 enum class LightCulling : std::uint32_t {
   kClusters,  ///< those of the pixel's cluster
@@ -60,8 +60,8 @@ class DirectLighting {
   const rtapi::Texture& direct() const { return direct_; }
   /// R32G32_UINT: the strongest point light and the strongest spot light of each pixel.
   const rtapi::Texture& strongest() const { return strongest_; }
-  /// What LightCulling::kFrustum found in the last dispatch: a word with the count of lights, then
-  /// their numbers.
+  /// The lights that LightCulling::kFrustum found in the last dispatch: a word with their count,
+  /// then their numbers.
   const rtapi::Buffer& lights_in_view() const { return in_view_; }
   /// R32G32B32A32_FLOAT: radiance of all local lights.
   const rtapi::Texture& total() const { return total_; }

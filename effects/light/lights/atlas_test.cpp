@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the deck packs into atlases besides the lights' shadow maps: the slides of spots, each texel
-// where it belongs, and the sun's map, against the rays that it stands for. [Northlight deck:
+// Tests what the deck packs into atlases besides the lights' shadow maps: the slides of spots, each
+// texel where it belongs, and the sun's map, against the rays that it stands for. [Northlight deck:
 // Lighting Data]
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ using namespace rtapi;
 
 namespace {
 
-// Of light_map_draws.hlsl.
+// Numbers of light_map_draws.hlsl.
 constexpr std::uint32_t kOctants = 8, kSpotFace = 8, kSunFace = 9;
 constexpr std::uint32_t kDrawWord = 0, kLightWord = 1, kFaceWord = 2, kWords = 3;
 constexpr ResourceStates kAtlasState = ResourceStates::kUnorderedAccess;

@@ -114,7 +114,7 @@ float DistanceToPlane(MapTriangle triangle_seen, float3 origin, float3 direction
          dot(triangle_seen.normal, direction);
 }
 
-// What a texel of the atlas holds of a triangle; as the hit shaders of lighting.hlsl say.
+// Returns what a texel of the atlas holds of a triangle, as the hit shaders of lighting.hlsl say.
 float4 SeenFromLight(uint2 texel, MapTriangle seen) {
   const LightConstants light = lights[constants.light];
   const float2 uv = (float2(texel % kShadowTile) + 0.5) / float(kShadowTile);
@@ -158,7 +158,7 @@ float4 LightMapPixel(MapVertex vertex, uint primitive : SV_PrimitiveID) : SV_Tar
   return Seen(uint2(vertex.position.xy), primitive);
 }
 
-// Where the material has holes.
+// Leaves out the holes of the material.
 [shader("pixel")]
 float4 LightMapHoles(MapVertex vertex, uint primitive : SV_PrimitiveID) : SV_Target {
   const HitConstants layout = geometries[draws[constants.draw].geometry];

@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kClusterOverflow = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kMaxAtlasLights = kShadowTilesPerRow * 128;
 ///@}
 
-/// Whether what rays hit is lit by the sun, and how its shadows are found there. Mirrors
+/// Says whether what rays hit is lit by the sun, and how its shadows are found there. Mirrors
 /// hit_shading.hlsli.
 enum class SunAtHits : std::uint32_t {
   kNone,   ///< it is not
@@ -35,7 +35,7 @@ enum class SunAtHits : std::uint32_t {
   kByMap,  ///< by the sun's map in the atlas; by a ray beside it, and where FrameDesc has none
 };
 
-/// What renders the atlas of shadow maps.
+/// The way the atlas of shadow maps is rendered.
 enum class LightMaps : std::uint32_t {
   kTraced,  ///< a ray for each texel
   kDrawn,   ///< the rasterizer [LightMapDraws]

@@ -11,7 +11,7 @@ float DistanceSquared(float3 low, float3 high, float3 p) {
   return dot(d, d);
 }
 
-// Whether a sphere lies beside a spot's cone, that is, whether its centre is further from the
+// Tells whether a sphere lies beside a spot's cone, that is, whether its centre is further from the
 // cone's side than its radius. `tip` and `axis` are in the sphere's space. NaN counts as not
 // beside.
 bool IsBesideCone(float3 tip, float3 axis, float cosine, float3 center, float radius) {

@@ -24,8 +24,8 @@ float3 PointInHalfSphere(uint index, uint count) {
   return distance * float3(across * cos(phi), across * sin(phi), height);
 }
 
-// How much of a point of the sphere is in front of the picture's depth: 0 or 1, or between for what
-// is hidden by something far in front of the sphere.
+// Returns how much of a point of the sphere is in front of the picture's depth: 0 or 1, or between
+// if something far in front of the sphere hides it.
 float Passes(float3 centre, float3 position, float radius, int2 size) {
   if (!(position.z > 0.0)) return 1.0;
   // Outside of the picture, its border goes on.

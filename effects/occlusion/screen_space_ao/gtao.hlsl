@@ -28,7 +28,7 @@ ConstantBuffer<GtaoConstants> gtao : register(b0, space3);
 static const uint kLevels = 4;
 RWTexture2D<float> depths[kLevels] : register(u8, space3);
 
-// Which part of an occluder at that distance counts.
+// Returns the part of an occluder at that distance that counts.
 float Falloff(float distance, float radius) {
   if (!(gtao.falloff_range > 0.0)) return distance <= radius ? 1.0 : 0.0;
   return saturate((radius - distance) / (gtao.falloff_range * radius));
@@ -80,7 +80,7 @@ void ShrinkDepth3(uint3 id : SV_DispatchThreadID) { Shrink(int2(id.xy), 3); }
 [numthreads(8, 8, 1)]
 void ShrinkDepth4(uint3 id : SV_DispatchThreadID) { Shrink(int2(id.xy), 4); }
 
-// How far along a Hilbert curve over 64 x 64 pixels a pixel is.
+// Returns how far along a Hilbert curve over 64 x 64 pixels a pixel is.
 uint HilbertIndex(uint2 pixel) {
   uint x = pixel.x & 63u;
   uint y = pixel.y & 63u;
@@ -110,7 +110,7 @@ float2 Noise(int2 pixel) {
   return frac(0.5 + float(index) * float2(0.75487766624669276, 0.569840290998));
 }
 
-// What a sample makes of the horizon's cosine.
+// Returns the horizon's cosine as a sample raises it.
 float RaisedHorizon(float cosine, float low, int2 pixel, uint level, float3 centre,
                     float3 to_camera, float radius, int2 size) {
   if (!IsInside(pixel, size)) return cosine;

@@ -16,7 +16,7 @@ struct HbaoConstants {
 };
 ConstantBuffer<HbaoConstants> hbao : register(b0, space3);
 
-// What one direction is occluded by: up to 1.
+// Returns the occlusion in one direction: up to 1.
 float HorizonOcclusion(int2 pixel, float3 centre, float3 normal, float3 direction, float jitter,
                        int2 size) {
   const float3 to_camera = -normalize(centre);

@@ -9,10 +9,10 @@ static const float kHalfPi = 1.57079632679;
 // The arc cosine of what rounding may have taken out of -1..1.
 float SafeAcos(float x) { return acos(max(-1.0f, min(x, 1.0f))); }
 
-// What the part of a slice from the camera's direction to the horizon `h` receives, weighted by the
-// cosine to a normal at the angle `gamma`, over that of an open half plane. [Jimenez et al. 2016,
-// Practical Realtime Strategies for Accurate Indirect Occlusion, with the sign that the survey lost
-// put back: effects/SOURCES.md, E5]
+// Returns what the part of a slice from the camera's direction to the horizon `h` receives,
+// weighted by the cosine to a normal at the angle `gamma`, over that of an open half plane.
+// [Jimenez et al. 2016, Practical Realtime Strategies for Accurate Indirect Occlusion, with the
+// sign that the survey lost put back: effects/SOURCES.md, E5]
 float ArcVisibility(float h, float gamma) {
   return 0.25f * (cos(gamma) + 2.0f * h * sin(gamma) - cos(2.0f * h - gamma));
 }

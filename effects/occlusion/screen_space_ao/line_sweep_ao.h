@@ -14,7 +14,7 @@
 
 namespace kaamos::effects {
 
-/// What can be chosen.
+/// The options of the sweep.
 struct LineSweepSettings {
   std::uint32_t directions = 16;  ///< of lines over the picture, 1 to 64
 };

@@ -86,7 +86,7 @@ float FindHorizon(inout Stack stack, float2 at, LinePlane plane) {
     if (length(below - at) > radius || HorizonCosine(at, below) < HorizonCosine(at, top)) break;
     --stack.count;
   }
-  // What is farther away than this in the picture is so in space.
+  // Points farther away than this in the picture are so in space.
   const float reach = 1.5 * radius * length(at) / at.y;
   float cosine = -1.0;
   for (int slot = stack.count - 1; slot >= 0; --slot) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every technique of this folder shares: its pictures, its radius, directions about a view ray
-// and small tiles of noise.
+// This file holds what every technique of this folder shares: its pictures, its radius, directions
+// about a view ray and small tiles of noise.
 #ifndef KAAMOS_OCCLUSION_HLSLI
 #define KAAMOS_OCCLUSION_HLSLI
 

@@ -17,7 +17,7 @@
 
 namespace kaamos::effects {
 
-/// How far occluders reach that a game looks for on the screen, metres. [XeGTAO 1.30: radius]
+/// The reach of the occluders that a game looks for on the screen, metres. [XeGTAO 1.30: radius]
 inline constexpr float kDefaultScreenSpaceRadius = 0.5f;
 
 /// The techniques.

@@ -7,8 +7,8 @@
 RWTexture2D<float4> result : register(u0, space3);   // x: visibility
 RWTexture2D<float4> sampled : register(u1, space3);  // x: rays of the pixel, y: its variation,
                                                      // z: that for the filter
-// Of the last four frames, the newest in x; as the frame before left them, and carried along with
-// the surfaces.
+// These hold the last four frames, the newest in x: `before` as the frame before left them, `now`
+// carried along with the surfaces.
 RWTexture2D<float4> visibility_before : register(u2, space3);
 RWTexture2D<float4> visibility_now : register(u3, space3);
 RWTexture2D<float4> variation_before : register(u4, space3);  // unfiltered
@@ -43,8 +43,8 @@ static const uint kSun = 0xFFFFFFFF;
 
 bool Has(uint flag) { return (constants.flags & flag) != 0; }
 
-// How much the depth of two places of one surface may differ, relative: more where it is seen
-// along itself.
+// Returns the relative difference that the depths of two places of one surface may have: more where
+// it is seen along itself.
 float DepthTolerance(float3 normal) {
   return lerp(constants.grazing_depth, constants.facing_depth,
               saturate(abs(dot(normal, frame.camera_forward))));
@@ -60,7 +60,7 @@ float Range(float4 v) {
 
 float Mean(float4 v) { return 0.25 * (v.x + v.y + v.z + v.w); }
 
-// Where the pixel's surface was in the frame before; x < 0: not in its picture, or hidden.
+// Returns where the pixel's surface was in the frame before; x < 0: not in its picture, or hidden.
 int2 PixelBefore(int2 pixel, int2 size) {
   if (constants.frame_count == 0 || g_ids[pixel].x == 0) return int2(-1, -1);
   const float4 motion = g_motion[pixel];

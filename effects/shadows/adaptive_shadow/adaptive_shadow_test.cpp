@@ -184,7 +184,7 @@ TEST(AdaptiveShadowBudget, LimitsWhatMuchPenumbraCosts) {
 // knows of a change one frame earlier. The released shift forgets all but the newest of the
 // variations.
 TEST(AdaptiveShadowHistory, ReadingsDiffer) {
-  // Of every pixel, in the frames after the sun has moved.
+  // Returns the variations of every pixel in the frames after the sun has moved.
   const auto variations = [](std::uint32_t flags) {
     Sequence s("embree", 5, {.flags = flags}, 48, 32);
     for (int i = 0; i < 12; ++i) s.go();

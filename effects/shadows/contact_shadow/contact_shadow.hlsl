@@ -7,7 +7,8 @@
 RWTexture2D<uint2> strongest : register(u0, space3);
 // Sums over the samples; r: point light, g: spot light.
 RWTexture2D<float4> contact : register(u1, space3);    // visibility
-// What the blocked part holds: 1 / radius of the penumbra, 1/m, in r and g; what moves in b and a.
+// The same sums for the blocked part: 1 / radius of the penumbra, 1/m, in r and g; what moves in b
+// and a.
 RWTexture2D<float4> sharpness : register(u2, space3);
 
 struct ContactConstants {
@@ -19,15 +20,15 @@ ConstantBuffer<ContactConstants> constants : register(b0, space3);
 static const uint kNoLight = 0xFFFFFF;
 static const uint kContactPair = 6;  // and 7
 
-// What one ray finds out about a light.
+// The result of one ray towards a light.
 struct Contact {
   float visibility;
   float sharpness;  // of the shadow, times the blocked part
   float moved;      // the part that is blocked by what moves
 };
 
-// How far away what casts a shadow may be for its penumbra, 2 r h / (d - h) wide at a distance of h,
-// to be narrower than a texel of the light's map. Wider ones the map can show.
+// Returns how far away an occluder may be for its penumbra, 2 r h / (d - h) wide at a distance of
+// h, to be narrower than a texel of the light's map. The map can show wider ones.
 float CoarseLength(LightConstants light, float distance) {
   const float texel = light.map_texel * distance;
   return distance * texel / max(2.0 * light.radius + texel, 1e-20);

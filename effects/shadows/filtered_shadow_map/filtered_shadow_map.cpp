@@ -21,7 +21,7 @@ using rtapi::ResourceStates;
 // Registers of filtered_shadow_map.hlsl.
 constexpr std::uint32_t kStored = 5, kHalfFiltered = 6, kHalfFilteredOut = 1, kLevels = 2;
 
-// What texels of the maps are, and the lookup, by method.
+// The format of the maps' texels and the shader that looks them up, by method.
 struct MethodRow {
   Format format;
   const char* look_up;

@@ -14,7 +14,7 @@
 
 namespace kaamos::effects {
 
-/// What a filtered map holds.
+/// The contents of a filtered map.
 enum FilteredShadowMapMethod : std::uint32_t {
   kFilteredVariance,             ///< two moments [Donnelly & Lauritzen 2006]
   kFilteredExponential,          ///< an exponential [Annen et al. 2008]
@@ -31,8 +31,8 @@ struct FilteredShadowMapConstants {
   /// over, up to 128 texels, or the widest disk of PCSS. `taps` and `blocker_taps` do not count.
   /// For PCSS `size` is a power of two.
   ShadowMapConstants map;
-  /// Of the exponential, over a share, above 0 to 87; of the front moments, over half a share, to
-  /// 42: what is beyond is no 32-bit float.
+  /// The exponent of the exponential, over a share, above 0 to 87; that of the front moments, over
+  /// half a share, to 42: what is beyond is no 32-bit float.
   float exponent = 80.0f;
   float back_exponent = 5.0f;    ///< of the back moments, likewise
   std::uint32_t terms = 16;      ///< of the series, 1 to 16

@@ -29,8 +29,8 @@ static const uint kPcssVariance = 4;
 static const uint kMostLevels = 15;
 static const int kWidestFilter = 128;  // texels to each side
 
-// What is stored, a slice for each map; a Fourier series has a slice for every two terms. The second
-// picture is between rows and columns.
+// The stored maps, a slice for each map; a Fourier series has a slice for every two terms. The
+// second picture is between rows and columns.
 Texture2DArray<float4> stored : register(t5, space3);
 Texture2DArray<float4> half_filtered : register(t6, space3);
 RWTexture2DArray<float4> half_filtered_out : register(u1, space3);
@@ -41,7 +41,7 @@ uint SliceCount() { return constants.method == kFourier ? (constants.more.terms 
 // Frequency of a term of the series of a step: odd multiples of half a period.
 float Frequency(uint term) { return 3.14159265 * (2.0 * float(term) + 1.0); }
 
-// What the maps hold for a share of the range, 0 to 1, which changes by `change` per texel.
+// Returns what the maps hold for a share of the range, 0 to 1, which changes by `change` per texel.
 float4 Store(float share, float2 change, uint slice) {
   if (constants.method == kExponential) {
     return float4(exp(constants.more.exponent * share), 0, 0, 0);
@@ -74,7 +74,7 @@ float Share(int2 texel, uint map) {
   return shadow_depth[uint3(uint2(Clamped(texel, 0)), map)];
 }
 
-// Of two one-sided differences, the one that does not cross an edge.
+// Returns the one of two one-sided differences that does not cross an edge.
 float Smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
 
 [shader("compute")]
@@ -99,7 +99,7 @@ float FilterRadius() {
   return clamp(constants.radius / maps[constants.map].texel, 0.5, float(kWidestFilter));
 }
 
-// How much of the texel `away` from the middle one lies in the box, over its width.
+// Returns how much of the texel `away` from the middle one lies in the box, over the box's width.
 float FilterWeight(int away, float radius) {
   const float covered = min(radius, abs(float(away)) + 0.5) - max(-radius, abs(float(away)) - 0.5);
   return saturate(covered) / (2.0 * radius);
@@ -190,7 +190,7 @@ float Chebyshev(float2 moments, float value, float least_variance) {
   return variance / (variance + away * away);
 }
 
-// What light bleeds in is cut off, and so is as much of each penumbra.
+// Cuts off the light that bleeds in, and as much of each penumbra.
 float ReduceBleeding(float lit) {
   const float cut = constants.more.reduce_bleeding;
   return saturate((lit - cut) / (1.0 - cut));

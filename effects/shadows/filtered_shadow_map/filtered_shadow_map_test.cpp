@@ -79,7 +79,7 @@ double step(double away, int terms, double damping) {
   return sum;
 }
 
-// What each technique says where the upper sheet covers `share` of its filter.
+// Returns what each technique says where the upper sheet covers `share` of its filter.
 double two_occluder_oracle(const std::string& name, double share, const Constants& c) {
   const auto mean = [&](const auto& f) {
     return share * f(kDepths[0]) + (1 - share) * f(kDepths[1]);
@@ -159,8 +159,8 @@ void expect_two_occluders(const std::string& backend) {
     }
     return out;
   };
-  // Where both sheets cover half, all of the sun: variance lets 0.42 of it through, the others next
-  // to nothing. [Donnelly & Lauritzen 2006]
+  // Where the two sheets cover half of the sun each, together all of it, variance lets 0.42 of it
+  // through, the others next to nothing. [Donnelly & Lauritzen 2006]
   EXPECT_NEAR(brightest("sun_vsm"), 0.42, 0.04);
   for (const char* layer : {"sun_esm", "sun_evsm", "sun_convolution"}) {
     EXPECT_LT(brightest(layer), 0.02) << layer;

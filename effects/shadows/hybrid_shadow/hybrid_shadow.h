@@ -15,8 +15,8 @@ namespace kaamos::effects {
 
 /// Constants b0, space3: mirrors ShadowMapConstants and HybridConstants of hybrid_shadow.hlsl.
 struct HybridShadowConstants {
-  /// Of PCSS; `method` does not count. With kShadowMapInnerPenumbra soft shadows never leave the
-  /// hard ones of rays, as in the talk.
+  /// The constants of PCSS; `method` does not count. With kShadowMapInnerPenumbra soft shadows
+  /// never leave the hard ones of rays, as in the talk.
   ShadowMapConstants map;
   /// Distance to what casts the shadow from which on the map alone says, 0 or more metres: the
   /// talk's world scale over the share that the artist sets.

@@ -16,7 +16,7 @@ float Mixed(Receiver receiver, Surface surface, float occluder) {
   const bool is_lit = occluder == kNoOccluder;
   const float hard = is_lit ? 1.0 : 0.0;
   const Blockers blockers = FindBlockers(receiver, surface.turn);
-  // What the map has missed, because it is thinner than a texel or touches the surface, is the ray's.
+  // The map misses what is thinner than a texel or touches the surface; the ray decides there.
   if (blockers.count == 0.0) return hard;
   // Beside a shadow the ray meets nothing: there the map says how far what casts it is away.
   const float distance = is_lit ? blockers.gap : occluder;

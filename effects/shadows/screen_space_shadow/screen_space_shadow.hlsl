@@ -38,9 +38,9 @@ struct Receiver {
   float3 normal;
 };
 
-// Whether what a pixel shows hides a point of a ray that is `view_z` away. What does not stand above
-// the receiver's plane cannot: without that rule a plane seen along itself shadows itself, because
-// a pixel has but one depth for all that it covers.
+// Tells whether the surface of a pixel hides a point of a ray that is `view_z` away. What does not
+// stand above the receiver's plane cannot hide it: without that rule a plane seen along itself
+// shadows itself, because a pixel has but one depth for all that it covers.
 bool Hides(Receiver receiver, int2 pixel, float view_z) {
   if (!IsInside(pixel, receiver.size) || all(pixel == receiver.pixel)) return false;
   const float shown_z = g_view_z[pixel];
@@ -62,8 +62,8 @@ bool HidesNear(Receiver receiver, float2 place, float view_z) {
          Hides(receiver, int2(floor(place - float2(0.0, spread))), view_z);
 }
 
-// How dark the first hit of a march makes the pixel, 0 to 1: less near the ray's end and near the
-// borders of the picture, where the next frame may see no occluder.
+// Returns how dark the first hit of a march makes the pixel, 0 to 1: less near the ray's end and
+// near the borders of the picture, where the next frame may see no occluder.
 float March(Receiver receiver, float3 direction, float end, float longest, uint steps, float jitter) {
   const float2 size = float2(receiver.size);
   for (uint i = 0; i < steps; ++i) {
@@ -106,7 +106,7 @@ float Jitter(uint2 pixel, uint pair) {
   return PixelSample(tile, pass_constants.first_sample, pair, frame.seed).x;
 }
 
-// Of the strongest light of a kind.
+// Returns the visibility of the strongest light of a kind.
 float LocalVisibility(Receiver receiver, uint kind) {
   const uint light = strongest[receiver.pixel][kind];
   if (light == kNoLight) return 1.0;

@@ -166,7 +166,7 @@ TEST(ScreenSpaceShadow, ThicknessIsAHaloBehindThings) {
   EXPECT_GT(many, 5 * few + 100);
 }
 
-// What casts the shadow stands beside the picture.
+// The box that casts the shadow stands beside the picture.
 TEST(ScreenSpaceShadow, MissesWhatIsNotInThePicture) {
   Scene scene = floor_scene();
   add_box(scene, "box", {0.75, 0, -0.3}, {0.85, 0.3, 0.3}, 0);

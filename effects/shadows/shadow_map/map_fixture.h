@@ -22,7 +22,7 @@ class MapFrame {
  public:
   static constexpr std::uint32_t kWidth = 64, kHeight = 36;
 
-  // What the constants of an effect of that name are.
+  // Changes the constants of the effect of that name.
   using Change = std::function<void(const std::string& name, EffectSettings& settings)>;
 
   // Renders the effects. Those of `names` that are shadow maps have these constants in place of
@@ -71,7 +71,7 @@ class MapFrame {
     }
     return out;
   }
-  // Of instance 0, the floor of most scenes.
+  // Pixels that show instance 0, the floor of most scenes.
   std::vector<std::size_t> floor() const {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < ids_.values.size() / 2; ++i) {

@@ -31,7 +31,7 @@ float Filter(Receiver receiver, float radius, float2 turn) {
   return lit / float(taps);
 }
 
-// What the map has between a surface and the sun.
+// The occluders that the map has between a surface and the sun.
 struct Blockers {
   bool searched;  // false: the sun is a point, or nothing can be in between
   float count;    // taps that found any

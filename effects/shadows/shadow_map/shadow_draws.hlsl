@@ -26,7 +26,7 @@ ShadowVertex ShadowMapVertex(Corner corner) {
   return result;
 }
 
-// Where the material has holes. Its texture is read at level 0, as rays read it.
+// Leaves out the holes of the material. Its texture is read at level 0, as rays read it.
 [shader("pixel")]
 void ShadowMapHoles(ShadowVertex vertex) {
   const HitConstants layout = geometries[draws[constants.draw].geometry];

@@ -89,7 +89,7 @@ class ShadowMapPass : public EffectPass {
     return is_per_object() ? made_.cascades + 1 : std::max(made_.cascades, 1u);
   }
 
-  // What `desc` has as cascades are objects.
+  // Replaces the cascades of `desc` by as many objects.
   void find_objects(SunMapsDesc& desc) const {
     const std::uint32_t count = std::exchange(desc.cascades, 0u);
     const auto& instances = scene_.instances;

@@ -14,12 +14,12 @@
 
 namespace kaamos::effects {
 
-/// How a map is looked up.
+/// The method by which a map is looked up.
 enum ShadowMapMethod : std::uint32_t {
   kShadowMapHard,  ///< one texel
   kShadowMapPcf,   ///< percentage-closer filtering, of one width [Reeves, Salesin & Cook 1987]
   kShadowMapPcss,  ///< as wide as the penumbra [Fernando 2005]
-  /// What texels hide of the sun, seen from the surface [Guennebaud, Barthe & Paulin 2006]
+  /// The part of the sun that texels hide, seen from the surface [Guennebaud, Barthe & Paulin 2006]
   kShadowMapBackprojection,
   kShadowMapMethodCount
 };
@@ -49,7 +49,7 @@ struct ShadowMapConstants {
   std::uint32_t flags = 0;                ///< ShadowMapFlags
   std::uint32_t size = 2048;              ///< texels along a map's side, 4 to 16,384
   std::uint32_t cascades = 0;             ///< or objects; 0: one map over the scene; up to 4
-  /// What a surface is taken to be nearer to the sun: `constant_bias` texels, and `slope_bias`
+  /// A surface is taken to be this much nearer to the sun: `constant_bias` texels, and `slope_bias`
   /// times the tangent of the angle between its normal and the sun, `most_bias` at most.
   ///@{
   float constant_bias = 1.5f;
@@ -81,7 +81,8 @@ rtapi::Status check_shadow_map(const ShadowMapConstants& constants);
 /// The points of filters' disks, which the shaders of pcss.hlsli read from t3; it must stay.
 /// @errors those of rtapi::Device::CreateBuffer.
 rtapi::Result<rtapi::Buffer> bind_disk(const EffectScope& scope);
-/// Where maps of these constants lie, over a scene with `bounds`, for the frame's picture.
+/// Describes where maps of these constants lie, over a scene with `bounds`, for the frame's
+/// picture.
 SunMapsDesc describe_sun_maps(const ShadowMapConstants& constants, const Scene& scene,
                               const Bounds& bounds, const Frame& frame);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much of the sun each pixel sees, by comparing depths with a shadow map: at one texel, over a
-// filter of one width, and over one as wide as the penumbra. [survey 5.1]
+// Finds how much of the sun each pixel sees by comparing depths with a shadow map: at one texel,
+// over a filter of one width, and over one as wide as the penumbra. [survey 5.1]
 #include "pcss.hlsli"
 
 // The survey writes "lit if p_z is smaller than what is stored" and says neither which way depth

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the shaders of all shadow maps share: the maps, where a surface lies in them, and the
-// comparison with its bias. Depths are linear, in metres along the sun's light from the plane where
-// the maps begin; larger is farther away from the sun. [effects/SOURCES.md: E10]
+// This file holds what the shaders of all shadow maps share: the maps, where a surface lies in
+// them, and the comparison with its bias. Depths are linear, in metres along the sun's light from
+// the plane where the maps begin; larger is farther away from the sun. [effects/SOURCES.md: E10]
 #ifndef KAAMOS_SHADOW_MAP_HLSLI
 #define KAAMOS_SHADOW_MAP_HLSLI
 
@@ -62,7 +62,7 @@ bool Has(uint flag) { return (constants.flags & flag) != 0; }
 // No surface is taken to be steeper against the light than this: 87 degrees.
 static const float kSteepest = 20.0;
 
-// Where a surface lies in a map.
+// The place of a surface in a map.
 struct Receiver {
   uint map;
   float2 at;     // texels
@@ -113,7 +113,7 @@ float IsLit(Receiver receiver, int2 texel) {
   return DepthAt(receiver, float2(texel) + 0.5) <= occluder ? 1.0 : 0.0;
 }
 
-// Of the four texels around a point, as if the comparisons were interpolated.
+// Returns how much the four texels around a point are lit, as if the comparisons were interpolated.
 float IsLitSmoothly(Receiver receiver, float2 at) {
   const float2 corner = floor(at - 0.5);
   const float2 part = at - 0.5 - corner;
@@ -164,7 +164,7 @@ MapChoice ChooseFinestMap(float3 position) {
   return result;
 }
 
-// What the pixel of a thread shows, and whether the maps have to be asked.
+// The surface that the pixel of a thread shows, and whether the maps have to be asked.
 struct Surface {
   float3 position;
   float3 normal;

@@ -23,8 +23,8 @@ Scene sheets(int part, const PeterPanningDesc& desc = kWideSun) {
   return scene;
 }
 
-// Whether the floor's point lies where one part's edge alone decides how much of the sun is seen:
-// farther on the sheet's other edge does, too.
+// Tells whether the floor's point lies where one part's edge alone decides how much of the sun is
+// seen: farther on the sheet's other edge does, too.
 bool is_by_edge(const glm::dvec3& p, int part) {
   return std::abs(p.z - kSheetPartZ[part]) < 0.1 && std::abs(p.x - kSheetShadowX) < 0.25;
 }

@@ -136,7 +136,7 @@ std::vector<SunMap> sun_maps(const SunMapsDesc& desc, const Camera& camera) {
   far = std::max(desc.reach > 0 ? desc.reach : far, 2 * near);
   std::vector<SunMap> maps;
   for (std::uint32_t i = 0; i < desc.cascades; ++i) {
-    // What is nearer than the near plane is seen as well.
+    // The camera sees surfaces nearer than the near plane as well.
     const double z0 = i == 0 ? 0.0 : cascade_split(near, far, desc.split_share, i, desc.cascades);
     const double z1 = cascade_split(near, far, desc.split_share, i + 1, desc.cascades);
     const auto square = desc.stable ? sphere_square : tight_square;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where the sun's shadow maps lie: one over the whole scene, besides it some over single objects,
-/// or cascades over parts of what the camera sees. [survey 5.1.1]
+/// Places the sun's shadow maps: one over the whole scene, besides it some over single objects, or
+/// cascades over parts of what the camera sees. [survey 5.1.1]
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct SunMap {
 };
 static_assert(sizeof(SunMap) == 64);
 
-/// What maps are made for.
+/// Describes what maps are made for.
 struct SunMapsDesc {
   glm::dvec3 direction_to_sun{0, 1, 0};  ///< unit
   Bounds bounds;                         ///< of what casts and receives shadows, world space

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the sun's shadow maps lie, and where their filters' taps are.
+// Tests where the sun's shadow maps lie, and where their filters' taps are.
 #include "effects/shadows/shadow_map/sun_maps.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(SunMaps, StableCascadesKeepTheirTexels) {
   }
 }
 
-// What a cascade is used for lies in it, whichever way the camera looks.
+// The slice that a cascade is used for lies in it, whichever way the camera looks.
 TEST(SunMaps, CascadesHoldTheirSlices) {
   SunMapsDesc desc = a_desc();
   desc.cascades = 3;
