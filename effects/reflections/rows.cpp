@@ -20,7 +20,7 @@ namespace kaamos::effects {
 
 namespace {
 
-// What all of them share: the signal, its place in the composition, and what it replaces.
+// Makes what all rows share: the signal, its place in the composition, and what it replaces.
 Effect row(std::string name, std::string about, const std::string& signal, bool is_sum) {
   Effect effect;
   effect.name = std::move(name);

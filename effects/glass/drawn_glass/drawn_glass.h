@@ -22,7 +22,7 @@ enum class DrawnGlassFallback : std::uint32_t {
 /// Constants b0, space3: mirrors DrawnGlassConstants of drawn_glass.hlsl. The last four words are
 /// the pass's own.
 struct DrawnGlassConstants {
-  /// Of the rays. Counts of layers, weight and scale of a blend are not used.
+  /// The constants of the rays. Counts of layers, weight and scale of a blend are not used.
   TransparentConstants rays;
   /// Part of its view depth by which a layer may miss the depth of the layer that the ray met, and
   /// still have its mirror image. Negative: none has.

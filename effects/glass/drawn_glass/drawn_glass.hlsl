@@ -9,11 +9,11 @@
 
 RWTexture2D<float4> glass_radiance : register(u0, space3);       // as effects/glass/transparent has them
 RWTexture2D<float4> glass_transmittance : register(u1, space3);
-// What the rays found: radiance that the nearest layer mirrors and its view depth (0: no glass);
-// x: whether it sees the sun.
+// The results of the rays: radiance that the nearest layer mirrors and its view depth (0: no
+// glass); x: whether it sees the sun.
 RWTexture2D<float4> first_mirrored : register(u2, space3);
 RWTexture2D<float4> first_sun : register(u3, space3);
-// What the draws leave.
+// The pictures that the draws leave.
 Texture2D<float4> drawn_radiance : register(t3, space3);
 Texture2D<float4> drawn_transmittance : register(t4, space3);
 StructuredBuffer<SceneDraw> draws : register(t7, space3);
@@ -56,7 +56,7 @@ GlassVertex DrawnGlassVertex(float3 position : POSITION) {
   return result;
 }
 
-// What a layer mirrors.
+// Returns the light that a layer mirrors.
 float3 LayerMirrors(Surface surface, float3 direction, float view_z, float4 first) {
   if (abs(view_z - first.w) <= constants.tolerance * view_z) return first.rgb;
   if (constants.fallback == 0) return float3(0, 0, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a layer of glass sends to the camera and lets through, whether a ray met it or it is drawn.
+// Computes what a layer of glass sends to the camera and lets through, whether a ray met it or it
+// is drawn.
 #ifndef KAAMOS_GLASS_LAYER_HLSLI
 #define KAAMOS_GLASS_LAYER_HLSLI
 

@@ -24,7 +24,7 @@ RayPassDesc glass_reflection_pass(rtapi::ShaderLibrary library);
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> transparent_library();
 
-/// How layers without an order are weighted by their view depth z. [McGuire and Bavoil 2013]
+/// The weight of layers without an order, by their view depth z. [McGuire and Bavoil 2013]
 enum class BlendWeight : std::uint32_t {
   kNone,    ///< all alike
   kSquare,  ///< alpha clamp(10 / (1e-5 + (z / 5)^2 + (z / 200)^6), 0.01, 3000)

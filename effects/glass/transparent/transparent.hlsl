@@ -152,7 +152,7 @@ void TransparentMiss(inout GlassPayload payload) {
   }
 }
 
-// What the glass mirrors, as a flat pane would: roughness is ignored.
+// Returns what the glass mirrors, as a flat pane would: roughness is ignored.
 float3 MirrorImage(Surface surface, float3 direction) {
   float3 mirrored = reflect(direction, surface.shading_normal);
   // A normal-mapped direction can point into the pane.

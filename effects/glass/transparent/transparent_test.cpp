@@ -230,7 +230,7 @@ TEST(Transparent, SortedLayersAreTheOverOperator) {
   }
 }
 
-// How much of the background is visible does not depend on the order. [McGuire and Bavoil 2013]
+// The visible part of the background does not depend on the order. [McGuire and Bavoil 2013]
 TEST(Transparent, CoverageIsExactWithoutAnOrder) {
   const std::vector<Pane> panes = eight_panes();
   double open = 1;

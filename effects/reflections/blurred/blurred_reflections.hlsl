@@ -6,9 +6,10 @@
 
 // As those of effects/reflections/traced, but no sum.
 RWTexture2D<float4> reflection : register(u0, space3);
-// What one of 2 x 2 pixels mirrors.
+// The light that one of 2 x 2 pixels mirrors.
 RWTexture2D<float4> rays : register(u1, space3);
-// What all pixels mirror, and their view depths (0: sky): of the frame before and of this one.
+// The light that all pixels mirror, and their view depths (0: sky): of the frame before and of this
+// one.
 RWTexture2D<float4> mirrored_before : register(u2, space3);
 RWTexture2D<float4> mirrored : register(u3, space3);
 // Its mips from half its size on, side by side.
@@ -63,7 +64,7 @@ void SendMirrorRays(uint3 id : SV_DispatchThreadID) {
   rays[id.xy] = float4(light.rgb, g_view_z[pixel]);
 }
 
-// What the pixel mirrored in the frame before, where its surface was then; w: 0: unknown.
+// Returns what the pixel mirrored in the frame before, where its surface was then; w: 0: unknown.
 float4 MirroredBefore(uint2 pixel, float2 size) {
   if (constants.has_history == 0) return float4(0, 0, 0, 0);
   const float4 motion = g_motion[pixel];

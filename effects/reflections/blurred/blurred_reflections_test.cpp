@@ -66,7 +66,7 @@ TEST_P(BlurredReflections, FourFramesMakeAMirrorWhole) {
   const auto renderer = renderer_of(GetParam(), scene, constants, kScreenWidth, kScreenHeight);
   render_frames(*renderer, scene, 0, 1);
   const FloatImage ids = renderer->read("ids").value();
-  // Of the floor, which is a mirror.
+  // Returns the error of the floor, which is a mirror.
   const auto error = [&] { return floor_rmse(ids, renderer->read("ssr_blurred").value(), whole); };
   const double at_first = error();
   render_frames(*renderer, scene, 1, 3);
@@ -75,8 +75,8 @@ TEST_P(BlurredReflections, FourFramesMakeAMirrorWhole) {
   EXPECT_LT(after_four, 0.25 * at_first);
 }
 
-// How many pixels it takes the wall's reflection to fade out at its side, in the row of the floor
-// nearest to a place: from three quarters of its light to a quarter.
+// Returns how many pixels it takes the wall's reflection to fade out at its side, in the row of the
+// floor nearest to a place: from three quarters of its light to a quarter.
 int fade_width(const FloatImage& seen, const FloatImage& position, double eye_z, double z) {
   std::uint32_t row = 0;
   double nearest = 1e30;

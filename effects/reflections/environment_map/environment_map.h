@@ -29,7 +29,7 @@ struct EnvironmentProbe {
 /// One probe where the scene's first camera stands, in the box of the scene.
 std::vector<EnvironmentProbe> default_environment_probes(const Scene& scene);
 
-/// How the maps are made.
+/// Describes how the maps are made.
 struct EnvironmentDesc {
   std::vector<EnvironmentProbe> probes;  ///< 1 to 64
   std::uint32_t side = 64;               ///< texels of a face: a power of two from 16 to 1024
@@ -37,7 +37,7 @@ struct EnvironmentDesc {
   std::uint32_t directions = 256;        ///< that a texel of a blurred level is the mean of
 };
 
-/// Whether maps can be made so.
+/// Checks whether maps can be made as `desc` says.
 /// @errors KA3070 a number out of its range, a box without an inside, or a probe that is no finite
 /// point.
 rtapi::Status check_environment(const EnvironmentDesc& desc);
@@ -53,8 +53,8 @@ class EnvironmentMap {
   /// @errors those of check_environment and of the device.
   static rtapi::Result<EnvironmentMap> create(const EffectScope& scope,
                                               const EnvironmentDesc& desc);
-  /// Where the camera is from now on, to which the probes are relative. Nothing that reads them may
-  /// run.
+  /// Sets the place of the camera, to which the probes are relative from now on. Nothing that reads
+  /// them may run.
   /// @errors those of rtapi::Device::CreateBuffer.
   rtapi::Status set_origin(const rtapi::Device& device, const glm::dvec3& camera, PassViews& views);
   /// Binds the cubes as environment_map.hlsli reads them: t5; set_origin binds the probes, t6.

@@ -19,8 +19,8 @@ TextureCubeArray<float4> environment_cubes : register(t5, space3);
 StructuredBuffer<EnvironmentProbe> environment_probes : register(t6, space3);
 SamplerState environment_sampler : register(s0, space3);  // linear
 
-// Where a ray from inside a box leaves it, seen from the probe: what its cube shows there is what
-// the ray meets. From outside the box, `direction` itself.
+// Returns where a ray from inside a box leaves it, seen from the probe: what its cube shows there
+// is what the ray meets. From outside the box, returns `direction` itself.
 float3 ParallaxCorrected(EnvironmentProbe probe, float3 position, float3 direction) {
   if (any(position < probe.box_min) || any(position > probe.box_max)) return direction;
   float nearest = kLongestRay;
@@ -31,7 +31,7 @@ float3 ParallaxCorrected(EnvironmentProbe probe, float3 position, float3 directi
   return position + direction * nearest - probe.position;
 }
 
-// How far a point is outside of a box, metres.
+// Returns how far a point is outside of a box, metres.
 float DistanceToBox(EnvironmentProbe probe, float3 position) {
   return length(max(max(probe.box_min - position, position - probe.box_max), float3(0, 0, 0)));
 }

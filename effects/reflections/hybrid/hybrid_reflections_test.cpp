@@ -24,7 +24,7 @@ TEST(HybridReflectionsRays, RaysAreTracedWhereThePictureLeavesADoubt) {
   // There is no sun, so that each traced ray is one of a march that found nothing.
   EXPECT_EQ(rays, found.confusion.rays() - found.confusion.hits());
   EXPECT_GT(found.confusion.hits(), found.confusion.rays() / 20) << "some rays are saved";
-  // What is taken from the picture is right.
+  // The hits that are taken from the picture are right.
   EXPECT_GT(found.confusion.correct(), 0.97 * static_cast<double>(found.confusion.hits()));
 }
 

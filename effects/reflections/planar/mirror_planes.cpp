@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which flat mirrors a scene has.
+// Finds the flat mirrors of a scene.
 #include <algorithm>
 #include <cmath>
 #include <optional>

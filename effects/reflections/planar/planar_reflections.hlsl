@@ -6,7 +6,7 @@
 
 // As those of effects/reflections/traced, but no sum.
 RWTexture2D<float4> reflection : register(u0, space3);
-// What each plane mirrors: radiance. Side by side, as many as there are planes.
+// The radiance that each plane mirrors: as many pictures side by side as there are planes.
 RWTexture2D<float4> mirrored : register(u1, space3);
 // Normal towards the camera, and the plane's distance from the camera along it (negative).
 StructuredBuffer<float4> planes : register(t4, space3);
@@ -26,7 +26,7 @@ static const uint kFallbackEnvironment = 2;
 static const uint kBlurTaps = 24;
 static const float kOnPlane = 1e-3;   // of the distance from the camera
 static const float kAlong = 0.999;    // cosine between a surface's normal and its plane's
-// How far off the plane rays start, in its distance from the camera: what is nearer is cut off.
+// Rays start this far off the plane, in its distance from the camera: what is nearer is cut off.
 static const float kClip = 1e-5;
 
 uint SunAtHits() { return constants.sun_at_hits; }

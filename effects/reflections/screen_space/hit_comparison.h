@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// How a march ends; mirrors screen_ray.hlsli.
+/// The outcome of a march; mirrors screen_ray.hlsli.
 enum MarchOutcome : std::uint32_t {
   kNoRay,         ///< the pixel shows the sky, or the direction is below the surface
   kHit,           ///< a surface of the picture
@@ -30,7 +30,7 @@ enum MarchOutcome : std::uint32_t {
   kMarchOutcomes
 };
 
-/// How the picture shows what a ray hits in the scene; mirrors hit_truth.hlsl.
+/// The way the picture shows what a ray hits in the scene; mirrors hit_truth.hlsl.
 enum HitTruth : std::uint32_t {
   kNoTruth,     ///< there is no ray
   kNothing,     ///< it hits nothing
@@ -45,7 +45,7 @@ enum HitTruth : std::uint32_t {
 struct HitConfusion {
   /// Pixels by MarchOutcome and HitTruth.
   std::array<std::array<std::uint64_t, kHitTruths>, kMarchOutcomes> counts{};
-  /// Of the hits, those of the same instance at the same distance within 2 %, by HitTruth.
+  /// Hits of the same instance at the same distance within 2 %, by HitTruth.
   std::array<std::uint64_t, kHitTruths> right{};
 
   std::uint64_t rays() const;     ///< that exist
@@ -66,7 +66,8 @@ struct HitConfusion {
 struct HitComparison {
   HitConfusion confusion;  ///< of all pixels
   FloatImage hits;         ///< u1 of make_screen_reflections
-  /// How far away the ray hits (metres), HitTruth, instance + 1, and 1 where the march is right.
+  /// The distance at which the ray hits (metres), HitTruth, instance + 1, and 1 where the march is
+  /// right.
   FloatImage truth;
 };
 

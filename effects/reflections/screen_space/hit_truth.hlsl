@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the rays of screen-space reflections hit in the scene, and how the picture shows that. It
-// tells in which ways a march over the picture fails.
+// Finds what the rays of screen-space reflections hit in the scene, and how the picture shows that.
+// This tells in which ways a march over the picture fails.
 #include "alpha_test.hlsli"
 #include "screen_constants.hlsli"
 #include "screen_ray.hlsli"
@@ -8,8 +8,8 @@
 
 ConstantBuffer<ScreenReflectionConstants> constants : register(b0, space3);
 RWTexture2D<float4> hits : register(u1, space3);   // of screen_reflections.hlsl
-// How far away the ray hits (metres), how the picture shows what it hits, its instance + 1, and
-// whether the march found the same.
+// The distance at which the ray hits (metres), how the picture shows what it hits, the instance + 1
+// of that, and whether the march found the same.
 RWTexture2D<float4> truth : register(u2, space3);
 
 // effects/reflections/screen_space/hit_comparison.h has the same numbers.
@@ -49,7 +49,7 @@ void TruthHit(inout TruthPayload payload, in BuiltInTriangleIntersectionAttribut
   payload.normal = found.side * found.spawn.normal;
 }
 
-// Whether a pixel shows a point of an instance. At edges it may be a neighbour.
+// Tells whether a pixel shows a point of an instance. At edges it may be a neighbour.
 bool ShowsPlace(float2 place, float3 position, float view_z, uint instance, float2 size) {
   for (int i = 0; i < 9; ++i) {
     const int2 pixel = clamp(int2(place) + int2(i % 3 - 1, i / 3 - 1), int2(0, 0), int2(size) - 1);

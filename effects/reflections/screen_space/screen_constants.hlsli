@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be chosen about reflections that are found in the picture.
+// This file holds the options of reflections that are found in the picture.
 // [effects/reflections/screen_space/screen_reflections.h]
 #ifndef KAAMOS_SCREEN_CONSTANTS_HLSLI
 #define KAAMOS_SCREEN_CONSTANTS_HLSLI

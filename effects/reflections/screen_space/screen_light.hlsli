@@ -38,7 +38,8 @@ float3 LightAround(RWTexture2D<float4> light, RWTexture2D<float4> depths, bool i
   return is_known ? sum / weights : float3(0, 0, 0);
 }
 
-// What the hit's surface sends to the camera, which stands for what it sends to the ray's origin.
+// Returns the light of the hit's surface towards the camera, which stands for that towards the
+// ray's origin.
 float3 LightOfHit(inout ScreenHit hit, ScreenReflectionConstants screen, int2 size) {
   const float view_z = g_view_z[hit.pixel];
   const float reach = max(screen.thickness, kSameDepth * view_z);

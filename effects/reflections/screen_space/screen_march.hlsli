@@ -30,7 +30,7 @@ bool IsMet(int2 pixel, ScreenRule rule) {
   return id == 0 || (instance_masks[id - 1] & kMaskLamp) == 0;
 }
 
-// Where sample `index` of a ray is, from 1 on; above 1 behind its end.
+// Returns where sample `at` of a ray is, counted from 1; above 1 it is behind the ray's end.
 float SampleParameter(ScreenRay ray, MarchSettings settings, float length, float major, float at) {
   if (settings.march == kMarchMetres) {
     return ScreenParameter(ray, length * at / float(settings.steps));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which pixels may find their reflection in the picture, by their roughness and by a march over
-// blocks of pixels that misses nothing; the others show what a miss shows. The full march then runs
-// for a list of pixels, whose length only the device knows. [Wronski 2014; Giacalone 2016]
+// Chooses the pixels that may find their reflection in the picture, by their roughness and by a
+// march over blocks of pixels that misses nothing; the others show what a miss shows. The full
+// march then runs for a list of pixels, whose length only the device knows. [Wronski 2014;
+// Giacalone 2016]
 #include "screen_follow.hlsli"
 
 struct MaskConstants {
@@ -14,7 +15,7 @@ ConstantBuffer<MaskConstants> constants : register(b0, space3);
 // As those of screen_reflections.hlsl.
 RWTexture2D<float4> reflection : register(u0, space3);
 RWTexture2D<float4> hits : register(u1, space3);
-// Of each block of pixels: the least and the largest view depth of its surfaces (0, 0: all sky), and
+// The least and the largest view depth of the surfaces of each block of pixels (0, 0: all sky), and
 // the first pixel with a surface + 1 if all of them have its normal, else 0.
 RWTexture2D<float4> depth_bounds : register(u2, space3);
 RWStructuredBuffer<uint> pixels : register(u3, space3);     // x + 65536 * y, in no order
@@ -61,7 +62,8 @@ bool IsLeft(ScreenRay ray, uint2 block, float first_pixel) {
   return !(dot(ray.direction, OctahedralDecode(g_normal[pixel])) < 0.0);
 }
 
-// Whether a ray's depths in a part of it may meet a surface of the blocks that it passes there.
+// Tells whether a ray's depths in a part of it may meet a surface of the blocks that it passes
+// there.
 bool MayMeet(ScreenRay ray, float s0, float s1, float before, float thickness, int2 blocks) {
   const float2 a = ScreenPlace(ray, s0), b = ScreenPlace(ray, s1);
   const int2 first = clamp(int2(floor((min(a, b) - 1.0) / float(kBlock))), int2(0, 0), blocks - 1);
@@ -86,7 +88,7 @@ bool MayHit(ScreenRay ray, float length, float2 size) {
   const float2 extent = abs(ray.along);
   const float major = max(extent.x, extent.y);
   const uint parts = uint(ceil(major / float(kBlock)));
-  // How far before a sample the one before it may lie.
+  // A sample and the one before it may lie this far apart.
   float back = 0.0;
   if (constants.screen.march == kMarchPixels) back = max(constants.screen.stride, 1.0) / major;
   if (constants.screen.march == kMarchLine) back = 1.0 / float(constants.screen.steps);

@@ -6,7 +6,7 @@
 
 #include "frame.hlsli"
 
-// How a march ends. effects/reflections/screen_space/hit_comparison.h has the same numbers.
+// Outcomes of a march. effects/reflections/screen_space/hit_comparison.h has the same numbers.
 static const uint kNoRay = 0;       // sky, or a direction below the surface
 static const uint kHit = 1;
 static const uint kOffScreen = 2;   // the ray left the picture, or came behind the near plane
@@ -26,8 +26,8 @@ float2 PictureSize() {
   return float2(width, height);
 }
 
-// Where the camera sees a point in front of it, in pixels from the upper left corner; centres of
-// pixels are at .5.
+// Returns where the camera sees a point in front of it, in pixels from the upper left corner;
+// centres of pixels are at .5.
 float2 PlaceOf(float3 position, float2 size) {
   float view_z;
   return PictureUv(position, frame.camera_right, frame.over_right, frame.camera_up, frame.over_up,
@@ -71,7 +71,7 @@ float ScreenParameter(ScreenRay ray, float distance) {
   return below != 0.0 ? (distance * ray.from_k - ray.from_tk) / below : 0.0;
 }
 
-// How far along `direction` a point stays in 0..size; 1: all the way.
+// Returns how far along `direction` a point stays in 0..size; 1: all the way.
 float ClipAxis(float from, float direction, float size) {
   if (direction > 0.0) return min(1.0, (size - from) / direction);
   if (direction < 0.0) return min(1.0, -from / direction);
@@ -119,7 +119,7 @@ ScreenRay MakeScreenRay(float3 origin, float3 direction, float length, float2 si
   return ray;
 }
 
-// What a march has found, and what it met on its way.
+// The result of a march, and what it met on its way.
 struct ScreenHit {
   uint outcome;
   float distance;   // along the ray, metres
@@ -127,7 +127,7 @@ struct ScreenHit {
   int2 pixel;       // whose surface is hit
 };
 
-// How surfaces are met.
+// The rule by which surfaces are met.
 struct ScreenRule {
   float thickness;     // metres that a surface is taken to reach back
   bool strict;         // only hits that leave no doubt
@@ -140,7 +140,8 @@ struct MarchState {
   bool met_back;       // a surface that faces away
 };
 
-// How far along the ray the plane of a pixel's surface is; negative: not in front of that side.
+// Returns how far along the ray the plane of a pixel's surface is; negative: not in front of that
+// side.
 float DistanceToSurface(ScreenRay ray, int2 pixel) {
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float facing = dot(ray.direction, normal);
@@ -148,8 +149,8 @@ float DistanceToSurface(ScreenRay ray, int2 pixel) {
   return dot(g_position[pixel].xyz - ray.origin, normal) / facing;
 }
 
-// Whether the surface of a pixel, which the ray crosses in depth between s0 and s1, is hit. The
-// point is moved onto the surface's plane, since a pixel's depth is that of its centre alone.
+// Tells whether the surface of a pixel, which the ray crosses in depth between s0 and s1, is hit.
+// The point is moved onto the surface's plane, since a pixel's depth is that of its centre alone.
 bool AcceptHit(ScreenRay ray, ScreenRule rule, int2 pixel, float s0, float s1,
                inout MarchState state, inout ScreenHit hit) {
   const float to_plane = DistanceToSurface(ray, pixel);
@@ -173,7 +174,7 @@ bool AcceptHit(ScreenRay ray, ScreenRule rule, int2 pixel, float s0, float s1,
   return true;
 }
 
-// How a march ended that went all the way without a hit.
+// Returns the outcome of a march that went all the way without a hit.
 uint MissOutcome(ScreenRay ray, MarchState state, float2 size) {
   if (state.passed_behind) return kHidden;
   if (ray.is_cut) return kOffScreen;

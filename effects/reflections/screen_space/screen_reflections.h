@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kMostScreenSteps = 4096;
 inline constexpr std::uint32_t kMostScreenRefinements = 32;
 ///@}
 
-/// Where a march takes its samples.
+/// The places where a march takes its samples.
 enum class ScreenMarch : std::uint32_t {
   kMetres,  ///< at equal distances along the ray, each a point [survey 6.2]
   /// Every few pixels of the picture; the ray's depths between two samples count too.
@@ -27,13 +27,13 @@ enum class ScreenMarch : std::uint32_t {
   kLine,
 };
 
-/// Where the light of hits is taken from.
+/// The source of the light of hits.
 enum class ScreenSource : std::uint32_t {
   kCurrentFrame,   ///< this frame before it has reflections
   kPreviousFrame,  ///< the finished frame before, where the surface was then; else the current one
 };
 
-/// What rays without a hit show.
+/// The light that rays without a hit show.
 enum class ScreenFallback : std::uint32_t {
   kNone,         ///< nothing
   kSky,          ///< the sky
@@ -75,7 +75,7 @@ rtapi::Result<std::unique_ptr<EffectPass>> make_screen_reflections(const EffectS
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> screen_reflections_library();
 
-/// What other passes that march over the picture share with it.
+/// Checks the constants. Other passes that march over the picture share this function and the next.
 /// @errors KA3071 a number or an enumeration out of its range.
 rtapi::Status check_screen_reflections(const ScreenReflectionConstants& constants);
 /// Binds the mask of each instance, one word each, as marches read them: t4 of space3. The buffer

@@ -8,7 +8,7 @@ ConstantBuffer<ScreenReflectionConstants> constants : register(b0, space3);
 // Sums over samples, as those of effects/reflections/traced: radiance / ReflectionScale, and the length of
 // the ray (0: no ray).
 RWTexture2D<float4> reflection : register(u0, space3);
-// Of the last sample: where in the picture the ray hit (pixels), how far away (metres), and how the
+// The last sample: where in the picture the ray hit (pixels), how far away (metres), and how the
 // march ended.
 RWTexture2D<float4> hits : register(u1, space3);
 

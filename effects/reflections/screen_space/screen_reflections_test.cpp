@@ -47,12 +47,12 @@ double part(std::uint64_t of, std::uint64_t all) {
   return static_cast<double>(of) / static_cast<double>(all);
 }
 
-// What a march calls a hit is what the ray hits, but for halos.
+// The hits of a march are what the ray hits, but for halos.
 TEST_P(ScreenReflections, MostHitsAreWhatTheRaysHit) {
   const HitComparison found = look(GetParam(), make_screen_boxes(), with_sky(kPixels));
   EXPECT_GT(found.confusion.hits(), 100u);
   EXPECT_GT(part(found.confusion.correct(), found.confusion.hits()), 0.85);
-  // Of what the picture shows, nearly all is found.
+  // Nearly all of what the picture shows is found.
   EXPECT_GT(part(found.confusion.correct(), found.confusion.correct() + found.confusion.missed()),
             0.85);
 }

@@ -6,8 +6,8 @@
 
 // Sums over samples, as those of effects/reflections/traced.
 RWTexture2D<float4> reflection : register(u0, space3);
-// Of the rays, one for 2 x 2 pixels: where they hit, relative to the camera, and the density of
-// their direction (0: no ray); and the radiance that they found, and their length.
+// The rays, one for 2 x 2 pixels: where they hit, relative to the camera, and the density of their
+// direction (0: no ray); and the radiance that they found, and their length.
 RWTexture2D<float4> ray_hits : register(u1, space3);
 RWTexture2D<float4> ray_light : register(u2, space3);
 
@@ -20,7 +20,7 @@ ConstantBuffer<StochasticConstants> constants : register(b0, space3);
 
 static const float kLeastWeight = 1e-12;
 
-// Which of 2 x 2 pixels sends the ray; all of them in four frames or samples.
+// Returns which of 2 x 2 pixels sends the ray; all of them do in four frames or samples.
 uint2 SendingPixel(uint2 ray, uint sample, uint2 size) {
   const uint2 offset = uint2(sample & 1, ((sample >> 1) ^ sample) & 1);
   return min(2 * ray + offset, size - 1);
@@ -69,13 +69,13 @@ void SendRays(uint3 id : SV_DispatchThreadID) {
   ray_light[id.xy] = light;
 }
 
-// What the neighbours' rays found, weighted as this pixel would reflect it. The sum of weights
-// takes the noise of the weights with it.
+// Returns what the neighbours' rays found, weighted as this pixel would reflect it. The sum of
+// weights takes the noise of the weights with it.
 float4 Resolve(uint2 pixel, ReflectionPoint surface) {
   uint2 rays;
   ray_hits.GetDimensions(rays.x, rays.y);
   const int2 centre = int2(pixel / 2);
-  // Of four, those on the pixel's side.
+  // If four are taken, they are those on the pixel's side.
   const int2 side = int2(pixel & 1) * 2 - 1;
   float4 sum = float4(0, 0, 0, 0);
   float weights = 0.0;

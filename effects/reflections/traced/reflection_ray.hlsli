@@ -9,7 +9,7 @@
 
 static const uint kReflectionPair = 2;  // and 3
 
-// How long rays are.
+// The lengths of rays.
 struct ReflectionLengths {
   float longest;   // metres, for a mirror
   float shortest;  // metres, for a rough surface
@@ -26,7 +26,7 @@ float ReflectionLength(ReflectionLengths lengths, float roughness, float u) {
   return length * (1.0 - Contain(lengths.jitter, 1.0) * u);
 }
 
-// What the rays of a pixel have in common.
+// The surface data that the rays of a pixel have in common.
 struct ReflectionPoint {
   float3 origin;
   float3 normal;
@@ -52,7 +52,7 @@ ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   return surface;
 }
 
-// What the sum of a pixel's samples is over. [ReflectionScale]
+// Returns the divisor of the sum of a pixel's samples. [ReflectionScale]
 float3 ReflectionScaleAt(ReflectionPoint surface) {
   return ReflectionScale(
       SpecularAlbedo(surface.brdf.f0, surface.brdf.roughness, surface.cosine_view));

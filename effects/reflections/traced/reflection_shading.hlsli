@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the rays of reflections see: their hit shaders, and the ray itself. Whoever includes this
-// defines SunAtHits(): whether what rays hit is lit by the sun, and how [hit_shading.hlsli].
-// [Control; Northlight deck: Reflections]
+// This file holds what the rays of reflections see: their hit shaders, and the ray itself. Whoever
+// includes this defines SunAtHits(): whether what rays hit is lit by the sun, and how
+// [hit_shading.hlsli]. [Control; Northlight deck: Reflections]
 #ifndef KAAMOS_REFLECTION_SHADING_HLSLI
 #define KAAMOS_REFLECTION_SHADING_HLSLI
 

@@ -18,7 +18,7 @@ RayPassDesc reflections_trace_pass(rtapi::ShaderLibrary library);
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> reflections_library();
 
-/// What is done about samples brighter than twice white, which are rare and stand out. [GDC 2018
+/// The treatment of samples brighter than twice white, which are rare and stand out. [GDC 2018
 /// talk]
 enum class Fireflies : std::uint32_t {
   kKeep,  ///< nothing

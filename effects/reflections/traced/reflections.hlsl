@@ -21,7 +21,7 @@ ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
 uint SunAtHits() { return constants.sun_at_hits; }
 
-// What is done about fireflies. [effects/reflections/traced/reflections.h]
+// The treatment of fireflies. [effects/reflections/traced/reflections.h]
 static const uint kKeep = 0;
 static const uint kRetrace = 1;
 static const uint kAverage = 2;

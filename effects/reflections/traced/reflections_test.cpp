@@ -253,8 +253,7 @@ struct Fires {
   }
 };
 
-// What is done about fireflies by default keeps the energy; the talk's average and its clamp do
-// not.
+// The default treatment of fireflies keeps the energy; the talk's average and its clamp do not.
 TEST(Reflections, OnlyAPilotKeepsTheEnergyOfFireflies) {
   Fires fires;
   ReflectionConstants constants;
