@@ -19,7 +19,7 @@
 
 namespace kaamos::effects {
 
-/// How structures that move are kept.
+/// Options for keeping structures that move.
 struct StructureOptions {
   /// Structures of a class are built anew once in so many frames and updated in between, because
   /// updates make them slower to trace; they take turns, so that no frame rebuilds two while there
@@ -31,7 +31,7 @@ struct StructureOptions {
   bool compact = true;  ///< static structures are compacted
 };
 
-/// What the scene and its last frame took.
+/// The cost of the scene and its last frame.
 struct StructureStatistics {
   std::uint32_t static_structures = 0;               ///< bottom levels that never change
   std::uint32_t skinned_structures = 0;              ///< instances in the same pose share one
@@ -85,7 +85,7 @@ class StructureManager {
 
   /// The scene for passes and Frame; its resources stay the same over all frames.
   const GpuScene& scene() const { return gpu_; }
-  /// What the scene and its last frame took.
+  /// The cost of the scene and its last frame.
   const StructureStatistics& statistics() const { return statistics_; }
   /// The deformed vertices of an instance, kSkinnedVertexStride bytes apart. Empty where it has no
   /// skin.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens to the structures in one frame.
+// Brings the structures up to date in one frame.
 #include <rtapi/upload.h>
 
 #include <chrono>

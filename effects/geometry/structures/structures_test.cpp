@@ -265,7 +265,7 @@ glm::dvec3 locate(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
   return {v, w, std::abs(glm::dot(p - a, n)) / std::sqrt(area) + outside};
 }
 
-// Where a point of an instance was before, if it lies in triangle `primitive` of one of its
+// Finds where a point of an instance was before, if it lies in triangle `primitive` of one of its
 // geometries.
 bool previous_of(const Mesh& mesh, const std::vector<Vertex>& now,
                  const std::vector<Vertex>& before, std::uint32_t primitive,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a bake counts, and how many paths it spends where.
+// Tests what a bake counts, and how many paths it spends where.
 #include <gtest/gtest.h>
 
 #include <algorithm>

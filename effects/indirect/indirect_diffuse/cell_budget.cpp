@@ -13,7 +13,7 @@ constexpr double kDarkPart = 0.25;
 // Most of a cell's directions see back faces: no more samples will change that it is in a solid.
 constexpr float kSurelySolid = 0.5f;
 
-// What is known of the luminance of some samples.
+// The luminance of some samples, as far as it is known.
 struct Spread {
   double mean = 0, variance = 0;  // of one sample
 };

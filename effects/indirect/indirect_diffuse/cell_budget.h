@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How many paths each cell of a volume needs while it is baked.
+/// Decides how many paths each cell of a volume needs while it is baked.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> samples_of_halves(const std::vector<std::uint32_t>& c
                                              const std::vector<CellSums>& pilot,
                                              const BakeDesc& desc);
 
-/// What a bake of these sums took, without its time.
+/// Returns what a bake of these sums took, without its time.
 BakeStatistics bake_statistics(const std::vector<CellSums>& sums,
                                const std::vector<std::uint32_t>& samples, const BakeDesc& desc);
 

@@ -16,7 +16,7 @@ RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library);
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library();
 
-/// Where the light of a pixel comes from. [Northlight deck: Indirect Diffuse Illumination]
+/// The source of a pixel's light. [Northlight deck: Indirect Diffuse Illumination]
 enum class IndirectMode : std::uint32_t {
   kDirect,           ///< the volume, sampled at the surface
   kHitBlack,         ///< rays sample it where they end, what they hit is black

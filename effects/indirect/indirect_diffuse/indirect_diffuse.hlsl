@@ -105,7 +105,7 @@ float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
   return ToWorld(SampleCosineHemisphere(u), shading_normal);
 }
 
-// How many of the pixel's rays hit nothing.
+// Returns how many of the pixel's rays hit nothing.
 float OpenRays(float3 origin, float2 tile, float3 normal, float3 shading_normal) {
   float open = 0.0;
   for (uint i = 0; i < pass_constants.sample_count; ++i) {

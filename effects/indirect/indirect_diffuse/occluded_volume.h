@@ -14,7 +14,7 @@
 
 namespace kaamos::effects {
 
-/// How it looks for occluders.
+/// Settings of the search for occluders.
 struct OccludedVolumeSettings {
   GtaoConstants occlusion;                   ///< of the technique
   float radius = kDefaultScreenSpaceRadius;  ///< how far occluders reach, metres; 0: none

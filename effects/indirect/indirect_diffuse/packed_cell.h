@@ -25,7 +25,7 @@ static_assert(sizeof(PackedCell) == 32);
 /// zero; values beyond the largest, infinities too, become that.
 PackedCell pack_cell(const VolumeCell& cell);
 
-/// What shaders make of it.
+/// Returns the cell that shaders make of it.
 VolumeCell unpack_cell(const PackedCell& cell);
 
 }  // namespace kaamos::effects

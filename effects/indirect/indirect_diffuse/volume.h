@@ -95,7 +95,7 @@ Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> ce
 /// read it where all cells about a point lie in solids.
 void fill_solids(IndirectVolume& volume);
 
-/// Which lights a bake counts, as bits. Of local lights, those with Light::baked.
+/// The lights that a bake counts, as bits. Of local lights, those with Light::baked.
 enum BakedLights : std::uint32_t {
   kBakeSun = 1,       ///< Scene::sun
   kBakeSky = 2,       ///< Scene::sky
@@ -104,7 +104,7 @@ enum BakedLights : std::uint32_t {
   kBakeAll = 15,      ///< all of these
 };
 
-/// How well a volume is baked, and with which lights.
+/// Describes how well a volume is baked, and with which lights.
 struct BakeDesc {
   std::uint32_t samples = 1024;  ///< paths per cell at most, up to 2^20
   /// Standard error that is good enough for a cell: of the luminance of its mean, relative to that
@@ -115,7 +115,7 @@ struct BakeDesc {
   std::uint32_t lights = kBakeAll;  ///< BakedLights
 };
 
-/// What a bake took, and how good it is.
+/// The cost and the quality of a bake.
 struct BakeStatistics {
   double seconds = 0;           ///< all of it
   std::uint64_t cells = 0;      ///< that were baked

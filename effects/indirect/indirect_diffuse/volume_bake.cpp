@@ -62,7 +62,7 @@ std::vector<std::uint32_t> baked_lights(const Scene& scene) {
   return baked;
 }
 
-// What is on the device during a bake.
+// Holds the objects that are on the device during a bake.
 class Baker {
  public:
   Baker(const rtapi::Device& device, rtapi::CommandQueue& queue, const Frame& frame,

@@ -48,7 +48,7 @@ static const uint kBakeEmissive = 8;
 // Instances that stand still and are neither glass nor lamps. [effects/assets/scene/scene.h: InstanceMask]
 static const uint kMaskBaked = 0x20;
 
-// What a path needs to know about a hit to continue.
+// The data of a hit that a path needs to continue.
 struct PathPayload {
   float3 position;
   float offset;  // negative: a miss

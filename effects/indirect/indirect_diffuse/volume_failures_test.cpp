@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What goes wrong with light from a volume of coarse cells, a number for each failure, and how much
-// rays help. [GDC 2018 talk; Northlight deck: Issues with Direct Sampling of GI Data]
+// Tests what goes wrong with light from a volume of coarse cells, a number for each failure, and
+// how much rays help. [GDC 2018 talk; Northlight deck: Issues with Direct Sampling of GI Data]
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@ constexpr std::uint64_t kMaxCells = 1u << 24;
 // same scene in other units has the same bricks.
 constexpr double kBorder = 1e-6;
 
-// Which bricks of one level are stored.
+// The bricks of one level, and which of them are stored.
 struct Level {
   glm::uvec3 bricks{0};
   std::vector<bool> stored;

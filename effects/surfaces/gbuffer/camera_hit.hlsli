@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What draws of the scene share with the rays of its camera: clip space, and the point of a triangle
-// that the ray through a pixel meets.
+// This file holds what draws of the scene share with the rays of its camera: clip space, and the
+// point of a triangle that the ray through a pixel meets.
 #ifndef KAAMOS_GBUFFER_CAMERA_HIT_HLSLI
 #define KAAMOS_GBUFFER_CAMERA_HIT_HLSLI
 
@@ -50,7 +50,8 @@ float2 ClampedBarycentrics(float3 v0, float3 v1, float3 v2, float3 origin, float
   return to_e2 <= to_e3 ? on_e2 : on_e3;
 }
 
-// What a draw shows at a pixel, as a hit of the ray through it. `layout`: of the draw's geometry.
+// Returns what a draw shows at a pixel, as a hit of the ray through it. `layout`: of the draw's
+// geometry.
 TriangleHit CameraHit(ByteAddressBuffer vertices, ByteAddressBuffer indices, HitConstants layout,
                       SceneDraw draw, uint primitive, float3 direction) {
   TriangleHit hit;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the draws of the raster G-buffer and its resolve pass share: the pass's registers of space3,
-// and the scene's vertices and indices. [effects/surfaces/gbuffer/raster.h]
+// This file holds what the draws of the raster G-buffer and its resolve pass share: the pass's
+// registers of space3, and the scene's vertices and indices. [effects/surfaces/gbuffer/raster.h]
 #ifndef KAAMOS_GBUFFER_DRAWS_HLSLI
 #define KAAMOS_GBUFFER_DRAWS_HLSLI
 

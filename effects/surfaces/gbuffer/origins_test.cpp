@@ -24,7 +24,7 @@ struct ProbeConstants {
   float near_plane;
 };
 
-// How the body gets to where it is: by its instance's transform, or by its vertices.
+// The way the body gets to where it is: by its instance's transform, or by its vertices.
 enum class Moved { kInstance, kVertices };
 
 Shape make_body(bool is_round) {
@@ -64,7 +64,8 @@ Scene make_scene(bool is_round, double size, double distance, const glm::dvec3& 
   return scene;
 }
 
-// Where rays start: at points of the drawn G-buffer, by its depth, and at points of a traced one.
+// The places where rays start: at points of the drawn G-buffer, by its depth, and at points of a
+// traced one.
 enum Origin { kDrawn, kByDepth, kTraced, kOriginCount };
 
 constexpr const char* kOriginNames[] = {"drawn", "by depth", "traced"};

@@ -50,8 +50,8 @@ bool share_a_corner(const Corners& a, const Corners& b) {
   return false;
 }
 
-// How likely a pixel of a triangle is to flip. An edge is shared by two triangles, so half of the
-// perimeter counts. Zero for one that reaches behind the camera: it is large.
+// Returns how likely a pixel of a triangle is to flip. An edge is shared by two triangles, so half
+// of the perimeter counts. Zero for one that reaches behind the camera: it is large.
 double flip_chance(const Corners& corners, const Camera& camera, std::uint32_t height) {
   const double scale = height / (2 * std::tan(camera.vertical_fov / 2));
   std::array<glm::dvec2, 3> p;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where the drawn G-buffer shows another triangle than primary rays hit, and why. The rasterizer
-/// moves vertices to a grid of 1/256 pixel. That moves edges by 7.3e-4 pixels on average, and so
-/// many pixels flip per pixel of an edge's length: 1.67e-3 / sqrt(pixels per triangle) of all
-/// pixels if triangles are equally large and equilateral, more if they are slivers.
+/// Finds where the drawn G-buffer shows another triangle than primary rays hit, and why. The
+/// rasterizer moves vertices to a grid of 1/256 pixel. That moves edges by 7.3e-4 pixels on
+/// average, and so many pixels flip per pixel of an edge's length: 1.67e-3 / sqrt(pixels per
+/// triangle) of all pixels if triangles are equally large and equilateral, more if they are
+/// slivers.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -18,14 +19,14 @@
 
 namespace kaamos::effects {
 
-/// What a pixel shows.
+/// The triangle that a pixel shows.
 struct SeenTriangle {
   std::uint32_t instance = 0;   ///< + 1; 0: nothing
   std::uint32_t geometry = 0;   ///< in its mesh
   std::uint32_t primitive = 0;  ///< in its geometry
   float view_z = 0;             ///< metres along the camera's axis
 
-  /// Whether both are the same triangle, or both nothing.
+  /// Returns whether both are the same triangle, or both nothing.
   bool same_triangle(const SeenTriangle& other) const {
     return instance == other.instance && geometry == other.geometry && primitive == other.primitive;
   }
@@ -54,7 +55,7 @@ struct PrimaryDifference {
   double expected_share_of_equals() const;
 };
 
-/// What two pictures show of a scene, whose instances stand as they do now.
+/// Two pictures of a scene whose instances stand as they do now.
 struct SeenPictures {
   std::span<const SeenTriangle> drawn;   ///< of all pixels, row by row
   std::span<const SeenTriangle> traced;  ///< the same by rays
@@ -71,7 +72,7 @@ rtapi::Result<std::vector<SeenTriangle>> read_drawn(const rtapi::Device& device,
                                                     rtapi::CommandQueue& queue, const Frame& frame,
                                                     const GpuScene& gpu,
                                                     const RasterGBuffer& raster);
-/// What primary rays hit.
+/// Returns what primary rays hit.
 /// @errors those of RayPass::create, Frame::create_pass_views and rtapi::ReadbackTexture.
 rtapi::Result<std::vector<SeenTriangle>> trace_seen(const rtapi::Device& device,
                                                     rtapi::CommandQueue& queue, const Frame& frame,

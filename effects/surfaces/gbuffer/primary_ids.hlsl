@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which triangle primary rays hit, and how far away: what the draws of raster.hlsl are held against.
+// Finds which triangle primary rays hit, and how far away: the draws of raster.hlsl are held
+// against it.
 #include "alpha_test.hlsli"
 #include "store.hlsli"
 

@@ -160,8 +160,8 @@ void RasterGBuffer::record_draws(CommandList& list, const Frame& frame, const Gp
   list.EndEvent();
 }
 
-// What has holes comes last: what stands before it hides some of its pixels, whose textures need
-// not be read then.
+// Geometry with holes comes last: what stands before it hides some of its pixels, whose textures
+// need not be read then.
 void RasterGBuffer::record_scene(CommandList& list, const GpuScene& gpu) const {
   for (const bool with_holes : {false, true}) {
     list.SetPipelineState(with_holes ? with_holes_ : opaque_);

@@ -26,8 +26,8 @@ rtapi::Result<rtapi::ShaderLibrary> raster_library();
 /// @errors KA0910 it was made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> resolve_library();
 
-/// Where the depth buffer's near plane is, as a share of the camera's: rays have none and see what
-/// is nearer, and a depth buffer of floats loses nothing by it when depth is reversed.
+/// The depth buffer's near plane, as a share of the camera's: rays have none and see what is
+/// nearer, and a depth buffer of floats loses nothing by it when depth is reversed.
 inline constexpr float kRasterNearShare = 1.0f / 1024.0f;
 
 /// Both passes, and the pictures between them.
@@ -54,7 +54,7 @@ class RasterGBuffer {
   /// R32_TYPELESS, drawn as D32_FLOAT and a non-pixel shader resource between frames:
   /// kRasterNearShare times the camera's near plane, over view depth; 0: nothing.
   const rtapi::Texture& depth() const { return depth_; }
-  /// What the last record_draws drew; visibility() counts them.
+  /// The draws of the last record_draws; visibility() counts them.
   const std::vector<SceneDraw>& draws() const { return draws_; }
   /// Bytes of both pictures and of the draws.
   std::uint64_t bytes() const;

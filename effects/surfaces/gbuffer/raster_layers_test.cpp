@@ -53,7 +53,7 @@ Layers read_layers(FrameRenderer& renderer) {
   return out;
 }
 
-// What draws and rays make of the same frame.
+// Renders the same frame with draws and with rays.
 class Pair {
  public:
   Pair(const std::string& backend, const Scene& scene, bool moving)
@@ -131,7 +131,7 @@ class Pair {
   }
 
  private:
-  // How far the point of a pixel is off the ray through its center, in metres.
+  // Returns how far the point of a pixel is off the ray through its center, in metres.
   double distance_to_ray(const FloatImage& positions, std::size_t pixel) const {
     const double half = std::tan(camera_.vertical_fov / 2);
     const glm::dvec2 place(static_cast<double>(pixel % kWidth),
@@ -160,7 +160,7 @@ class Pair {
     return length > 0 ? std::fabs(glm::dot(glm::normalize(n), position)) / length : 1.0;
   }
 
-  // How long the border between surfaces and nothing is, in pixels. [Cauchy-Crofton]
+  // Returns how long the border between surfaces and nothing is, in pixels. [Cauchy-Crofton]
   double border_length() const {
     std::uint32_t crossings = 0;
     for (std::size_t i = 0; i + kWidth < seen_by_rays.size(); ++i) {
@@ -191,7 +191,7 @@ class Pair {
 void expect_same_layers(const std::vector<double>& differences) {
   constexpr double kByte = 1.001 / 255;     // a value that rounds the other way
   constexpr double kShort = 1.001 / 32767;  // the same of normals
-  // Where a traced point lies along a sliver is less exact than where the drawn one does.
+  // The place of a traced point along a sliver is less exact than that of the drawn one.
   const double limits[kLayerCount] = {1e-5, 1, kShort, 1e-3, 2 * kByte, 2e-2, kByte, 8, 2e-5};
   for (std::size_t layer = 0; layer < kLayerCount; ++layer) {
     EXPECT_LE(differences[layer], limits[layer]) << kNames[layer];

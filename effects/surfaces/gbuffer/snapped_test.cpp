@@ -56,8 +56,8 @@ std::vector<glm::vec3> make_triangles() {
   return out;
 }
 
-// Whether a pixel's center lies exactly on an edge of triangle `id` - 1: then the rasterizer goes
-// by its top-left rule, and rays may take either side. All products are exact in double.
+// Tells whether a pixel's center lies exactly on an edge of triangle `id` - 1: then the rasterizer
+// goes by its top-left rule, and rays may take either side. All products are exact in double.
 bool is_on_edge(const std::vector<glm::vec3>& triangles, std::uint32_t id,
                 const glm::dvec2& center) {
   if (id == 0) return false;

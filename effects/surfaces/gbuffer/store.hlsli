@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the G-buffer holds of a pixel, whether a ray found the surface or a draw did.
+// Stores what the G-buffer holds of a pixel, whether a ray found the surface or a draw did.
 #ifndef KAAMOS_GBUFFER_STORE_HLSLI
 #define KAAMOS_GBUFFER_STORE_HLSLI
 

@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// Which loop is the inner one. The picture is the same, bit for bit.
+/// The nesting of the two loops. The picture is the same, bit for bit.
 enum class LoopOrder : std::uint8_t {
   kRaster,  ///< for each triangle, for each pixel: what a triangle needs is computed once for all
   kRays,    ///< for each pixel, for each triangle: only the pixel's ray and its hit are kept

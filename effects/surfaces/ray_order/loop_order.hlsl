@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What each pixel shows, without an acceleration structure: the two loops over pixels and triangles,
-// nested as in rasterization or as in ray tracing. Both ask the same question with the same
-// arithmetic, so their pictures are the same. [survey 3.5]
+// Finds what each pixel shows without an acceleration structure, by two loops over pixels and
+// triangles, nested as in rasterization or as in ray tracing. Both ask the same question with the
+// same arithmetic, so their pictures are the same. [survey 3.5]
 #include "../gbuffer/store.hlsli"
 
 static const uint kSide = 8;
@@ -21,8 +21,8 @@ struct LoopConstants {
 };
 ConstantBuffer<LoopConstants> constants : register(b0, space3);
 
-// What is the same for all rays from the camera: a rasterizer's edge functions, in three dimensions.
-// [Olano & Greer 1997]
+// The values that are the same for all rays from the camera: a rasterizer's edge functions, in
+// three dimensions. [Olano & Greer 1997]
 struct Edges {
   float3 ab, bc, ca;  // normals of the planes through the camera and an edge
   float3 normal;      // of the triangle

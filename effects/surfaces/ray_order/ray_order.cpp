@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kTileWidth = 64;
 constexpr std::uint32_t kTileHeight = 128;
 constexpr std::uint32_t kLargestSide = 65535;
-// Where the bits of a key lie. [ray_key.hlsli]
+// The places of the bits of a key. [ray_key.hlsli]
 constexpr std::uint32_t kOriginShift = 8, kEndShift = 16;
 
 /// Mirrors SortConstants in ray_order.hlsl.

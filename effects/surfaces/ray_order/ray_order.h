@@ -13,7 +13,7 @@
 
 namespace kaamos::effects {
 
-/// What rays are sorted by.
+/// The key by which rays are sorted.
 enum class RayOrder : std::uint8_t {
   kPixels,       ///< as they lie in the picture
   kDirection,    ///< 256 octahedral cells of direction
