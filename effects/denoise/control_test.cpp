@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each stage of Control's denoiser is for. [Control]
+// Tests what each stage of Control's denoiser is for. [Control]
 #include <random>
 
 #include "effects/denoise/denoise_fixture.h"

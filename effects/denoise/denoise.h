@@ -51,7 +51,7 @@ static_assert(sizeof(DenoiseConstants) == 84);
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
 
-/// How a signal is denoised.
+/// The method by which a signal is denoised.
 enum class DenoiseMethod {
   kNone,            ///< the signal as it is
   kGaussian,        ///< blurs edges too
@@ -65,7 +65,7 @@ enum class DenoiseMethod {
   kAdaptiveSvgf,
 };
 
-/// What Denoiser does.
+/// Describes what Denoiser does.
 struct DenoiseDesc {
   DenoiseMethod method = DenoiseMethod::kSvgf;  ///< how
   DenoiseConstants constants;                   ///< with which numbers
@@ -107,7 +107,7 @@ class DenoisePipelines {
   std::vector<Entry> entries_;
 };
 
-/// What says how much a signal has changed. [TemporalGradients]
+/// The picture that says how much a signal has changed. [TemporalGradients]
 struct SignalChanges {
   rtapi::Texture picture;     ///< TemporalGradients::changes; null: nobody knows
   std::uint32_t channel = 0;  ///< of it, 0 to 3

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all denoising kernels share: guides (depth and normal) and the edge-stopping weights made
-// from them.
+// This file holds what all denoising kernels share: guides (depth and normal) and the edge-stopping
+// weights made from them.
 #ifndef KAAMOS_DENOISE_COMMON_HLSLI
 #define KAAMOS_DENOISE_COMMON_HLSLI
 
@@ -37,7 +37,7 @@ ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);
 // anything. All zero where there is no surface.
 RWTexture2D<float4> guides : register(u3, space3);
 
-// Which pixel of each 2 x 2 had rays in this frame.
+// Returns which pixel of each 2 x 2 had rays in this frame.
 int2 TracedOffset() {
   return int2(denoise.pixel_offset & 1u, denoise.pixel_offset >> 1);
 }

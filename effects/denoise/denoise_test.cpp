@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each method preserves and what it loses, on known signals.
+// Tests what each method preserves and what it loses, on known signals.
 #include <cstring>
 #include <limits>
 #include <random>

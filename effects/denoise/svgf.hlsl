@@ -17,7 +17,7 @@ RWTexture2D<float4> previous_moments[kMostSignals] : register(u14, space3);
 RWTexture2D<float4> accumulated[kMostSignals] : register(u19, space3);
 RWTexture2D<float4> moments[kMostSignals] : register(u24, space3);
 RWTexture2D<float4> previous_guides : register(u29, space3);
-// How much signals have changed since the previous frame. [temporal_gradients.hlsl]
+// The change of signals since the previous frame. [temporal_gradients.hlsl]
 RWTexture2D<float4> changes : register(u30, space3);
 
 bool IsOfLobe(int s) { return (denoise.lobes >> s & 1) != 0; }
@@ -39,8 +39,8 @@ bool IsSameSurface(float4 guide, float instance, Surface surface) {
          dot(guide.xyz, surface.normal) >= 0.9;
 }
 
-// Where a pixel's surface was in the previous frame: how much each of the four pixels there shows
-// of it.
+// The place of a pixel's surface in the previous frame: how much each of the four pixels there
+// shows of it.
 struct Past {
   int2 corner;
   float weights[4];  // x runs fastest
@@ -88,7 +88,7 @@ Past FindPastAt(int2 pixel, int2 size, float2 motion, float expected_z) {
   return past;
 }
 
-// Where the surface itself was.
+// Finds where the surface itself was.
 Past FindPast(int2 pixel, int2 size) {
   const float4 motion = g_motion[pixel];
   return FindPastAt(pixel, size, motion.xy, guides[pixel].w + motion.z);
@@ -107,9 +107,9 @@ float Convexity(int2 pixel, int2 size, float3 position) {
   return max(0.5 * sum, 0.0);
 }
 
-// How far behind the surface the image of what it reflects stands. The pixel's neighbours count as
-// well, because few rays hit at one distance; their places in the picture are averaged, which go
-// with 1 / distance. In a convex mirror the image is nearer.
+// Returns how far behind the surface the image of what it reflects stands. The pixel's neighbours
+// count as well, because few rays hit at one distance; their places in the picture are averaged,
+// which go with 1 / distance. In a convex mirror the image is nearer.
 float ImageDistance(int2 pixel, int2 size, int s, float3 position) {
   const float away = length(position);
   float sum = 0.0;
@@ -129,16 +129,16 @@ float ImageDistance(int2 pixel, int2 size, int s, float3 position) {
   return distance / (1.0 + 2.0 * distance * Convexity(pixel, size, position));
 }
 
-// How much of a reflection moves with the mirrored image rather than with the surface: all of it in
-// a mirror, nothing on a rough surface. [Lagarde & de Rousiers 2014, Moving Frostbite to PBR:
-// dominant direction of a lobe]
+// Returns how much of a reflection moves with the mirrored image rather than with the surface: all
+// of it in a mirror, nothing on a rough surface. [Lagarde & de Rousiers 2014, Moving Frostbite to
+// PBR: dominant direction of a lobe]
 float ImageShare(float roughness) {
   const float smoothness = saturate(1.0 - roughness);
   return smoothness * (sqrt(smoothness) + roughness);
 }
 
-// Where the reflection that the pixel shows was: the image of what is reflected stands behind the
-// surface, and moves across it with the camera. The same surface must have been there.
+// Finds where the reflection that the pixel shows was: the image of what is reflected stands behind
+// the surface, and moves across it with the camera. The same surface must have been there.
 Past FindPastOfReflection(int2 pixel, int2 size, int s) {
   const float3 position = g_position[pixel].xyz;
   const float3 normal = guides[pixel].xyz;

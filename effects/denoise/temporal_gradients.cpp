@@ -43,7 +43,7 @@ struct PictureAt {
   const Texture* texture;
 };
 
-// What shaders of effects read of a surface besides its position.
+// The pictures of a surface that shaders of effects read besides its position.
 constexpr FrameTexture kSurfaceTextures[] = {kDepth,     kViewZ,    kNormal, kShadingNormal,
                                              kBaseColor, kMaterial, kIds};
 

@@ -58,7 +58,7 @@ class TemporalGradients {
   void record_changes(rtapi::CommandList& list, const Frame& frame) const;
   /// Records that the frame becomes the frame before.
   void record_keep(rtapi::CommandList& list, const Frame& frame);
-  /// Whether there is a frame before.
+  /// Returns whether there is a frame before.
   bool has_past() const { return has_past_; }
   /// There is none any more, as after a cut.
   void forget() { has_past_ = false; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How much a signal has changed since the previous frame, and not its noise: in each stratum of
-// 3 x 3 pixels one sample of the previous frame is taken again, of the same surface and with the
-// same random numbers. What then differs is light. [Schied et al. 2018, Gradient Estimation for
-// Real-Time Adaptive Temporal Filtering]
+// Measures how much a signal has changed since the previous frame, and not its noise: in each
+// stratum of 3 x 3 pixels one sample of the previous frame is taken again, of the same surface and
+// with the same random numbers. What then differs is light. [Schied et al. 2018, Gradient
+// Estimation for Real-Time Adaptive Temporal Filtering]
 #include "frame.hlsli"
 #include "sampling.hlsli"
 
@@ -108,7 +108,7 @@ void PickSamples(uint3 id : SV_DispatchThreadID) {
 
 float Luminance(float3 color) { return dot(color, float3(0.2126, 0.7152, 0.0722)); }
 
-// Of light that is the same the difference is exactly 0.
+// The difference is exactly 0 if the light is the same.
 float2 Gradient(float3 now, float3 before) {
   const float larger = max(Luminance(now), Luminance(before));
   const float difference = Luminance(now - before);

@@ -73,8 +73,8 @@ TEST_P(TemporalGradientsTest, OnlyWhatChangesHasGradients) {
   EXPECT_LT(mean(show.changes()), 0.01);
 }
 
-// How many frames after the change a signal needs for nine tenths of the way from `before` to
-// `after`.
+// Returns how many frames after the change a signal needs for nine tenths of the way from `before`
+// to `after`.
 template <class Value>
 int lag(Value value, double before, double after) {
   for (int frame = 1; frame <= 40; ++frame) {
@@ -174,7 +174,7 @@ TEST(TemporalGradients, AnOccluderLeavesWithoutLag) {
   std::printf("sun, frames to nine tenths: svgf %d, a-svgf %d\n", sun.svgf, sun.adaptive);
   EXPECT_LE(sun.adaptive, 2);
   EXPECT_GE(sun.svgf, 8);
-  // What changes in part is forgotten in part: only a sixth of the light is new.
+  // A signal that changes in part is forgotten in part: only a sixth of the light is new.
   const Lags ao = lags_of_occluder("ao", kAmbientOcclusionSum, 0);
   std::printf("ao, frames to nine tenths: svgf %d, a-svgf %d\n", ao.svgf, ao.adaptive);
   EXPECT_LE(ao.adaptive, ao.svgf);

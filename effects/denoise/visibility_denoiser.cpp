@@ -179,7 +179,7 @@ rtapi::Status VisibilityDenoiser::add_accumulation(const Recorder& to) {
                pictures([&](const Channel& c) -> auto& { return c.accumulated[to.parity]; }));
   add_bindings(bindings, kBlockers,
                pictures([&](const Channel& c) -> auto& { return c.blockers[to.parity]; }));
-  // What was in the way in the previous frame.
+  // These are the blockers of the previous frame.
   add_bindings(bindings, kFiltered,
                pictures([&](const Channel& c) -> auto& { return c.blockers[1 - to.parity]; }));
   if (const auto s = add(to, "ReprojectVisibility", bindings, constants_); !s) return s;

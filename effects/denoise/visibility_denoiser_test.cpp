@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What limits the filters of visibility, on signals whose penumbras are given. On both backends.
+// Tests what limits the filters of visibility, on signals whose penumbras are given. On both
+// backends.
 #include "effects/denoise/visibility_denoiser.h"
 
 #include <cstring>

@@ -23,7 +23,7 @@ struct VisibilityConstants {
 };
 ConstantBuffer<VisibilityConstants> constants : register(b0, space3);
 
-// How much signals have changed since the previous frame. [temporal_gradients.hlsl]
+// The change of signals since the previous frame. [temporal_gradients.hlsl]
 RWTexture2D<float4> changes : register(u1, space3);
 
 // Geometric normal and view depth; all zero where there is no surface.
@@ -39,8 +39,8 @@ RWTexture2D<float4> history[kMostChannels] : register(u8, space3);
 // The same where the surfaces are now, and w: whether a shadow near them moved, 0 to 1.
 RWTexture2D<float4> past[kMostChannels] : register(u12, space3);
 RWTexture2D<float4> accumulated[kMostChannels] : register(u16, space3);
-// What the neighbourhood holds. x: blocked part, y: 1 / radius times the blocked part, z: the part that is
-// blocked by what moves, or was a few frames ago.
+// Values of the neighbourhood. x: blocked part, y: 1 / radius times the blocked part, z: the part
+// that is blocked by what moves, or was a few frames ago.
 RWTexture2D<float4> blockers[kMostChannels] : register(u20, space3);
 RWTexture2D<float4> filtered[kMostChannels] : register(u24, space3);
 
@@ -63,7 +63,7 @@ void PrepareVisibilityGuides(uint3 id : SV_DispatchThreadID) {
   const int2 pixel = int2(id.xy);
   if (!IsInside(pixel, SizeOf(guides))) return;
   const float z = g_view_z[pixel];
-  // Where light comes from does not depend on a normal map.
+  // The direction that light comes from does not depend on a normal map.
   const float4 guide = float4(OctahedralDecode(g_normal[pixel]), z);
   const bool is_finite = all(isfinite(guide)) && all(isfinite(g_position[pixel]));
   guides[pixel] = z > 0.0 && is_finite ? guide : float4(0, 0, 0, 0);
@@ -176,7 +176,7 @@ float PenumbraRadius(int s, int2 pixel, float footprint, float otherwise) {
   return min(blocked.x / (blocked.y * footprint), kWidest);
 }
 
-// Where a pixel's surface was in the previous frame.
+// The place of a pixel's surface in the previous frame.
 struct Before {
   int2 corner;        // of the four pixels around it
   float2 part;        // of a pixel, from there
@@ -300,10 +300,10 @@ void ReprojectVisibility(uint3 id : SV_DispatchThreadID) {
   }
 }
 
-// How much of the history is outdated, 0 to 1: whether new and old visibility differ by more than
-// noise explains, in the mean of 7 x 7 pixels. Where something moves, in the mean over a penumbra,
-// which for sharp shadows is the pixel alone. Differences pixel by pixel hold no structure of the
-// picture, so a shadow that stays where it is does not count.
+// OutdatedPart returns how much of the history is outdated, 0 to 1: whether new and old visibility
+// differ by more than noise explains, in the mean of 7 x 7 pixels. Where something moves, in the
+// mean over a penumbra, which for sharp shadows is the pixel alone. Differences pixel by pixel hold
+// no structure of the picture, so a shadow that stays where it is does not count.
 static const float kClipOfMoving = 0.15;
 
 float OutdatedPart(int s, int2 pixel, int2 size, Surface surface, float radius) {
@@ -333,8 +333,8 @@ float OutdatedPart(int s, int2 pixel, int2 size, Surface surface, float radius) 
   const float pixels = weights * weights / squared_weights;
   const float before = before_sum / weights;
   const float now = now_sum / weights;
-  // What few rays have seen is not certain; but the narrower the penumbra, the more pixels are
-  // either lit or dark. A beta distribution says so before the first ray.
+  // Visibility that few rays have seen is not certain; but the narrower the penumbra, the more
+  // pixels are either lit or dark. A beta distribution says so before the first ray.
   const float prior = moves ? clamp(0.25 * radius * radius, 0.01, 0.5) : 0.5;
   const float rays = pixels * frames;
   const float p = (before * rays + prior) / (rays + 2.0 * prior);

@@ -51,7 +51,7 @@ class SunFilter {
   VisibilityDenoiser denoiser_;
 };
 
-// What the sun's visibility converges to in the current frame.
+// Returns what the sun's visibility converges to in the current frame.
 FloatImage converged(SequenceStage& stage) {
   constexpr std::uint32_t kSamples = 256;
   stage.run([&](rtapi::CommandList& list) {

@@ -29,7 +29,7 @@ struct HostBsdf {
   }
   double f0() const { return 0.04 + (base - 0.04) * metallic; }
   double diffuse() const { return (1 - metallic) * base * (1 - albedo); }
-  // What it reflects of even light.
+  // Returns the part of even light that it reflects.
   double total_albedo() const { return albedo + diffuse(); }
 
   static double lambda(double alpha, const glm::dvec3& v) {

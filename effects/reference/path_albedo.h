@@ -17,10 +17,10 @@ inline constexpr std::uint32_t kAlbedoRoughnesses = 32;
 /// Up to this roughness a surface is a mirror, which needs no table.
 inline constexpr float kPathMirrorRoughness = 0.03f;
 
-/// What a GGX lobe reflects of even light is f0 * x + y: single scattering, Smith's
-/// height-correlated shadowing, Schlick's Fresnel term. `cosine`: of the view, above 0;
-/// `roughness`: perceptual, above kPathMirrorRoughness. `steps`: along each of two axes of the
-/// quadrature.
+/// Returns x and y of the part f0 * x + y of even light that a GGX lobe reflects: single
+/// scattering, Smith's height-correlated shadowing, Schlick's Fresnel term. `cosine`: of the view,
+/// above 0; `roughness`: perceptual, above kPathMirrorRoughness. `steps`: along each of two axes of
+/// the quadrature.
 glm::dvec2 specular_parts(double roughness, double cosine, std::uint32_t steps = 32);
 
 /// The same for all: rows by the square root of the roughness's place between kPathMirrorRoughness

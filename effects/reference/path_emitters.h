@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the reference samples as lights besides the sun and lamps: emissive triangles, and the sky
-/// by bands of height.
+/// The emitters that the reference samples as lights besides the sun and lamps: emissive triangles,
+/// and the sky by bands of height.
 #pragma once
 
 #include <cstdint>

@@ -9,12 +9,12 @@
 // Panes behind one another that a path walks through.
 static const uint kMaxPanes = 64;
 
-// What the first surface of a path is to the camera.
+// The first surface of a path, as the camera sees it.
 static const uint kAsSolid = 0;     // what each lamp gives is a layer
 static const uint kAsPane = 1;      // its mirror image is a path of its own
 static const uint kAsMirrored = 2;  // seen in a pane
 
-// What a path meets of the panes in front of a surface.
+// The result of a path's walk through the panes in front of a surface.
 struct GlassStart {
   float3 through;    // of the light behind all panes; 0 if the path stays at one
   float3 weight;     // of the light that it finds where it stays

@@ -86,8 +86,8 @@ LightRay SampleSunDisk(float2 u) {
   return ray;
 }
 
-// What a sampled ray that leaves the scene sees of the sun; x: radiance of each colour. `density`:
-// of SampleSunDisk.
+// Returns the radiance of each colour that a sampled ray that leaves the scene sees of the sun.
+// `density`: of SampleSunDisk.
 float3 SunTowards(float3 direction, out float density) {
   const float sine_squared = SunSineSquared();
   density = 0.0f;
@@ -168,8 +168,8 @@ float3 LampTowards(LightConstants lamp, float3 position, float3 direction, float
   return seen.irradiance / (kPathPi * seen.sine_squared);
 }
 
-// How likely a lamp is chosen at a point, relative to the others: its irradiance there, with the
-// largest cosine that a point of its sphere can have.
+// Returns how likely a lamp is chosen at a point, relative to the others: its irradiance there,
+// with the largest cosine that a point of its sphere can have.
 float LampWeight(SeenLamp seen, float3 normal) {
   return Brightness(seen.irradiance) * max(dot(normal, seen.axis) + sqrt(seen.sine_squared), 0.0f);
 }

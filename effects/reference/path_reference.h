@@ -18,7 +18,7 @@
 
 namespace kaamos::effects {
 
-/// What the reference is of.
+/// Describes a reference.
 struct PathReferenceDesc {
   std::uint32_t width = 320;         ///< pixels, 1 to 16384
   std::uint32_t height = 180;        ///< pixels, 1 to 16384
@@ -58,7 +58,7 @@ class PathReference {
   /// Sets the sums of bands that another part traces to zero.
   void keep_own_bands();
 
-  /// What is done; loading puts sums there.
+  /// The sums of what is done; loading puts sums there.
   ///@{
   PathSums& sums() { return sums_; }
   const PathSums& sums() const { return sums_; }
@@ -67,7 +67,7 @@ class PathReference {
   std::uint32_t samples() const { return sums_.samples[0] + sums_.samples[1]; }
   /// Rays traced so far, shadow rays included.
   std::uint64_t rays() const { return rays_; }
-  /// Where it is rendered.
+  /// The device on which it is rendered.
   const rtapi::Device& device() const { return renderer_->device(); }
 
  private:

@@ -51,7 +51,7 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// What in the header does not fit what is wanted; empty: all fits.
+// Returns what in the header does not fit what is wanted; empty: all fits.
 std::string misfit(const Header& header, const PathSums& wanted) {
   if (header.width != wanted.width || header.height != wanted.height) {
     return "it holds a picture of " + size_text(header.width, header.height) + ", not of " +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the reference has found so far: sums over samples in two independent halves, which tell its
+/// The results of a reference so far: sums over samples in two independent halves, which tell its
 /// error, and can be saved and gone on with.
 #pragma once
 
@@ -29,7 +29,7 @@ struct PathSums {
 
   std::uint32_t width = 0;   ///< pixels
   std::uint32_t height = 0;  ///< pixels
-  /// Of what is rendered: the scene, the camera, the options that change the picture.
+  /// Fingerprint of what is rendered: the scene, the camera, the options that change the picture.
   std::uint64_t fingerprint = 0;
   std::uint32_t seed = 0;                                ///< of the first half
   std::array<std::uint32_t, kPathHalves> samples{0, 0};  ///< of each pixel, in each half

@@ -18,14 +18,15 @@
 
 namespace kaamos::effects {
 
-/// How light is found. The second and third are for tests and for teaching: their mean is the same.
+/// The way light is found. The second and third are for tests and for teaching: their mean is the
+/// same.
 enum class PathWays : std::uint32_t {
   kBoth,            ///< by sampling lights and directions, weighted by the balance heuristic
   kLightsOnly,      ///< by sampling lights; directions find what cannot be sampled
   kDirectionsOnly,  ///< by sampling directions; lights without an extent are sampled all the same
 };
 
-/// What paths may do.
+/// Describes what paths may do.
 struct PathTracerDesc {
   /// Bounces of a path after the surface that the camera sees; kUnlimitedBounces: as long as
   /// Russian roulette lets it go on.

@@ -17,7 +17,8 @@ RWTexture2D<float4> path_first : register(u5, space3);       // the part of it w
 RWTexture2D<float4> path_reflection : register(u6, space3);  // specular lobe, all other light
 RWTexture2D<float4> path_glass : register(u7, space3);       // of glass in front; a: transmittance
 RWTexture2D<float4> path_visibility : register(u8, space3);  // ambient, sun
-// What each lobe of the surface in view reflects of even light; black where the sky is seen.
+// The part of even light that each lobe of the surface in view reflects; black where the sky is
+// seen.
 RWTexture2D<float4> path_diffuse_albedo : register(u9, space3);
 RWTexture2D<float4> path_specular_albedo : register(u10, space3);
 // Radiance of each lamp and its visibility, picture by picture. Empty with more than
@@ -58,7 +59,7 @@ float DirectionShare(float density, float other) {
   return ShareOf(density, other);
 }
 
-// What a path brings to the camera.
+// The light that a path brings to the camera.
 struct PathLight {
   float3 all;
   float3 sun;
@@ -137,7 +138,7 @@ LightRay SampleOneLamp(Vertex vertex, float total, float choice, float2 u) {
 
 bool HasEachLamp() { return frame.light_count <= constants.lamps_apart; }
 
-// Where a path goes on, and what it needs to know about the vertex that it left.
+// The next segment of a path, and what it needs to know about the vertex that it left.
 struct Segment {
   float3 direction;
   float density;      // of the direction; 0: a mirror's
@@ -167,8 +168,8 @@ float3 LampsAlong(Segment segment, float length) {
   return sum;
 }
 
-// What a segment finds at its end, weighted against what sampling lights finds there. Lights that
-// are no surfaces, the sun and lamps, are apart: no mirror and no camera sees them.
+// The light that a segment finds at its end, weighted against what sampling lights finds there.
+// Lights that are no surfaces, the sun and lamps, are apart: no mirror and no camera sees them.
 struct Found {
   float3 sky_or_emission;
   float3 sun;
@@ -337,7 +338,7 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_a
   return light;
 }
 
-// Whether a direction about the shading normal is free up to the radius of ambient occlusion.
+// Tells whether a direction about the shading normal is free up to the radius of ambient occlusion.
 float AmbientVisibility(PathSampler sampler, PathHit hit) {
   if (!(constants.occlusion_radius > 0.0)) return 1.0;
   const float2 u = PathRandom(sampler, kPairOcclusion);

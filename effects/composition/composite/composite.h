@@ -8,8 +8,8 @@
 
 namespace kaamos::effects {
 
-/// How many samples the sums hold; 0: the effect was not rendered, everything counts as open
-/// (ambient occlusion) or there is no sun.
+/// The number of samples that each sum holds; 0: the effect was not rendered, everything counts as
+/// open (ambient occlusion) or there is no sun.
 struct CompositeConstants {
   std::uint32_t ao_samples = 0;   ///< per pixel, of kAmbientOcclusionSum
   std::uint32_t sun_samples = 0;  ///< per pixel, of kSunVisibilitySum

@@ -27,8 +27,8 @@ static_assert(sizeof(TaaConstants) == 16);
 /// Frames after which taa_jitter begins anew.
 inline constexpr std::uint32_t kTaaJitterPeriod = 16;
 
-/// Where in its pixels frame `index` looks through: pixels from their middle, within half a pixel.
-/// Points of the Halton sequence to bases 2 and 3. [Halton 1960]
+/// Returns where in its pixels frame `index` looks through: pixels from their middle, within half a
+/// pixel. These are points of the Halton sequence to bases 2 and 3. [Halton 1960]
 glm::vec2 taa_jitter(std::uint32_t index);
 
 /// The shaders that are built into the program.

@@ -76,8 +76,9 @@ Neighbourhood LookAround(int2 pixel, int2 size) {
   return n;
 }
 
-// Where the pixel's surface was in the previous frame: offset in pixels, and its depth then. At a
-// silhouette it is the nearest surface in 3 x 3 pixels, so that the edge stays smooth in motion.
+// The place of the pixel's surface in the previous frame: offset in pixels, and its depth then. At
+// a silhouette it is that of the nearest surface in 3 x 3 pixels, so that the edge stays smooth in
+// motion.
 struct Source {
   float2 offset;
   float view_z;  // kFar: sky
@@ -116,9 +117,9 @@ Source FindSource(int2 pixel, int2 size) {
   return source;
 }
 
-// Whether the pixel showed something in front of the surface that has moved away since. A thing
-// that moves with the surface is still there; it may be too thin for the rays of every frame to hit
-// it.
+// Tells whether the pixel showed something in front of the surface that has moved away since. A
+// thing that moves with the surface is still there; it may be too thin for the rays of every frame
+// to hit it.
 bool WasHidden(int2 pixel, Source source) {
   const float4 before = previous_surface[pixel];
   if (before.z == 0.0 || before.z >= source.view_z * (1.0 - taa.depth_tolerance)) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What static pictures converge to, what moving ones leave behind, and broken input.
+// Tests what static pictures converge to, what moving ones leave behind, and broken input.
 #include "effects/composition/taa/taa.h"
 
 #include <gtest/gtest.h>
