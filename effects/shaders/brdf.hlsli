@@ -75,8 +75,8 @@ float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
   return f0 * split.x + split.y;
 }
 
-// What a reflection is divided by before a filter, and multiplied by afterwards: the specular
-// albedo, but never so little that the quotient overflows.
+// Returns what a reflection is divided by before a filter, and multiplied by afterwards: the
+// specular albedo, but never so little that the quotient overflows.
 float3 ReflectionScale(float3 specular_albedo) {
   return max(specular_albedo, float3(0.001f, 0.001f, 0.001f));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How values are stored in the frame's pictures.
+// This file holds the ways in which values are stored in the frame's pictures.
 #ifndef KAAMOS_ENCODING_HLSLI
 #define KAAMOS_ENCODING_HLSLI
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the shaders of every effect can reach: one global root table for all of them, plus the
-// arguments of hit group records. effects/engine/frame.h has the same layout for the host.
-// [Northlight deck: Root Tables]
+// This file holds what the shaders of every effect can reach: one global root table for all of
+// them, plus the arguments of hit group records. effects/engine/frame.h has the same layout for the
+// host. [Northlight deck: Root Tables]
 #ifndef KAAMOS_FRAME_HLSLI
 #define KAAMOS_FRAME_HLSLI
 
@@ -60,7 +60,7 @@ struct PassConstants {
   uint pixel_offset;  // which pixel of the 2 x 2: bit 0 to the right, bit 1 below
 };
 
-// Where an instance was in the previous frame. [effects/engine/gpu_scene.h]
+// The place of an instance in the previous frame. [effects/engine/gpu_scene.h]
 struct PreviousInstance {
   float4 rows[3];  // object to world, relative to the camera, both of the previous frame
   uint flags;      // 0: nothing moved
@@ -107,12 +107,12 @@ RWTexture2D<float> ambient_occlusion_sum : register(u9);
 RWTexture2D<float> sun_visibility_sum : register(u10);
 RWTexture2D<float4> radiance : register(u11);
 
-// Where the pixel's surface was in the previous frame: xy is the offset from here in picture widths
-// and heights, z the change of its view depth in metres. Without jitter.
+// The place of the pixel's surface in the previous frame: xy is the offset from here in picture
+// widths and heights, z the change of its view depth in metres. Without jitter.
 RWTexture2D<float4> g_motion : register(u12);
 
-// Of the samples that do not see the sun, summed up: 1 / radius of their penumbra, 1/m, in x, and
-// how many were blocked by what moves in z.
+// Sums over the samples that do not see the sun: 1 / radius of their penumbra, 1/m, in x, and how
+// many were blocked by what moves in z.
 RWTexture2D<float4> sun_sharpness_sum : register(u13);
 
 // The key that each pixel's ray is sorted by. [effects/surfaces/ray_order]
@@ -127,8 +127,8 @@ static const uint kRayTypeSurface = 0;
 static const uint kRayTypeVisibility = 1;
 static const uint kRayTypeCount = 2;
 
-// What the camera and mirrors see: everything but glass (bit 1). The transparency effect handles
-// glass; all others look through it. [effects/assets/scene/scene.h: InstanceMask]
+// The camera and mirrors see everything but glass (bit 1). The transparency effect handles glass;
+// all others look through it. [effects/assets/scene/scene.h: InstanceMask]
 static const uint kMaskSolid = 0xFD;
 // The same without the shapes of lamps (bit 4), for all other rays. A lamp is met as a light or by
 // its shape: a ray that hit the shape as well would count its light twice, or shadow it by itself.
@@ -152,7 +152,7 @@ float3 Contain(float3 x, float largest) {
 static const uint kAmbientOcclusionPair = 0;
 static const uint kSunPair = 1;
 
-// What a ray in that direction sees if it leaves the scene.
+// Returns what a ray in that direction sees if it leaves the scene.
 float3 SkyTowards(float3 direction) {
   return SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
 }
@@ -168,7 +168,7 @@ float2 PictureUv(float3 position, float3 right, float over_right, float3 up, flo
   return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
 }
 
-// Where the previous camera saw a point, given relative to that camera.
+// Returns where the previous camera saw a point, given relative to that camera.
 float2 PreviousPictureUv(float3 position, out float view_z) {
   return PictureUv(position, frame.previous_right, frame.over_previous_right, frame.previous_up,
                    frame.over_previous_up, frame.previous_forward, view_z);

@@ -72,8 +72,8 @@ float RadianceLuminance(float3 radiance) {
   return dot(radiance, float3(0.2126, 0.7152, 0.0722));
 }
 
-// Where a direction from the light falls on its shadow map, 0..1. A spot's map covers its cone in
-// perspective, a point light's covers all directions as an octahedron.
+// Returns where a direction from the light falls on its shadow map, 0..1. A spot's map covers its
+// cone in perspective, a point light's covers all directions as an octahedron.
 float2 ShadowMapUv(LightConstants light, float3 direction, float distance) {
   if (light.is_spot == 0) {
     return OctahedralEncode(direction) * 0.5 + 0.5;
@@ -96,10 +96,10 @@ uint2 ShadowTileOrigin(uint light) {
   return uint2(light % kShadowTilesPerRow, light / kShadowTilesPerRow) * kShadowTile;
 }
 
-// Whether a point, given relative to the light, lies behind what a texel saw. The test compares
-// planes instead of distances: on a wall seen at a slant the distance changes a lot within a texel
-// but the plane does not, so no wall shadows itself or its neighbour in a corner. A plane is valid
-// only near its texel, so its distance is kept within a factor of two of the one stored.
+// Tells whether a point, given relative to the light, lies behind what a texel saw. The test
+// compares planes instead of distances: on a wall seen at a slant the distance changes a lot within
+// a texel but the plane does not, so no wall shadows itself or its neighbour in a corner. A plane
+// is valid only near its texel, so its distance is kept within a factor of two of the one stored.
 bool IsBehind(float4 occluder, float3 from_light, float receiver, float tolerance) {
   const float ratio = receiver * occluder.w;
   const float along = clamp(dot(occluder.xyz, from_light), 0.5 * ratio, 2.0 * ratio);
@@ -130,7 +130,7 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
   return visible;
 }
 
-// Whether the sun's map covers a point.
+// Tells whether the sun's map covers a point.
 bool IsInSunMap(float3 position) {
   const float3 p = position - frame.sun_map_centre;
   return frame.sun_map_size != 0 &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How every effect shades its hits, either with the full material or as a matte surface: emission,
+// Shades the hits of every effect, either with the full material or as a matte surface: emission,
 // local lights with shadow maps, and the sun by a shadow ray, because maps for what the camera sees
 // do not cover what it cannot see, or by the map of the whole scene. Indirect light is added
 // elsewhere. [Northlight deck: Reflections, unified shading model]
@@ -10,12 +10,13 @@
 #include "surface.hlsli"
 #include "visibility.hlsli"
 
-// Whether hits are lit by the sun, and how its shadows are found.
+// These say whether hits are lit by the sun, and how its shadows are found.
 static const uint kNoSunAtHits = 0;
 static const uint kSunAtHitsByRay = 1;  // to the sun's centre
 static const uint kSunAtHitsByMap = 2;  // and by a ray where the frame has no map, or beside it
 
-// Whether the sun's centre is visible from a point of a surface; `origin` is where rays start.
+// Tells whether the sun's centre is visible from a point of a surface; `origin` is where rays
+// start.
 float SunVisibility(uint sun, float3 position, float3 normal, float3 origin) {
   if (sun == kSunAtHitsByMap && IsInSunMap(position)) return SunMapVisibility(position, normal);
   return TraceVisibility(origin, frame.direction_to_sun, kSunDistance);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a local light reaches, for culling.
+// Finds what a local light reaches, for culling.
 #ifndef KAAMOS_LIGHT_REACH_HLSLI
 #define KAAMOS_LIGHT_REACH_HLSLI
 
@@ -35,8 +35,8 @@ Sphere SafeReachOf(LightConstants light) {
   return reach;
 }
 
-// Whether the sphere reaches into what the camera sees: the pyramid of its picture, without an end.
-// A little wider, for the jitter of rays within their pixels.
+// Tells whether the sphere reaches into what the camera sees: the pyramid of its picture, without
+// an end. It is a little wider, for the jitter of rays within their pixels.
 bool ReachesPicture(Sphere reach) {
   const float x = dot(reach.center, frame.camera_right) * frame.over_right;
   const float y = dot(reach.center, frame.camera_up) * frame.over_up;

@@ -31,7 +31,7 @@ struct LightSample {
   float3 irradiance;   // on a surface that faces the light
 };
 
-// What a spot's projection map lets through towards a unit direction from the light.
+// Returns what a spot's projection map lets through towards a unit direction from the light.
 float3 ProjectionTowards(LightConstants light, float3 direction) {
   const float along = max(dot(direction, light.direction), 1e-6f);
   const float2 at = float2(dot(direction, light.map_right), dot(direction, light.map_up)) / along;

@@ -46,7 +46,8 @@ float2 MaterialUv(MaterialConstants material, uint slot, float2 uv) {
   return float2(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y) + material.uv_offset[slot];
 }
 
-// What an any-hit shader asks: `texture_alpha` is 1 where the material has no base colour texture.
+// Tells an any-hit shader whether there is a hole: `texture_alpha` is 1 where the material has no
+// base colour texture.
 bool IsOpen(MaterialConstants material, float texture_alpha) {
   return (material.flags & kMaterialAlphaTested) != 0u &&
          material.base_color.w * texture_alpha < material.alpha_cutoff;

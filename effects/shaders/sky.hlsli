@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a ray sees that leaves the scene. Mirrors sky_radiance in effects/assets/scene/scene.h.
+// Computes what a ray sees that leaves the scene. Mirrors sky_radiance in
+// effects/assets/scene/scene.h.
 #ifndef KAAMOS_SKY_HLSLI
 #define KAAMOS_SKY_HLSLI
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is known about the surface at a point of a triangle: one that a ray hit, or one that a pixel
-// of a visibility buffer shows. G-buffer, reflections and indirect light all read it here.
+// Loads what is known about the surface at a point of a triangle: one that a ray hit, or one that a
+// pixel of a visibility buffer shows. G-buffer, reflections and indirect light all read it here.
 #ifndef KAAMOS_SURFACE_HLSLI
 #define KAAMOS_SURFACE_HLSLI
 
@@ -102,7 +102,7 @@ HitPoint LoadHitPoint(ByteAddressBuffer vertices, ByteAddressBuffer indices, Tri
   return found;
 }
 
-// Where to read textures at a hit, and at which level of detail.
+// The place where textures are read at a hit, and the level of detail.
 struct HitTexel {
   float2 uv;
   float level;
@@ -176,8 +176,8 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   return LoadSurface(vertices, indices, RayHit(barycentrics), cone_width);
 }
 
-// What a diffuse ray's closest-hit shader needs: a colour that is the same from all directions.
-// Metals count as matte too, so they spread the light that they would mirror.
+// The surface that a diffuse ray's closest-hit shader needs: a colour that is the same from all
+// directions. Metals count as matte too, so they spread the light that they would mirror.
 struct MatteSurface {
   float3 position;  // as in Surface
   float offset;
@@ -206,7 +206,7 @@ MatteSurface LoadMatteSurface(float2 barycentrics, float cone_width) {
   return surface;
 }
 
-// Where a ray towards `direction` starts: on that side of the surface.
+// Returns where a ray towards `direction` starts: on that side of the surface.
 float3 SurfaceOrigin(Surface surface, float3 direction) {
   const float side = dot(surface.normal, direction) >= 0.0 ? 1.0 : -1.0;
   return surface.position + surface.normal * (side * surface.offset);

@@ -32,7 +32,7 @@ float3 ViewPosition(int2 pixel, float view_z, int2 size) {
   return float3(SlopeAt(float2(pixel) + 0.5, size) * view_z, view_z);
 }
 
-// Where a point before the camera stands in the picture, in pixels.
+// Returns where a point before the camera stands in the picture, in pixels.
 float2 PlaceOf(float3 position, int2 size) {
   return 0.5 * float2(size) - frame.jitter + position.xy / position.z * PixelsPerSlope(size);
 }
@@ -50,7 +50,7 @@ float3 ViewNormal(float2 encoded, float3 to_camera) {
   return dot(normal, normal) > 0.5 ? normal : to_camera;
 }
 
-// How many pixels a point moves in the picture if it goes one metre along `direction`.
+// Returns how many pixels a point moves in the picture if it goes one metre along `direction`.
 float2 PixelsPerMetre(float3 position, float3 direction, int2 size) {
   const float2 slope = (direction.xy * position.z - position.xy * direction.z) /
                        (position.z * position.z);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the first reflection ray of each pixel hits: one closest-hit shader per view.
+// Shows what the first reflection ray of each pixel hits: one closest-hit shader per view.
 #include "../reflections/traced/reflection_ray.hlsli"
 #include "hit_indirect.hlsli"
 
@@ -40,8 +40,8 @@ void HitAlbedo(inout ViewPayload payload, in BuiltInTriangleIntersectionAttribut
   payload.distance = RayTCurrent();
 }
 
-// What a white matte surface would reflect there: local lights, the sun by a shadow ray, and the
-// volume of indirect light.
+// Computes what a white matte surface would reflect there: local lights, the sun by a shadow ray,
+// and the volume of indirect light.
 [shader("closesthit")]
 void HitLighting(inout ViewPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   MatteSurface surface = LoadMatteSurface(hit.barycentrics, ConeWidth());

@@ -26,7 +26,7 @@ Scene make_wall_behind_mirror() {
   return scene;
 }
 
-// Where the ray of a pixel of the mirror meets the wall.
+// The place where the ray of a pixel of the mirror meets the wall.
 struct Meeting {
   bool is_mirror = false;  // the pixel shows the floor
   bool is_sure = false;    // not so close to the wall's edge that rounding decides

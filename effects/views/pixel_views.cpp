@@ -72,7 +72,8 @@ rtapi::Result<FloatImage> run_over(FrameRenderer& renderer, const std::string& k
   return view.run(kernel);
 }
 
-// What the denoiser remembers of a signal: `of_light` over its moments, or `of_visibility`.
+// Shows what the denoiser remembers of a signal: runs `of_light` over its moments, or
+// `of_visibility`.
 rtapi::Result<FloatImage> run_over_memory(FrameRenderer& renderer, const std::string& name,
                                           const std::string& of_light,
                                           const std::string& of_visibility) {
@@ -87,7 +88,8 @@ rtapi::Result<FloatImage> run_over_memory(FrameRenderer& renderer, const std::st
   return view.run(is_light ? of_light : of_visibility, signal.samples);
 }
 
-// Where an instance is, and of which shape: the corners of the box about its mesh in its own space.
+// Adds the corners of the box about an instance's mesh in its own space: they tell where the
+// instance is, and of which shape.
 void add_box(const Scene& scene, std::size_t index, const InstanceState& state,
              const glm::dvec3& origin, std::vector<glm::vec4>& corners) {
   const std::uint32_t mesh_index =

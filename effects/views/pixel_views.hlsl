@@ -5,8 +5,8 @@
 #include "indirect_volume.hlsli"
 
 RWTexture2D<float4> numbers : register(u0, space3);
-// Of the denoiser of light: first and second moment of the luminance, frames of history, instance.
-// Of that of visibility: visibility over time, frames of history.
+// The memory of the denoiser of light: first and second moment of the luminance, frames of history,
+// instance. That of visibility: visibility over time, frames of history.
 RWTexture2D<float4> moments : register(u1, space3);
 // By instance: which bottom level it stands on, + 1.
 StructuredBuffer<uint> bottom_levels : register(t3, space3);
@@ -172,8 +172,9 @@ void VisibilityHistory(uint3 id : SV_DispatchThreadID) {
   numbers[id.xy] = float4(frames, 0, 0, 0);
 }
 
-// Where a surface reads the volume: the level (-1: nothing is stored there), the cell's place among
-// all cells, the size of cells in metres, and 1 if the cell lies in a solid. [VolumeIrradianceAt]
+// Finds where a surface reads the volume: the level (-1: nothing is stored there), the cell's place
+// among all cells, the size of cells in metres, and 1 if the cell lies in a solid.
+// [VolumeIrradianceAt]
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void VolumeCells(uint3 id : SV_DispatchThreadID) {

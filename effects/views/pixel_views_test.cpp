@@ -23,7 +23,7 @@ void for_each_pixel(Check check) {
   }
 }
 
-// Where the camera sees a point, pixels.
+// Returns where the camera sees a point, pixels.
 glm::dvec2 project(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 p(glm::inverse(camera.camera_to_world) * glm::dvec4(point, 1));
   const double scale = 0.5 * kViewHeight / std::tan(0.5 * camera.vertical_fov) / -p.z;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What each view looks at: a pass over a finished frame, whose numbers come back as 4 channels.
-/// The shaders tell what they are.
+/// The passes of the views, each over a finished frame, whose numbers come back as 4 channels. The
+/// shaders tell what they are.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -22,9 +22,9 @@ rtapi::Result<rtapi::ShaderLibrary> pixel_views_library();
 
 // Each takes a renderer that has rendered a frame with what ViewNeeds name. [views.h]
 //
-// Where the first reflection ray of each pixel hits, of hit_views.hlsl; the fourth channel is the
-// distance in metres (-1: it hits nothing, 0: there is no ray). Rays are as long as those of the
-// frame's reflections.
+// The views of hit_views.hlsl show where the first reflection ray of each pixel hits; the fourth
+// channel is the distance in metres (-1: it hits nothing, 0: there is no ray). Rays are as long as
+// those of the frame's reflections.
 
 /// Texture coordinates of hits.
 /// @errors those of the device and of RayPass::create.
@@ -36,7 +36,8 @@ rtapi::Result<FloatImage> view_hit_albedo(FrameRenderer& renderer);
 /// @errors those of the device and of RayPass::create.
 rtapi::Result<FloatImage> view_hit_lighting(FrameRenderer& renderer);
 
-// What the frame holds for each pixel, of pixel_views.hlsl. `signal`: one of remembered_signals.
+// The views of pixel_views.hlsl show what the frame holds for each pixel. `signal`: one of
+// remembered_signals.
 
 /// Bottom level, instance, primitive, and whether the edge of an instance's box is there.
 /// @errors those of the device and of ComputePass::create.

@@ -16,7 +16,7 @@
 
 namespace kaamos::effects {
 
-/// What a frame must have for a view.
+/// Requirements that a frame must meet for a view.
 struct ViewNeeds {
   bool whole_frame = false;  ///< FrameSettings::whole_frame: lists of lights
   bool volume = false;       ///< an effect that reads the volume of indirect light
@@ -55,7 +55,7 @@ Result<const View*> find_view(const std::string& name);
 
 /// Signals of a renderer's frames whose denoiser keeps something from frame to frame.
 std::vector<std::string> remembered_signals(const FrameRenderer& renderer);
-/// Whether the renderer's frames have what a view looks at; it need not have rendered one.
+/// Checks whether the renderer's frames have what a view looks at; it need not have rendered one.
 /// @errors KA3081 they lack it; KA3082 `signal` is not among remembered_signals.
 Status check_view(const View& view, const FrameRenderer& renderer, const std::string& signal);
 /// View::numbers of the renderer's last frame.
