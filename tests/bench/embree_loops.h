@@ -15,7 +15,7 @@
 
 namespace kaamos::bench {
 
-// What the shaders write; the layouts are those of bench.hlsl. A miss has t = -1.
+// The results that the shaders write; the layouts are those of bench.hlsl. A miss has t = -1.
 struct ClosestResult {
   float t;
   uint32_t primitive;
@@ -82,7 +82,7 @@ class EmbreeScene {
   double paths(tbb::task_arena& arena, const RayGrid& primary, uint32_t samples,
                const PathScene& paths, double& lit) const;
 
-  // What the filter needs.
+  // The data that the filter needs.
   struct GeometryUse {
     const EmbreeScene* scene;
     const MeshData* mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What several cases need; each part is made on first use.
+// The objects that several cases need; each is made on first use.
 #pragma once
 
 #include <tbb/task_arena.h>

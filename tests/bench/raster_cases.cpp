@@ -15,7 +15,7 @@
 namespace kaamos::bench {
 namespace {
 
-// What is drawn, and the size of its targets.
+// The pass that is drawn, how often, and the size of its targets.
 struct RasterJob {
   RasterPass pass;
   uint32_t width, height;

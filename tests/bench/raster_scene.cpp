@@ -118,7 +118,7 @@ T read(const std::vector<std::byte>& texels, size_t number) {
   return value;
 }
 
-// Whether all colours of the pixel are the same but for rounding.
+// Tells whether all colours of the pixel are the same but for rounding.
 bool same_colors(const RasterPictures& a, const RasterPictures& b, size_t pixel) {
   for (const uint32_t target : {0u, 2u}) {
     for (size_t i = 4 * pixel; i < 4 * pixel + 4; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What raster/... draws, the same for Kaamos and for the baseline, and what both must leave in
-// their targets.
+// The scene that raster/... draws, the same for Kaamos and for the baseline, and what both must
+// leave in their targets.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,8 @@ RasterScene make_raster_scene(RasterPass pass, uint32_t width, uint32_t height, 
 RasterScene make_raster_scene(const SceneData& data, uint32_t width, uint32_t height);
 inline constexpr float kRasterNear = 0.1f;  // of reversed depth: z of the view is this over depth
 
-// What a pass leaves. Texels as in memory: RGBA8 sRGB, RGBA16F, RGBA8, RG16F, R32_UINT.
+// The pictures that a pass leaves. Texels as in memory: RGBA8 sRGB, RGBA16F, RGBA8, RG16F,
+// R32_UINT.
 struct RasterPictures {
   std::vector<float> depth;
   std::vector<std::vector<std::byte>> colors;

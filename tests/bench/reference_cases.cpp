@@ -128,7 +128,7 @@ double ranked_seconds(const Options& options, int ranks) {
   return std::strtod(out.c_str() + at + 18, nullptr);
 }
 
-// How much of twice one rank's speed two ranks reach.
+// Measures how much of twice one rank's speed two ranks reach.
 Line ranks(Fixtures& fixtures, const Measure& measure) {
   const Options& options = fixtures.options();
   const Pairs times = run_pairs(

@@ -53,7 +53,7 @@ float lerp(float a, float b, float t) {
 
 }  // namespace
 
-// What a pixel's edge-stopping weights need to know about its surface.
+// The data of a pixel's surface that its edge-stopping weights need.
 struct ScalarSvgf::Center {
   Float4 guide;  // normal, view depth
   float gradient[2];

@@ -45,7 +45,7 @@ struct SceneData {
 
 SceneData make_scene_data();
 
-// What a hit shader looks up. The layout is that of bench.hlsl.
+// The data that a hit shader looks up. The layout is that of bench.hlsl.
 struct MaterialData {
   float base_color[4];
   float alpha_cutoff;
@@ -57,7 +57,7 @@ enum class RaySet { kPrimary, kSun, kAmbientOcclusion, kGgx, kDiffuse };
 inline constexpr RaySet kRaySets[] = {RaySet::kPrimary, RaySet::kSun, RaySet::kAmbientOcclusion,
                                       RaySet::kGgx, RaySet::kDiffuse};
 const char* name_of(RaySet set);  // "primary", "sun", "ao", "ggx", "diffuse"
-// Whether the rays only ask if there is a hit.
+// Returns whether the rays only ask if there is a hit.
 bool is_visibility(RaySet set);
 
 // A surface point seen by the camera.

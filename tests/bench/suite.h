@@ -46,7 +46,7 @@ struct Line {
 // name, value, ours, baseline, unit, higher or lower, separated by tabs; without a newline.
 std::string format_line(const Line& line);
 
-// What the cases share and only some of them need; made on first use.
+// The objects that the cases share and only some of them need; made on first use.
 class Fixtures;
 
 bool has_vulkan();  // vulkan_cases.cpp: whether there is a Vulkan device

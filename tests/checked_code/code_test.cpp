@@ -241,7 +241,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   std::vector<std::string> messages_;
   std::vector<std::string> told_before_;  // messages from creating the pipeline
   Status status_;
-  // What tests break.
+  // Values that tests break.
   uint64_t leaf_address_ = 0;
   uint64_t vertices_address_ = 0;
   uint32_t table_slot_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What draws read: vertices, indices, root arguments, indirect arguments.
+// Tests the checks of what draws read: vertices, indices, root arguments, indirect arguments.
 #include <cstring>
 
 #include "tests/checks/draw_world.h"

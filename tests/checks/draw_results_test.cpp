@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What becomes of draws: nothing arrives, positions and outputs that are no numbers, rectangles
-// that show nothing.
+// Tests the checks of what becomes of draws: nothing arrives, positions and outputs that are no
+// numbers, rectangles that show nothing.
 #include <functional>
 #include <limits>
 
@@ -85,8 +85,8 @@ TEST_F(DrawResults, AllOutside) {
   expect_none();
 }
 
-// What is outside, behind or turned away is drawn all the time: only a pipeline of which nothing
-// arrives in the whole list is worth a word.
+// Triangles that are outside, behind or turned away are drawn all the time: only a pipeline of
+// which nothing arrives in the whole list is worth a word.
 TEST_F(DrawResults, SomeOfAPipelinesDrawsMayBeOutside) {
   const std::vector<float> outside = {2, 0, 0.5f, 1, 3, 0, 0.5f, 1, 2, 1, 0.5f, 1};
   const PipelineState pipeline = make(desc("Constant", "FromBuffer"));

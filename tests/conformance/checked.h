@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of errors share: a context in checked mode that records messages, and a small
-// scene in which each test breaks one thing.
+// The setting that the tests of errors share: a context in checked mode that records messages, and
+// a small scene in which each test breaks one thing.
 #pragma once
 
 #include <memory>

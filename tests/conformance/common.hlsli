@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the rules' shaders share: rays in, words out, records with an ordinal each.
+// This file holds what the rules' shaders share: rays in, words out, records with an ordinal each.
 
 struct Ray {
   float3 origin;
@@ -14,7 +14,7 @@ struct Ray {
   uint3 extra;
 };
 
-// What happened to a ray. `end`: 0 no shader ran after traversal, 1 closest hit, 2 miss.
+// The fate of a ray. `end`: 0 no shader ran after traversal, 1 closest hit, 2 miss.
 struct Seen {
   uint end;
   uint record;     // of the closest-hit or miss shader

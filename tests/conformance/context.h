@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a rule's test works with: a device, checks, and shortcuts for making scenes.
+// The context that a rule's test works with: a device, checks, and shortcuts for making scenes.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -19,7 +19,7 @@ constexpr char kLavapipesEdges[] =
     "fault of Mesa 25.0's triangle test: edges belong to both of their triangles, so that rays "
     "that meet one exactly hit both";
 constexpr char kMesa[] = "Mesa 25.0.";
-// Of draws; found and measured by these tests.
+// Deviations of draws, found and measured by these tests.
 constexpr char kHuge[] =
     "HUGE: fault of Mesa 25.0's rasterizer: triangles that reach beyond 1e7 pixels lose coverage";
 constexpr char kCutOnScreen[] =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the runtime must say about acceleration structures and their memory, and when: errors of
-// calls, and messages of checked mode.
+// Tests what the runtime must say about acceleration structures and their memory, and when: errors
+// of calls, and messages of checked mode.
 #include <limits>
 
 #include "tests/conformance/checked.h"

@@ -42,7 +42,7 @@ void expect_our_meaning(Context& t, const std::vector<uint32_t>& flags,
   t.holds("most rays are certain", 2 * coverage.certain > coverage.rays);
 }
 
-// How many rays do not behave as if they had `flags`.
+// Returns how many rays do not behave as if they had `flags`.
 size_t differing(const Legality& found, uint32_t flags) {
   size_t out = 0;
   for (size_t i = 0; i < found.rays.size(); ++i) {

@@ -63,8 +63,8 @@ std::string name_of(uint32_t packed) {
   return name_of(each);
 }
 
-// Whether the candidate must have reached its any-hit shader, in whatever order traversal visits
-// it.
+// Tells whether the candidate must have reached its any-hit shader, in whatever order traversal
+// visits it.
 bool must_run(const Case& each, const Candidate& candidate) {
   if (candidate.commits || !candidate.certain || !each.ending.empty()) return false;
   for (const Candidate* nearer : each.accepted) {

@@ -10,7 +10,7 @@
 
 namespace kaamos::conformance {
 
-// What a random test covered, so that it cannot pass without having tested anything.
+// Counts what a random test covered, so that it cannot pass without having tested anything.
 struct Coverage {
   uint32_t rays = 0;
   uint32_t certain = 0;  // rays whose result cannot depend on rounding
@@ -19,7 +19,7 @@ struct Coverage {
   uint32_t required_events = 0;
 };
 
-// How one ray differs from the reference; empty if it does not.
+// Returns how one ray differs from the reference; empty if it does not.
 std::string judge_ray(const Scene& scene, const Ray& ray, const Walked& walked, Coverage& coverage);
 
 // Compares each ray with the reference: which any-hit shaders ran, in which order, and what ended

@@ -67,7 +67,7 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
   return out;
 }
 
-// What is wrong with the request; empty if nothing is.
+// Returns what is wrong with the request; empty if nothing is.
 std::string misuse(const std::string& backend, const std::string& precision,
                    const std::string& filter) {
   if (backend == "vulkan" && !precision.empty()) {

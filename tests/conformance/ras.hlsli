@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all shaders of the RAS rules share.
+// This file holds what all shaders of the RAS rules share.
 
 cbuffer Constants : register(b0) {
   float4 tint;

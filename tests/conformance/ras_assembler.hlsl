@@ -16,7 +16,7 @@ Vertex Streams(float4 position : POSITION, uint element : ELEMENT, uint vertex :
   return result;
 }
 
-// What an element became, as bits. The vertex's place does not depend on it.
+// The bits that an element became. The vertex's place does not depend on it.
 struct Bits {
   float4 position : SV_Position;
   nointerpolation uint4 bits : BITS;

@@ -62,7 +62,7 @@ void depth_clip_off(Context& t) {
     screen.run([&](CommandList& list) { screen.cover(list, own, {.tint = {2, 0, 0, 0}}); });
     t.equal(what + "SV_Depth 2", screen.depth(3, 5), 1.0f);
   }
-  // What the shader reads is not limited.
+  // The depth that the shader reads is not limited.
   GraphicsPipelineStateDesc desc = screen.desc("Whole", "Place");
   desc.RTVFormats = {Format::kR32G32B32A32Float};
   desc.RasterizerState.DepthClipEnable = false;

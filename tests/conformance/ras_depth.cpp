@@ -54,7 +54,7 @@ void shaders_read_the_tested_depth(Context& t) {
   }
 }
 
-// What shaders read of a depth buffer of this format that `record` drew to, at (3, 5).
+// Returns what shaders read of a depth buffer of this format that `record` drew to, at (3, 5).
 float read_through_view(Screen& screen, Format view_format,
                         const std::function<void(CommandList&)>& record) {
   screen.library = kaamos_shaders_ras_depth();

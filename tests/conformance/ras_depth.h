@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of depth share.
+// Functions that the tests of depth share.
 #pragma once
 
 #include <vector>

@@ -43,7 +43,7 @@ Fetched Fetches(float4 value : VALUE, uint vertex : SV_VertexID) {
   return result;
 }
 
-// What was fetched, beside the constants; a column for each draw.
+// Writes what was fetched, beside the constants; a column for each draw.
 [shader("pixel")]
 float4 ReadFetched(Fetched input, uint primitive : SV_PrimitiveID) : SV_Target {
   return float4(input.value.x, tint.x, float(input.vertex), 1.0 + float(primitive));

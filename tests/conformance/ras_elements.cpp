@@ -23,7 +23,7 @@ Four bits_of(float x, float y, float z, float w) {
           std::bit_cast<uint32_t>(w)};
 }
 
-// What a shader of ras_assembler.hlsl gets of vertex `start` of a view with one element.
+// Returns what a shader of ras_assembler.hlsl gets of vertex `start` of a view with one element.
 Four element_bits(Context& t, const std::string& shader, const InputElementDesc& element,
                   const VertexBufferView& view, uint32_t start) {
   Screen screen(t, {kBitsFormat}, Format::kUnknown, 4);

@@ -104,7 +104,7 @@ Vertex TracesVertices(uint vertex : SV_VertexID) {
   result.value = float4(0, 0, 0, 0);
   result.vertex = 0;
   result.instance = 0;
-  // Of pixel (number, number).
+  // The ray is that of pixel (number, number).
   result.element = asuint(hit_distance(float2(number, number) + 0.5));
   return result;
 }

@@ -9,7 +9,7 @@ float4 OfPosition(float4 position : SV_Position) : SV_Target {
   return float4(ddx(position.x), ddx(position.y), ddy(position.x), ddy(position.y));
 }
 
-// Of a function that tells where the quad is.
+// Writes derivatives of a function that tells where the quad is.
 [shader("pixel")]
 float4 OfSquares(float4 position : SV_Position) : SV_Target {
   const float2 squares = position.xy * position.xy;

@@ -25,7 +25,7 @@ uint32_t triangles_per_setting() {
   return full != nullptr && std::string_view(full) == "1" ? 100000 : 2000;
 }
 
-// What a pixel got: z, a value, the value without perspective, 1 if it was drawn.
+// The values that a pixel got: z, a value, the value without perspective, 1 if it was drawn.
 struct Drawn {
   float z, value, on_screen, covered;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What draws must do, pixel by pixel and as the rules are written: integers for coverage, long
-// doubles for the rest. Triangles are in front of the eye and are not cut.
+// Computes what draws must do, pixel by pixel and as the rules are written: integers for coverage,
+// long doubles for the rest. Triangles are in front of the eye and are not cut.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ class ExactTriangle {
   // In pixels, from the centre of one to the nearest line through two corners.
   long double distance_to_edges(uint32_t x, uint32_t y) const;
   std::string text() const;  // its corners
-  // How far a backend may be from these at a pixel. [RAS-70, RAS-73]
+  // The largest differences that a backend may have from these at a pixel. [RAS-70, RAS-73]
   struct Bounds {
     long double depth, value, on_screen;
   };

@@ -10,8 +10,8 @@ using namespace rtapi;
 
 namespace {
 
-// How close to a decision a candidate may be before rounding can change it: in barycentrics, in t
-// relative to its size, and in the cosine between ray and plane.
+// Rounding may decide about a candidate that is closer to a decision than this: in barycentrics, in
+// t relative to its size, and in the cosine between ray and plane.
 constexpr double kEdgeMargin = 2e-4;
 constexpr double kIntervalMargin = 1e-4;
 constexpr double kGrazing = 0.02;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What rays meet in a scene, by brute force in double precision. Knows neither Embree nor Vulkan
-// and shares nothing with the product except the API's structures.
+// Finds what rays meet in a scene, by brute force in double precision. Knows neither Embree nor
+// Vulkan and shares nothing with the product except the API's structures.
 #pragma once
 
 #include <cstdint>

@@ -60,7 +60,7 @@ void flags_add_up(Context& t) {
   const auto words = query.run_rays(structure, {asking(0, kAcceptFirst)});
   const uint32_t template_flags[] = {0,          kForceOpaque,  kForceNonOpaque, kSkipTriangles,
                                      kSkipBoxes, kCullNonOpaque};
-  // What the query with both kinds of flags meets: candidate triangles, candidate boxes, its end.
+  // The query with both kinds of flags meets these: candidate triangles, candidate boxes, its end.
   const std::array<uint32_t, 3> expected[] = {{1, 1, kNothing}, {0, 0, kTriangle},
                                               {1, 1, kNothing}, {0, 1, kNothing},
                                               {1, 0, kNothing}, {0, 0, kNothing}};

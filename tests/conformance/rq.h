@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of inline ray tracing ask of query.hlsl.
+// The questions that the tests of inline ray tracing ask of query.hlsl.
 #pragma once
 
 #include <cstring>

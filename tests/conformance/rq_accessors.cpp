@@ -15,7 +15,7 @@ namespace {
 
 constexpr auto kOnce = RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;  // not opaque
 
-// What a hit and a candidate report for instance 1: object x = (x - 1) / 2.
+// Checks what a hit and a candidate report for instance 1: object x = (x - 1) / 2.
 void check_hit(Context& t, const std::string& of, const std::vector<uint32_t>& words, size_t start,
                uint32_t kind) {
   const auto word = [&](size_t byte) { return words[(start + byte) / 4]; };

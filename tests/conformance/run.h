@@ -17,7 +17,7 @@ std::vector<Section> all_sections();
 std::vector<RuleTest> all_tests();
 bool test_covers(const RuleTest& test, std::string_view rule);
 
-// Whether this message of checked mode is one that the test's violations must cause.
+// Tells whether this message of checked mode is one that the test's violations must cause.
 bool may_provoke(const RuleTest& test, std::string_view report);
 
 // Runs in this process. Returns what was expected and found, one a line; empty: the rules hold.
@@ -43,7 +43,7 @@ struct RuleResult {
   std::string detail = {};
   double seconds = 0;  // of its tests, which may cover other rules too
 };
-// How far a run is: tests done, tests in all, and the rules of the current test.
+// The progress of a run: tests done, tests in all, and the rules of the current test.
 struct Progress {
   size_t done = 0;
   size_t total = 0;

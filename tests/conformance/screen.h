@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What rules of draws need: targets, pipelines for them, a list with everything set, and the texels
-// afterwards.
+// The means that rules of draws need: targets, pipelines for them, a list with everything set, and
+// the texels afterwards.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct Corner {
   std::array<float, 4> value = {0, 0, 0, 0};
 };
 
-// What the shader Facts writes.
+// The values that the shader Facts writes.
 struct Fact {
   uint32_t vertex;     // SV_VertexID of the leading vertex
   uint32_t primitive;  // SV_PrimitiveID
@@ -60,7 +60,7 @@ class Screen {
                   rtapi::Format depth = rtapi::Format::kUnknown, uint32_t size = 256,
                   uint16_t slices = 1);
 
-  // Where shaders are looked for before ras.hlsl.
+  // Shaders are looked for here before ras.hlsl.
   const shader::LibraryDesc* library = nullptr;
 
   // For these targets: no culling, no blending, depth LESS if there is a depth buffer. The layout
@@ -125,10 +125,10 @@ class Screen {
     return value;
   }
   Fact fact(uint32_t x, uint32_t y) const;
-  // Of D32_FLOAT and D16_UNORM.
+  // Reads D32_FLOAT and D16_UNORM.
   float depth(uint32_t x, uint32_t y) const;
   uint32_t depth_bits(uint32_t x, uint32_t y) const;
-  // How many pixels have another value than expected(x, y).
+  // Counts the pixels that have another value than expected(x, y).
   template <class T>
   uint32_t differing(const std::function<T(uint32_t x, uint32_t y)>& expected,
                      uint32_t component = 0, size_t target = 0, uint32_t slice = 0) const {
@@ -137,7 +137,7 @@ class Screen {
     });
   }
   uint32_t count(const std::function<bool(uint32_t x, uint32_t y)>& condition) const;
-  // How many pixels have a first component other than 0, as floats.
+  // Counts the pixels that have a first component other than 0, as floats.
   uint32_t covered(size_t target = 0, uint32_t slice = 0) const;
 
   uint32_t size() const { return size_; }

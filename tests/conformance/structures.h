@@ -57,7 +57,7 @@ rtapi::Status copy(Context& t, const rtapi::Buffer& dest, const rtapi::Buffer& s
 // Copies into memory of the size that postbuild info gives for the mode.
 rtapi::Buffer copy_new(Context& t, const rtapi::Buffer& source, CopyMode mode);
 
-// What Emit writes for one structure: one value, or two for kSerialization.
+// Returns what Emit writes for one structure: one value, or two for kSerialization.
 std::vector<uint64_t> info_of(Context& t, const rtapi::Buffer& structure, InfoType type);
 std::vector<uint64_t> words64(const std::vector<uint32_t>& words);
 // Over the memory of an upload buffer.
@@ -72,7 +72,7 @@ std::vector<Geometry> meadow(float depth = 0);
 // Three boxes at x = -4, 0 and 4; the third is a geometry of its own.
 std::vector<Geometry> boxes();
 
-// What 144 rays along z see of triangles. Hit records 0 to 3, one per geometry in order.
+// Returns what 144 rays along z see of triangles. Hit records 0 to 3, one per geometry in order.
 std::vector<Seen> picture(Context& t, const rtapi::Buffer& top_level);
 std::vector<Seen> picture_of_bottom(Context& t, const rtapi::Buffer& bottom_level);
 void same_picture(Context& t, const std::string& what, const std::vector<Seen>& found,

@@ -6,7 +6,7 @@
 // One any-hit invocation: its identity as packed by pack(), and RayTCurrent().
 static const uint kEventsPerRay = 48;
 static const uint kEvents = 65536;  // byte offset in `words`
-// How often (bytes in `words`) a ray's any-hit shaders overlapped or ran after its closest hit.
+// Byte in `words`: how often a ray's any-hit shaders overlapped or ran after its closest hit.
 static const uint kFaults = 32772;
 static const uint kGuards = 40960;  // a word per ray, set while one of its any-hit shaders runs
 
@@ -216,7 +216,7 @@ void AnswerBoard(inout Seen seen, BuiltInTriangleIntersectionAttributes attribut
   DeviceMemoryBarrier();
 }
 
-// What the query sees of the scene, and what TraceRay does.
+// Stores what the query sees of the scene, and what TraceRay does.
 [shader("raygeneration")]
 void QueryAndTrace() {
   RayQuery<RAY_FLAG_FORCE_OPAQUE> query;

@@ -129,7 +129,7 @@ void no_derivatives_no_group_sync(Context& t) {
   }
 }
 
-// What holds for waves of any size; here each thread is a wave.
+// Tests what holds for waves of any size; here each thread is a wave.
 void waves(Context& t) {
   Walker walker(t);
   walker.record("WavesOfHit");
@@ -147,7 +147,7 @@ void waves(Context& t) {
   }
 }
 
-// What normal mode does with rays that DXR leaves undefined: nothing is hit, nothing hangs.
+// Tests what normal mode does with rays that DXR leaves undefined: nothing is hit, nothing hangs.
 void odd_rays(Context& t) {
   Standard program(t);
   program.record("Plain");

@@ -51,7 +51,7 @@ class Walker : public Standard {
   explicit Walker(Context& t);
   void build(const Scene& description);
   std::vector<Walked> walk(const std::vector<Ray>& rays);
-  // How many any-hit shaders ran for each ray, in a scene whose record 0 is "Ignored".
+  // Returns how many any-hit shaders ran for each ray, in a scene whose record 0 is "Ignored".
   std::vector<uint32_t> count(const std::vector<Ray>& rays);
   // Any-hit shaders in the last walk that overlapped another one of their ray, or ran after its
   // end.

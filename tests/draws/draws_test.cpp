@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What draws leave in targets, from shaders in buffers to texels. Expected values are worked out by
-// hand from the rules.
+// Tests what draws leave in targets, from shaders in buffers to texels. Expected values are worked
+// out by hand from the rules.
 #include <gtest/gtest.h>
 
 #include <bit>

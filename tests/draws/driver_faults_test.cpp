@@ -116,7 +116,7 @@ uint32_t ten_bits_of(Canvas& canvas, float red) {
   return canvas.texel<uint32_t>(12, 13) & 1023;
 }
 
-// What SV_Depth leaves in the depth buffer, in a viewport of 0.25 to 0.75.
+// Returns what SV_Depth leaves in the depth buffer, in a viewport of 0.25 to 0.75.
 float written_depth(Canvas& canvas, float depth) {
   GraphicsPipelineStateDesc desc = canvas.desc("WholeTarget", "DepthOfTint");
   desc.DepthStencilState.DepthFunc = ComparisonFunc::kAlways;
@@ -139,7 +139,7 @@ class DriverFaults : public ::testing::TestWithParam<std::string> {
     }
     validation_.emplace();
   }
-  // What a function gives without a workaround of lavapipe; no value on other devices.
+  // Returns what a function gives without a workaround of lavapipe; no value on other devices.
   template <class Measure>
   auto without(const char* name, Format format, const Measure& measure) {
     std::optional<decltype(measure(std::declval<Canvas&>()))> result;

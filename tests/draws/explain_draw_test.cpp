@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is said about a pixel of draws, and counts of overdraw. Expected texts and counts are worked
-// out by hand.
+// Tests what is said about a pixel of draws, and counts of overdraw. Expected texts and counts are
+// worked out by hand.
 #include <gtest/gtest.h>
 #include <rtapi/explain_draw.h>
 
@@ -105,7 +105,7 @@ TEST_F(ExplainDraws, AnotherPixelHasAnotherStory) {
   EXPECT_EQ(t.Outputs[0].Type, "float4");
 }
 
-// What observed draws leave is what they leave otherwise.
+// Draws leave the same whether they are observed or not.
 TEST_F(ExplainDraws, PicturesAreTheSame) {
   CommandList plain = five_draws();
   canvas_.queue.ExecuteAndWait(plain).value();

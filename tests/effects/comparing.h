@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How far apart two renderings of the same scene are.
+// Measures how far apart two renderings of the same scene are.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What must not change a picture, however the scene is expressed.
+// Tests what must not change a picture, however the scene is expressed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

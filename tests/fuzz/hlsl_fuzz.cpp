@@ -57,7 +57,7 @@ struct Arguments {
   std::vector<std::string> folders;
 };
 
-// What the child tells the parent; readable even after the child has died.
+// The report of the child to the parent; readable even after the child has died.
 struct Shared {
   std::atomic<uint64_t> number;    // of the current input
   std::atomic<uint64_t> finished;  // inputs done by all children

@@ -41,7 +41,7 @@ struct HlslTest {
 std::vector<HlslTest> find_hlsl_tests(const std::string& folder,
                                       const std::vector<std::string>& parts);
 
-// What was found and what was expected; empty if they agree.
+// Returns what was found and what was expected; empty if they agree.
 std::string compare(const Expectation& expectation, const std::vector<std::byte>& results);
 
 }  // namespace kaamos::test

@@ -100,7 +100,7 @@ Result run(const shader::LibraryDesc& library, uint32_t seed) {
     first += size_t{size} * size;
   }
   runner.run();
-  // What lanes that did not run to the end left there does not count.
+  // Values there from lanes that did not run to the end do not count.
   for (Lanes& lanes : runner.outputs) {
     for (uint32_t lane = 0; lane < 8; ++lane) {
       if ((runner.live >> lane & 1u) == 0) lanes[lane] = 0;

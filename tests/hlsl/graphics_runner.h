@@ -27,7 +27,7 @@ class GraphicsRunner {
   std::vector<Lanes> outputs;  // a sentinel at first
   uint32_t active = 0xFF;
   uint32_t live = 0xFF;  // pixel shaders; run() changes it
-  // What every RWByteAddressBuffer and RWStructuredBuffer<uint> binding has.
+  // The words of every RWByteAddressBuffer and RWStructuredBuffer<uint> binding.
   std::vector<uint32_t> memory = std::vector<uint32_t>(64);
   shader::TextureView texture;  // every texture binding
   shader::SamplerState sampler;

@@ -67,7 +67,7 @@ std::string emit(size_t index, bool checked, hlsl::WideThreads wide, std::string
                 : std::string();
 }
 
-// Whether a file is in the sample that checked executors run.
+// Tells whether a file is in the sample that checked executors run.
 bool in_checked_sample(size_t index) {
   const char* full = std::getenv("KAAMOS_FULL");
   return (full != nullptr && *full == '1') || index % 12 == 0;
@@ -210,8 +210,8 @@ std::string feature_key(const std::string& feature) {
   return feature.substr(0, feature.find(' ', std::string("trap ").size()));
 }
 
-// How many of the features that FEATURE and TRAP comments name work on a backend. A feature works
-// if all its files pass on all executors.
+// Counts how many of the features that FEATURE and TRAP comments name work on a backend. A feature
+// works if all its files pass on all executors.
 class FeatureReport : public testing::Test {
  public:
   explicit FeatureReport(const char* backend) : backend_(backend) {}

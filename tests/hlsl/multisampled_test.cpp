@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a multisampled texture does where a shader uses it: the same error on every executor.
+// Tests that a multisampled texture gives the same error on every executor where a shader uses it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

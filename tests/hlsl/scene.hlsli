@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of ray tracing stages share: the scene of scene.h, and rays along +z that pass
-// through everything in it.
+// This file holds what the tests of ray tracing stages share: the scene of scene.h, and rays along
+// +z that pass through everything in it.
 #pragma once
 
 RaytracingAccelerationStructure scene : register(t0);

@@ -335,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, VulkanTextureTwins,
                          testing::Combine(testing::ValuesIn(kTextures),
                                           testing::ValuesIn(kSampledFormats)),
                          name_of);
-// How blocks are decoded does not depend on the dimension.
+// The decoding of blocks does not depend on the dimension.
 INSTANTIATE_TEST_SUITE_P(
     Blocks, VulkanTextureTwins,
     testing::Values(TextureParameter{kTextures[2], kBc1}, TextureParameter{kTextures[2], kBc7},

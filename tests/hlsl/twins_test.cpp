@@ -294,7 +294,7 @@ double number(char kind, uint64_t bits) {
   return (bits & 0x8000) != 0 ? -magnitude : magnitude;
 }
 
-// Whether the square of a value is a normal number or zero.
+// Tells whether the square of a value is a normal number or zero.
 bool has_square(const ScalarType& type, uint64_t bits) {
   const uint64_t magnitude = bits & ~sign_of(type.kind);
   const FloatLayout l = layout_of(type.kind);

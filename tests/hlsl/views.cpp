@@ -11,7 +11,7 @@ using namespace rtapi;
 constexpr uint32_t kSide = 8;
 constexpr uint32_t kMips = 2;
 
-// What the name of a texture says about it; see fixtures.h.
+// The properties that the name of a texture tells; see fixtures.h.
 struct TextureKind {
   ResourceDimension resource = ResourceDimension::kTexture2D;
   SrvDimension srv = SrvDimension::kTexture2D;

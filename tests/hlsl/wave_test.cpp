@@ -382,7 +382,7 @@ std::vector<uint32_t> expected_words(const Case& test, uint32_t lanes) {
   return words;
 }
 
-// Where the results differ from the model; empty if nowhere.
+// Returns where the results differ from the model; empty if nowhere.
 std::string difference(const Case& test, const Compiled& code, const std::string& backend,
                        uint32_t lanes) {
   if (code.library == nullptr) return code.error;
@@ -445,7 +445,7 @@ TEST_P(Waves, GiveWhatTheModelGivesInterpreted) {
   }
 }
 
-// How many lanes a wave has on the Vulkan device.
+// Returns how many lanes a wave has on the Vulkan device.
 uint32_t lanes_on_vulkan() {
   hlsl::FrontendOptions options;
   options.path = "lanes.hlsl";

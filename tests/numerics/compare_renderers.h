@@ -15,7 +15,7 @@ namespace kaamos {
 /// Two independent pictures of one renderer, which tell its noise.
 using TwoHalves = std::array<effects::FloatImage, 2>;
 
-/// How far two renderers are apart.
+/// The difference between two renderers.
 struct RendererDifference {
   std::uint64_t pixels = 0;      ///< compared
   double mean = 0.0;             ///< of the second renderer, over pixels and channels
@@ -29,7 +29,7 @@ struct RendererDifference {
   double tile_difference = 0.0;  ///< of that tile, over its mean
 };
 
-/// How much tiles, and the whole, may differ.
+/// The difference that is allowed for tiles, and for the whole.
 struct Allowance {
   std::uint32_t tile = 10;  ///< pixels of a tile's side
   double errors = 5.0;      ///< standard errors of the mean

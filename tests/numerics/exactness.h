@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How many hits on a closed mesh are wrong, and how far hit data is from the truth, depending on
-// the mesh's size, its distance from the origin, and the distance from which it is seen.
+// Measures how many hits on a closed mesh are wrong, and how far hit data is from the truth,
+// depending on the mesh's size, its distance from the origin, and the distance from which it is
+// seen.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What exact precision promises: no wrong hit, hit data rounded once, the same on every processor;
-// and robust precision where any-hit shaders see every triangle: no wrong hit.
+// Tests what exact precision promises: no wrong hit, hit data rounded once, the same on every
+// processor; and robust precision where any-hit shaders see every triangle: no wrong hit.
 // `kaamos-bench --precision-table` is the long form, with every precision and both backends.
 #include "exactness.h"
 

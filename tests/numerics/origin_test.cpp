@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a ray starts: the table behind the choice made in effects/assets/common/ray_origin.h.
+// Tests where a ray starts: the table behind the choice made in effects/assets/common/ray_origin.h.
 #include <gtest/gtest.h>
 
 #include <array>

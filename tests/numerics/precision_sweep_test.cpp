@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// How exact a hit is, for objects from a nanometre to a billion kilometres in size and up to 1,000
-// km from the origin. A jittered relief of 2 x 32 x 32 triangles is seen from above. Each ray goes
-// to a known point inside a known triangle; the truth is the same intersection computed in long
-// double from the same float vertices and float ray. The bounds are measured values with a margin
-// of two to four: they record what float costs here instead of hiding it.
+// Tests how exact a hit is, for objects from a nanometre to a billion kilometres in size and up to
+// 1,000 km from the origin. A jittered relief of 2 x 32 x 32 triangles is seen from above. Each ray
+// goes to a known point inside a known triangle; the truth is the same intersection computed in
+// long double from the same float vertices and float ray. The bounds are measured values with a
+// margin of two to four: they record what float costs here instead of hiding it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How much a test of this folder does: little in a normal run, less under a sanitizer, which makes
-// every ray ten times as slow and looks for other faults than wrong digits, and everything with
-// KAAMOS_FULL=1.
+// Decides how much a test of this folder does: little in a normal run, less under a sanitizer,
+// which makes every ray ten times as slow and looks for other faults than wrong digits, and
+// everything with KAAMOS_FULL=1.
 #pragma once
 
 #include <cstdint>

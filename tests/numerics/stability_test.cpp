@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What must not change a result.
+// Tests what must not change a result.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What resource.h and state_object.h promise about lifetimes.
+// Tests what resource.h and state_object.h promise about lifetimes.
 #include <shaders/rays.h>
 
 #include <cstring>
@@ -177,7 +177,7 @@ TEST_P(Lifetimes, MemoryFreedWhileAQueueWaitsRemovesTheDevice) {
   EXPECT_EQ(messages_[0].Id.text(), "KA0856");
 }
 
-// What a list was given as a handle it keeps alive.
+// A list keeps alive what it was given as a handle.
 TEST_P(Lifetimes, ResourcesGivenByHandleLiveAsLongAsTheList) {
   Buffer source = CreateUploadBuffer(device_, std::vector<uint32_t>{5, 6, 7, 8}, "source").value();
   CommandList list = device_.CreateCommandList().value();

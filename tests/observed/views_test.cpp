@@ -20,7 +20,7 @@ struct View {
   uint32_t first = 0;
   uint32_t count = 1;  // elements; cubes
   bool of_uint = false;
-  // What views.hlsl reads through each declaration, in its order.
+  // The values that views.hlsl reads through each declaration, in its order.
   Words loads, samples, sizes;
 };
 

@@ -78,7 +78,7 @@ class Comparison {
     note(i, silhouette ? HitChange::kSilhouette : HitChange::kVisibility, distance, a, b);
   }
 
-  // Whether `hit` is what a neighbour of pixel `i` shows in `picture`.
+  // Tells whether `hit` is what a neighbour of pixel `i` shows in `picture`.
   bool is_next_to(uint64_t i, const HitRecord& hit, const std::vector<HitRecord>& picture) const {
     if (width_ == 0) return false;
     const int64_t x = static_cast<int64_t>(i % width_);

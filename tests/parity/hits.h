@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What one ray found on one backend and on another, and how far apart the two may be.
+// Compares what one ray found on one backend and on another, and says how far apart the two may be.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ double apart(const FloatImage& a, uint32_t ax, uint32_t ay, const FloatImage& b,
   return most;
 }
 
-// Whether a neighbour of (x, y) in `picture` shows what `other` shows at (x, y).
+// Tells whether a neighbour of (x, y) in `picture` shows what `other` shows at (x, y).
 bool is_next_to(const FloatImage& picture, const FloatImage& other, uint32_t x, uint32_t y,
                 double close) {
   for (uint32_t ny = y - (y > 0); ny <= std::min(y + 1, picture.height - 1); ++ny) {

@@ -152,7 +152,7 @@ TEST_P(Descriptors, CounterUav) {
   device_.CreateUnorderedAccessView(consumed, counters, view(8, 0, 0), slot(kConsumed)).value();
   device_.CreateUnorderedAccessView(counted, counters, view(4, 0, 2 * kCounterAt), slot(kCounted))
       .value();
-  // Where the counters start.
+  // The counters start at these values.
   CommandList list = device_.CreateCommandList().value();
   const Buffer first = upload({kCount, 2, 0});
   list.CopyBufferRegion(counters, 0, first, 0, 4);

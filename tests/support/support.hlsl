@@ -78,7 +78,7 @@ void ThroughCounters(uint3 id : SV_DispatchThreadID) {
   g_out[id.x] = count * 1000 + stride;
 }
 
-// What lacks a counter has one that is always 0.
+// A buffer without a counter has one that is always 0.
 [shader("compute")] [numthreads(1, 1, 1)]
 void WithoutCounter() {
   g_counted[0] = 7;

@@ -13,7 +13,7 @@ double now_seconds();
 // status, or -1 if the program had to be stopped.
 int run(char** command, double limit_seconds, const std::string& output = "");
 
-// Whether a signal or the limit ended a program.
+// Returns whether a signal or the limit ended a program.
 bool crashed(int status);
 std::string describe(int status, double limit_seconds);
 

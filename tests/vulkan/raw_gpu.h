@@ -46,7 +46,7 @@ struct Accel {
   uint64_t address = 0;
 };
 
-// What a build reads besides the geometries; `counts` holds the number of primitives of each
+// The inputs of a build besides the geometries; `counts` holds the number of primitives of each
 // geometry.
 struct AccelInput {
   VkAccelerationStructureTypeKHR type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;

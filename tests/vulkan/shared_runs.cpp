@@ -70,7 +70,7 @@ bool is_on_vulkan(std::string name) {
   return name.find("vulkan") != std::string::npos;
 }
 
-// Where `mark` stands with the whole name behind it, from `start` on.
+// Returns where `mark` stands with the whole name behind it, from `start` on.
 size_t find_mark(const std::string& output, const char* mark, const std::string& name,
                  size_t start) {
   const std::string wanted = mark + name;

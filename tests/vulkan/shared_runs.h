@@ -37,7 +37,7 @@ class SharedRuns {
 
   // Empty if the test must run by itself.
   std::optional<TestResult> result_of(const std::string& name);
-  // What ended the groups that this process started and that crashed.
+  // Returns what ended the groups that this process started and that crashed.
   const std::vector<std::string>& crashes() const { return crashes_; }
 
  private:
@@ -48,7 +48,7 @@ class SharedRuns {
 
   bool list_groups(bool on_vulkan);
   bool is_done(const Group& group) const;
-  // Whether the group is done now: false if another process is at it.
+  // Returns whether the group is done now: false if another process is at it.
   bool try_to_run(const Group& group);
   void run_group(const Group& group);
   bool run_another(const Group& than);

@@ -19,7 +19,7 @@ namespace stress {
 constexpr uint32_t kCells = 24;
 constexpr uint32_t kLayers = 3;
 
-// What the shaders read by address: `block` in the GLSL.
+// The data that the shaders read by address: `block` in the GLSL.
 struct Block {
   uint64_t top_level = 0;
   uint64_t output = 0;  // uvec4 for each ray

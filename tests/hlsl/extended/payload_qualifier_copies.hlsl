@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: extended payload access qualifiers [raypayload]
 // OPTIONS: -T lib_6_7 -no-warnings
-// What any-hit shaders wrote, the last one in a function that ignores the hit: 2 + 20.
+// The any-hit shaders wrote this, the last one in a function that ignores the hit: 2 + 20.
 // EXPECT u32 0 22
 // A field that stays the caller's own, although the shaders write it.
 // EXPECT u32 4 12
 // Not returned, so undefined; 0 here.
 // EXPECT u32 8 0
-// What the miss shader found in the fields that it may and may not read, and what it wrote.
+// The miss shader found this in the fields that it may and may not read, and wrote the last.
 // EXPECT u32 12 10
 // EXPECT f32 16 0 0 0
 // EXPECT f32 28 4 5 6
