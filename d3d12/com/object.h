@@ -12,7 +12,7 @@
 #include <dxgidebug.h>
 #include <kaamos_adapter.h>
 
-#include "d3d12/com/missing.h"
+#include "d3d12/com/report.h"
 #include "d3d12/generated/d3d12_entries.h"
 
 namespace kaamos::d3d12 {
@@ -62,6 +62,18 @@ class ComObject : public First, public Rest... {
   ULONG references() const { return references_.load(std::memory_order_relaxed); }
   /// False hides an interface: that of the debug layer where it is off.
   virtual bool offers(REFIID) const { return true; }
+
+  /// Where the object's messages go: those of a device and of its objects to that device's.
+  Reporter& reporter() const override { return process_reporter(); }
+  /// As the reporter's.
+  ///@{
+  void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) const {
+    reporter().report(severity, error);
+  }
+  HRESULT fail(const rtapi::Error& error) const { return reporter().fail(error); }
+  HRESULT fail(ErrorId id, const std::string& detail) const { return reporter().fail(id, detail); }
+  HRESULT check(const rtapi::Status& status) const { return reporter().check(status); }
+  ///@}
 
  private:
   // Versions derive from each other, so that the newest one serves for all.

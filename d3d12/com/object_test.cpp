@@ -12,7 +12,7 @@
 
 #include "d3d12/com/blob.h"
 #include "d3d12/com/private_data.h"
-#include "d3d12/com/report.h"
+#include "d3d12/com/report_fixture.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -149,21 +149,15 @@ TEST(PrivateData, ANameIsPrivateDataToo) {
 }
 
 TEST(Missing, AMethodSaysItsNameOnceAndReturnsENotImpl) {
-  std::vector<std::string> messages;
-  mute_output(true);
-  const uint64_t sink = add_sink([&](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-    EXPECT_EQ(severity, D3D12_MESSAGE_SEVERITY_ERROR);
-    messages.push_back(error.message);
-  });
+  const Quiet quiet;
+  const Listener listener;
   ComPtr<Both> both;
   both.Attach(new Both);
   EXPECT_EQ(both->GetShaderIdentifier(L"x"), nullptr);
   EXPECT_EQ(both->GetShaderIdentifier(L"x"), nullptr);
-  EXPECT_EQ(missing_result("ID3D12Test::Method"), E_NOTIMPL);
-  remove_sink(sink);
-  mute_output(false);
-  ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(messages[0],
+  EXPECT_EQ(process_reporter().missing("ID3D12Test::Method"), E_NOTIMPL);
+  ASSERT_EQ(listener.messages.size(), 2u);
+  EXPECT_EQ(listener.messages[0],
             "KA4000 method not implemented: ID3D12StateObjectProperties::GetShaderIdentifier is "
             "not implemented; the call did nothing.");
 }

@@ -3,35 +3,23 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <string_view>
 #include <vector>
 
 namespace kaamos::d3d12 {
 
 namespace {
 
-// Removing waits until the sink's call on another thread is over; a sink may remove itself.
-struct Sink {
-  explicit Sink(MessageSink called) : call(std::move(called)) {}
-  std::recursive_mutex mutex;
-  bool removed = false;
-  const MessageSink call;
-};
-
-struct Sinks {
-  std::mutex mutex;
-  std::map<uint64_t, std::shared_ptr<Sink>> sinks;
-  uint64_t next = 1;
-  int muted = 0;
+// The standard error stream, which all reporters share.
+struct Output {
+  std::mutex mutex;           // so that lines of several threads do not mix
   bool printed_once = false;  // that shaders are interpreted
 };
 
-Sinks& all_sinks() {
-  static Sinks* sinks = new Sinks;  // lives on: programs release global devices after main
-  return *sinks;
+// What lives on: programs release global devices after main.
+template <class T>
+T& immortal() {
+  static T* const object = new T;
+  return *object;
 }
 
 // Which messages are printed: those at least this severe. Severities count downwards.
@@ -58,28 +46,8 @@ const char* severity_name(D3D12_MESSAGE_SEVERITY severity) {
   return "MESSAGE";
 }
 
-// How often a process prints a message that is not severe enough.
-enum class Printed { kNever, kOnce };
-
-void send(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error, Printed otherwise) {
-  Sinks& all = all_sinks();
-  std::vector<std::shared_ptr<Sink>> sinks;
-  {
-    // One message at a time, so that lines of several threads do not mix.
-    std::lock_guard lock(all.mutex);
-    const int least = printed_severity();
-    const bool once = otherwise == Printed::kOnce && least >= 0 && !all.printed_once;
-    if (all.muted == 0 && (severity <= least || once)) {
-      std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), error.message.c_str());
-      if (otherwise == Printed::kOnce) all.printed_once = true;
-    }
-    for (auto& [id, sink] : all.sinks) sinks.push_back(sink);
-  }
-  // Without the lock: a callback may meet another error, or release its device.
-  for (const auto& sink : sinks) {
-    std::lock_guard lock(sink->mutex);
-    if (!sink->removed) sink->call(severity, error);
-  }
+void print_line(D3D12_MESSAGE_SEVERITY severity, const std::string& text) {
+  std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), text.c_str());
 }
 
 }  // namespace
@@ -104,60 +72,89 @@ HRESULT to_hresult(rtapi::ErrorCode code) {
   return E_FAIL;
 }
 
-void report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-  send(severity, error, Printed::kNever);
+void Reporter::report(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+  if (!muted_ && severity <= printed_severity()) {
+    std::lock_guard lock(immortal<Output>().mutex);
+    print_line(severity, error.message);
+  }
+  send(severity, error);
 }
 
-void report_interpreted(const rtapi::Error& error) {
-  send(D3D12_MESSAGE_SEVERITY_WARNING, error, Printed::kOnce);
+void Reporter::report_interpreted(const rtapi::Error& error) {
+  const int least = printed_severity();
+  if (!muted_ && least >= 0) {
+    Output& output = immortal<Output>();
+    std::lock_guard lock(output.mutex);
+    if (D3D12_MESSAGE_SEVERITY_WARNING <= least || !output.printed_once) {
+      print_line(D3D12_MESSAGE_SEVERITY_WARNING, error.message);
+    }
+    output.printed_once = true;
+  }
+  send(D3D12_MESSAGE_SEVERITY_WARNING, error);
 }
 
-void print(D3D12_MESSAGE_SEVERITY severity, const std::string& text) {
-  Sinks& all = all_sinks();
-  std::lock_guard lock(all.mutex);
-  if (all.muted == 0 && printed_severity() >= 0) {
-    std::fprintf(stderr, "D3D12 %s: %s\n", severity_name(severity), text.c_str());
+void Reporter::send(D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+  std::vector<std::shared_ptr<Sink>> sinks;
+  {
+    std::lock_guard lock(mutex_);
+    for (auto& [id, sink] : sinks_) sinks.push_back(sink);
+  }
+  // Without the lock: a callback may meet another error, or release its device.
+  for (const auto& sink : sinks) {
+    std::lock_guard lock(sink->mutex);
+    if (!sink->removed) sink->call(severity, error);
   }
 }
 
-void mute_output(bool muted) {
-  Sinks& all = all_sinks();
-  std::lock_guard lock(all.mutex);
-  all.muted += muted ? 1 : -1;
-}
-
-HRESULT fail(const rtapi::Error& error) {
+HRESULT Reporter::fail(const rtapi::Error& error) {
   report(D3D12_MESSAGE_SEVERITY_ERROR, error);
   return to_hresult(error.code);
 }
 
-HRESULT fail(ErrorId id, const std::string& detail) {
+HRESULT Reporter::fail(ErrorId id, const std::string& detail) {
   return fail(make_error(id, detail));
 }
 
-HRESULT check(const rtapi::Status& status) {
+HRESULT Reporter::check(const rtapi::Status& status) {
   return status.ok() ? S_OK : fail(status.error());
 }
 
-uint64_t add_sink(MessageSink sink) {
-  Sinks& all = all_sinks();
-  std::lock_guard lock(all.mutex);
-  all.sinks.emplace(all.next, std::make_shared<Sink>(std::move(sink)));
-  return all.next++;
+HRESULT Reporter::missing(const char* method) {
+  {
+    std::lock_guard lock(mutex_);
+    if (!missing_.insert(method).second) return E_NOTIMPL;
+  }
+  fail(ErrorId::kMissing, std::string(method) + " is not implemented; the call did nothing.");
+  return E_NOTIMPL;
 }
 
-void remove_sink(uint64_t id) {
+void Reporter::print(D3D12_MESSAGE_SEVERITY severity, const std::string& text) const {
+  if (muted_ || printed_severity() < 0) return;
+  std::lock_guard lock(immortal<Output>().mutex);
+  print_line(severity, text);
+}
+
+uint64_t Reporter::add_sink(MessageSink sink) {
+  std::lock_guard lock(mutex_);
+  sinks_.emplace(next_sink_, std::make_shared<Sink>(std::move(sink)));
+  return next_sink_++;
+}
+
+void Reporter::remove_sink(uint64_t id) {
   std::shared_ptr<Sink> sink;
   {
-    Sinks& all = all_sinks();
-    std::lock_guard lock(all.mutex);
-    const auto found = all.sinks.find(id);
-    if (found == all.sinks.end()) return;
+    std::lock_guard lock(mutex_);
+    const auto found = sinks_.find(id);
+    if (found == sinks_.end()) return;
     sink = found->second;
-    all.sinks.erase(found);
+    sinks_.erase(found);
   }
   std::lock_guard lock(sink->mutex);
   sink->removed = true;
+}
+
+Reporter& process_reporter() {
+  return immortal<Reporter>();
 }
 
 }  // namespace kaamos::d3d12

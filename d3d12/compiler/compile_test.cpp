@@ -37,7 +37,7 @@ DxcArguments arguments_of(const char* source) {
 }
 
 std::string error_of(const std::vector<std::byte>& container) {
-  const auto loaded = load_shader(container.data(), container.size());
+  const auto loaded = load_shader(container.data(), container.size(), process_reporter());
   return loaded ? "" : loaded.error().message;
 }
 
@@ -45,14 +45,15 @@ TEST(CompileSource, ContainerHoldsWhatALibraryNeeds) {
   const CompiledSource compiled = compile_source(arguments_of(kMiss));
   ASSERT_TRUE(compiled.ok) << compiled.messages;
   EXPECT_THAT(compiled.dependencies, testing::Contains("shaders/colour.hlsli"));
-  const auto library = load_shader(compiled.container.data(), compiled.container.size());
+  const auto library =
+      load_shader(compiled.container.data(), compiled.container.size(), process_reporter());
   ASSERT_TRUE(library) << library.error().message;
   ASSERT_NE(library->FindExport("Sky"), nullptr);
   EXPECT_EQ(library->FindExport("Sky")->Stage, rtapi::ShaderStage::kMiss);
   EXPECT_EQ(library->FindExport("Sky")->PayloadSizeInBytes, 12u);
   // The same bytes elsewhere are the same library.
   const auto copy = compiled.container;
-  const auto again = load_shader(copy.data(), copy.size());
+  const auto again = load_shader(copy.data(), copy.size(), process_reporter());
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, *library);
 }
@@ -149,9 +150,10 @@ TEST(LoadShader, IsInterpretedWhereItCannotBeBuiltAndSaysSoOnce) {
                            "echo \"error: unrecognized option '-std=c++20'\" >&2\nexit 1\n";
   fs::permissions(broken, fs::perms::owner_all);
   int warnings = 0;
-  const uint64_t sink = add_sink([&](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-    if (severity == D3D12_MESSAGE_SEVERITY_WARNING && error.id.number == 4025) ++warnings;
-  });
+  const uint64_t sink =
+      process_reporter().add_sink([&](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+        if (severity == D3D12_MESSAGE_SEVERITY_WARNING && error.id.number == 4025) ++warnings;
+      });
   const auto loaded = [&](const char* compiler, const std::string& colour) {
     setenv("KAAMOS_CXX", compiler, 1);
     const CompiledSource compiled = compile_source(
@@ -160,7 +162,8 @@ TEST(LoadShader, IsInterpretedWhereItCannotBeBuiltAndSaysSoOnce) {
                       colour + "; }\n")
                          .c_str()));
     testing::internal::CaptureStderr();
-    const auto library = load_shader(compiled.container.data(), compiled.container.size());
+    const auto library =
+        load_shader(compiled.container.data(), compiled.container.size(), process_reporter());
     const std::string said = testing::internal::GetCapturedStderr();
     unsetenv("KAAMOS_CXX");
     EXPECT_TRUE(library) << library.error().message;
@@ -173,7 +176,7 @@ TEST(LoadShader, IsInterpretedWhereItCannotBeBuiltAndSaysSoOnce) {
                              HasSubstr("\nerror: unrecognized option"), HasSubstr("$KAAMOS_CXX"),
                              testing::Not(HasSubstr("In file included"))));
   EXPECT_EQ(loaded("no-such-compiler", "12"), "");
-  remove_sink(sink);
+  process_reporter().remove_sink(sink);
   EXPECT_EQ(warnings, 2);
   fs::remove_all(folder);
 }
@@ -190,8 +193,8 @@ TEST(LoadShader, DxilSaysWhatToDo) {
 }
 
 TEST(LoadShader, NullAndTextAreNone) {
-  EXPECT_FALSE(load_shader(nullptr, 0));
-  EXPECT_FALSE(load_shader(nullptr, 100));
+  EXPECT_FALSE(load_shader(nullptr, 0, process_reporter()));
+  EXPECT_FALSE(load_shader(nullptr, 100, process_reporter()));
   EXPECT_THAT(error_of(std::vector<std::byte>(100, std::byte{'x'})), HasSubstr("\"xxxx\""));
 }
 

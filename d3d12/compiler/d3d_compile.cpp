@@ -100,7 +100,7 @@ HRESULT compile(std::string source, const char* name, const D3D_SHADER_MACRO* de
   if (code != nullptr) *code = nullptr;
   if (errors != nullptr) *errors = nullptr;
   if (target == nullptr || code == nullptr) {
-    return fail(ErrorId::kNullPointer, "D3DCompile: pTarget or ppCode is null.");
+    return process_reporter().fail(ErrorId::kNullPointer, "D3DCompile: pTarget or ppCode is null.");
   }
   std::vector<std::string> words = {"-T", target};
   if (entry != nullptr && *entry != '\0') words.insert(words.end(), {"-E", entry});
@@ -108,7 +108,7 @@ HRESULT compile(std::string source, const char* name, const D3D_SHADER_MACRO* de
     if ((flags & one.flag) != 0) words.emplace_back(one.word);
   }
   const auto parsed = parse_dxc_arguments(words);
-  if (!parsed) return fail(parsed.error());
+  if (!parsed) return process_reporter().fail(parsed.error());
   DxcArguments arguments = arguments_of(name, std::move(source), defines, includes);
   arguments.options.Target = parsed->options.Target;
   arguments.options.EntryPoint = parsed->options.EntryPoint;
@@ -138,7 +138,8 @@ using namespace kaamos::d3d12;
 STDAPI D3DCompile(LPCVOID pSrcData, SIZE_T SrcDataSize, LPCSTR pSourceName,
                   const D3D_SHADER_MACRO* pDefines, ID3DInclude* pInclude, LPCSTR pEntrypoint,
                   LPCSTR pTarget, UINT Flags1, UINT, ID3DBlob** ppCode, ID3DBlob** ppErrorMsgs) {
-  if (pSrcData == nullptr) return fail(ErrorId::kNullPointer, "D3DCompile: pSrcData is null.");
+  if (pSrcData == nullptr)
+    return process_reporter().fail(ErrorId::kNullPointer, "D3DCompile: pSrcData is null.");
   return compile(source_text(pSrcData, SrcDataSize), pSourceName, pDefines, pInclude, pEntrypoint,
                  pTarget, Flags1, ppCode, ppErrorMsgs);
 }
@@ -155,7 +156,7 @@ STDAPI D3DCompileFromFile(LPCWSTR pFileName, const D3D_SHADER_MACRO* pDefines,
                           ID3DInclude* pInclude, LPCSTR pEntrypoint, LPCSTR pTarget, UINT Flags1,
                           UINT, ID3DBlob** ppCode, ID3DBlob** ppErrorMsgs) {
   if (pFileName == nullptr) {
-    return fail(ErrorId::kNullPointer, "D3DCompileFromFile: pFileName is null.");
+    return process_reporter().fail(ErrorId::kNullPointer, "D3DCompileFromFile: pFileName is null.");
   }
   const std::string path = to_path(pFileName);
   const auto source = read_file(path);
@@ -168,7 +169,8 @@ STDAPI D3DPreprocess(LPCVOID pSrcData, SIZE_T SrcDataSize, LPCSTR pSourceName,
                      const D3D_SHADER_MACRO* pDefines, ID3DInclude* pInclude, ID3DBlob** ppCodeText,
                      ID3DBlob** ppErrorMsgs) {
   if (pSrcData == nullptr || ppCodeText == nullptr) {
-    return fail(ErrorId::kNullPointer, "D3DPreprocess: pSrcData or ppCodeText is null.");
+    return process_reporter().fail(ErrorId::kNullPointer,
+                                   "D3DPreprocess: pSrcData or ppCodeText is null.");
   }
   *ppCodeText = nullptr;
   const PreprocessedSource text = preprocess_source(
@@ -193,7 +195,7 @@ STDAPI D3DGetBlobPart(LPCVOID pSrcData, SIZE_T SrcDataSize, D3D_BLOB_PART Part, 
   if (ppPart == nullptr) return E_POINTER;
   *ppPart = nullptr;
   const auto parts = read_container(pSrcData, SrcDataSize);
-  if (!parts) return fail(parts.error());
+  if (!parts) return process_reporter().fail(parts.error());
   for (const kaamos::d3d12::Part& part : *parts) {
     if (Part != D3D_BLOB_ROOT_SIGNATURE || part.fourcc != fourcc("RTS0")) continue;
     *ppPart = new Blob(write_container({&part, 1}));

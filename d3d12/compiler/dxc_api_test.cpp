@@ -100,7 +100,8 @@ TEST(DxcApi, Compiler3CompilesALibraryWithAnIncludeHandler) {
   EXPECT_THAT(includes.asked, ElementsAre("./shaders/colour.hlsli"));
   ComPtr<IDxcBlob> object;
   ASSERT_EQ(result->GetOutput(DXC_OUT_OBJECT, IID_PPV_ARGS(object.GetAddressOf()), nullptr), S_OK);
-  const auto library = load_shader(object->GetBufferPointer(), object->GetBufferSize());
+  const auto library =
+      load_shader(object->GetBufferPointer(), object->GetBufferSize(), process_reporter());
   ASSERT_TRUE(library) << library.error().message;
   EXPECT_NE(library->FindExport("Sky"), nullptr);
   // The same as an ID3DBlob.

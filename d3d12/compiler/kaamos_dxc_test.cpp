@@ -68,7 +68,7 @@ TEST_F(KaamosDxc, LibraryCanBeLoaded) {
   fs::remove(folder_ / "library.hlsl");
   fs::remove_all(folder_ / "include");
   const std::string bytes = read("library.cso");
-  const auto library = load_shader(bytes.data(), bytes.size());
+  const auto library = load_shader(bytes.data(), bytes.size(), process_reporter());
   ASSERT_TRUE(library) << library.error().message;
   ASSERT_EQ(library->GetExports().size(), 2u);
   EXPECT_NE(library->FindExport("Trace"), nullptr);

@@ -22,12 +22,18 @@ class ShaderReflectionBase : public ReflectionBase<ID3D12ShaderReflection> {
   static constexpr InterfaceId kInterfaces[] = {
       {{0x5a58797d, 0xa72c, 0x478d, {0x8b, 0xa2, 0xef, 0xc6, 0xb0, 0xef, 0xe8, 0x8e}},
        "ID3D12ShaderReflection"}};
+
+ protected:
+  virtual Reporter& reporter() const = 0;
 };
 class LibraryReflectionBase : public ReflectionBase<ID3D12LibraryReflection> {
  public:
   static constexpr InterfaceId kInterfaces[] = {
       {{0x8e349d19, 0x54db, 0x4a56, {0x9d, 0xc9, 0x11, 0x9d, 0x87, 0xbd, 0xb8, 0x04}},
        "ID3D12LibraryReflection"}};
+
+ protected:
+  virtual Reporter& reporter() const = 0;
 };
 
 // D3D12_SHADER_VERSION_TYPE in the upper half, then major and minor version.
@@ -243,11 +249,11 @@ HRESULT create_reflection(const void* bytes, size_t size, REFIID riid, void** re
   if (reflection == nullptr) return E_POINTER;
   *reflection = nullptr;
   auto source = source_of_container(bytes, size);
-  if (!source) return fail(source.error());
+  if (!source) return process_reporter().fail(source.error());
   rtapi::ShaderCompileOptions options = compile_options(*std::move(source));
   options.CheckOnly = true;
   const rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
-  if (!compiled.Status.ok()) return fail(compiled.Status.error());
+  if (!compiled.Status.ok()) return process_reporter().fail(compiled.Status.error());
   if (options.Target.starts_with("lib")) {
     return hand_out(new ReflectedLibrary(compiled.Reflection, options.Target), riid, reflection);
   }

@@ -126,8 +126,8 @@ TEST_F(RootSignatureCalls, ABlobMakesARootSignatureAndJunkDoesNot) {
   EXPECT_EQ(device_->CreateRootSignature(0, junk, sizeof(junk),
                                          IID_PPV_ARGS(root_signature.ReleaseAndGetAddressOf())),
             E_INVALIDARG);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA4021");
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA4021");
 }
 
 TEST_F(RootSignatureCalls, AnUnknownVersionFillsTheErrorBlob) {
@@ -176,10 +176,10 @@ TEST_F(RootSignatureCalls, ALibrarysOnlyGlobalOneIsTaken) {
   };
   const std::string shader = "struct P { float v; }; [shader(\"miss\")] void Miss(inout P p) {}";
   EXPECT_EQ(create(compile("GlobalRootSignature g = {\"SRV(t0)\"};" + shader).Get()), S_OK);
-  EXPECT_EQ(messages_.size(), 0u);
+  EXPECT_EQ(messages().size(), 0u);
   EXPECT_EQ(create(compile(shader).Get()), E_INVALIDARG);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA0633");
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA0633");
 }
 
 TEST_F(RootSignatureCalls, Version10ReadAs11IsVolatile) {

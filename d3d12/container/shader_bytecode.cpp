@@ -6,7 +6,6 @@
 #include <memory>
 #include <mutex>
 
-#include "d3d12/com/report.h"
 #include "d3d12/container/checksum.h"
 #include "d3d12/container/shader_source.h"
 
@@ -23,14 +22,14 @@ bool cannot_be_built(const rtapi::Status& status) {
          (status.error().id.number == kNoCompiler || status.error().id.number == kCompilerFailed);
 }
 
-rtapi::Result<rtapi::ShaderLibrary> compile(const void* bytes, size_t size) {
+rtapi::Result<rtapi::ShaderLibrary> compile(const void* bytes, size_t size, Reporter& reporter) {
   auto source = source_of_container(bytes, size);
   if (!source) return source.error();
   rtapi::ShaderCompileOptions options = compile_options(*std::move(source));
   rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
   if (cannot_be_built(compiled.Status)) {
     const std::string who = "\"" + options.File + "\", and what else fails this way, runs about ";
-    report_interpreted(
+    reporter.report_interpreted(
         make_error(ErrorId::kInterpreted,
                    who + "a hundred times slower on the CPU: " + compiled.Status.error().message));
     options.Interpret = true;
@@ -52,7 +51,8 @@ struct LoadedShaders {
 
 }  // namespace
 
-rtapi::Result<rtapi::ShaderLibrary> load_shader(const void* bytes, size_t size) {
+rtapi::Result<rtapi::ShaderLibrary> load_shader(const void* bytes, size_t size,
+                                                Reporter& reporter) {
   static LoadedShaders all;
   std::array<uint32_t, 4> digest{};
   if (bytes != nullptr) digest = md5({static_cast<const std::byte*>(bytes), size});
@@ -66,7 +66,7 @@ rtapi::Result<rtapi::ShaderLibrary> load_shader(const void* bytes, size_t size) 
   // Other shaders are compiled meanwhile.
   std::lock_guard lock(shader->mutex);
   if (!shader->library) {
-    auto compiled = compile(bytes, size);
+    auto compiled = compile(bytes, size, reporter);
     if (!compiled) return compiled.error();
     shader->library = *std::move(compiled);
   }

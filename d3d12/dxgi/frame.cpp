@@ -41,7 +41,8 @@ UINT64 every() {
   if (*text >= '0' && *text <= '9' && *end == '\0' && out > 0) return out;
   static std::once_flag told;
   std::call_once(told, [&] {
-    fail(ErrorId::kPresent, "KAAMOS_PRESENT_EVERY is \"" + std::string(text) +
+    process_reporter().fail(ErrorId::kPresent,
+                            "KAAMOS_PRESENT_EVERY is \"" + std::string(text) +
                                 "\"; it is a whole number from 1 on. Every frame is written.");
   });
   return 1;

@@ -44,8 +44,8 @@ void free_window(HWND window) {
 }
 
 // Bad values of a call's arguments are DXGI_ERROR_INVALID_CALL, whichever they are.
-HRESULT refuse(const std::string& detail) {
-  fail(ErrorId::kSwapChain, detail);
+HRESULT refuse_call(Reporter& reporter, const std::string& detail) {
+  reporter.fail(ErrorId::kSwapChain, detail);
   return DXGI_ERROR_INVALID_CALL;
 }
 
@@ -97,6 +97,10 @@ SwapChain::~SwapChain() {
   deliver_finished();
   if (latency_event_ != nullptr) CloseHandle(latency_event_);
   free_window(window_);
+}
+
+HRESULT SwapChain::refuse(const std::string& detail) const {
+  return refuse_call(reporter(), detail);
 }
 
 HRESULT SwapChain::make_buffers(const DXGI_SWAP_CHAIN_DESC1& desc) {
@@ -278,25 +282,35 @@ HRESULT SwapChain::ResizeTarget(const DXGI_MODE_DESC* mode) {
 
 HRESULT create_swap_chain(IUnknown* factory, IUnknown* queue, const DXGI_SWAP_CHAIN_DESC1& desc,
                           HWND window, REFIID riid, void** chain) {
-  if (chain == nullptr) return fail(ErrorId::kNullPointer, "CreateSwapChain: ppSwapChain.");
-  if (queue == nullptr) return fail(ErrorId::kNullPointer, "CreateSwapChain: pDevice.");
   ComPtr<ID3D12CommandQueue> direct;
-  if (FAILED(queue->QueryInterface(IID_ID3D12CommandQueue,
-                                   reinterpret_cast<void**>(direct.GetAddressOf()))) ||
-      direct->GetDesc().Type != D3D12_COMMAND_LIST_TYPE_DIRECT) {
-    return refuse(
+  ComPtr<ID3D12Device> device;
+  if (queue != nullptr) {
+    queue->QueryInterface(IID_ID3D12CommandQueue, reinterpret_cast<void**>(direct.GetAddressOf()));
+    queue->QueryInterface(IID_ID3D12Device, reinterpret_cast<void**>(device.GetAddressOf()));
+  }
+  if (direct != nullptr) {
+    direct->GetDevice(IID_ID3D12Device, reinterpret_cast<void**>(device.GetAddressOf()));
+  }
+  Reporter& reporter = device != nullptr ? reporter_of(device.Get()) : process_reporter();
+  if (chain == nullptr) {
+    return reporter.fail(ErrorId::kNullPointer, "CreateSwapChain: ppSwapChain.");
+  }
+  if (queue == nullptr) return reporter.fail(ErrorId::kNullPointer, "CreateSwapChain: pDevice.");
+  if (direct == nullptr || direct->GetDesc().Type != D3D12_COMMAND_LIST_TYPE_DIRECT) {
+    return refuse_call(
+        reporter,
         "CreateSwapChain: pDevice is not a direct ID3D12CommandQueue; with D3D12 pass "
         "the queue that draws, not the device.");
   }
   if (const std::string fault = find_fault(desc); !fault.empty()) {
-    return refuse("CreateSwapChain: " + fault);
+    return refuse_call(reporter, "CreateSwapChain: " + fault);
   }
   if (window != nullptr && !window_size(window)) {
-    return refuse("CreateSwapChain: OutputWindow is not a valid window.");
+    return refuse_call(reporter, "CreateSwapChain: OutputWindow is not a valid window.");
   }
   if (!claim_window(window)) {
-    fail(ErrorId::kSwapChain,
-         "CreateSwapChain: the window has a swap chain; release that one first.");
+    reporter.fail(ErrorId::kSwapChain,
+                  "CreateSwapChain: the window has a swap chain; release that one first.");
     return E_ACCESSDENIED;
   }
   DXGI_SWAP_CHAIN_DESC1 sized = desc;

@@ -12,6 +12,7 @@
 
 #include "d3d12/dxgi/dxgi_object.h"
 #include "d3d12/dxgi/frame.h"
+#include "d3d12/objects/device_child.h"
 
 namespace kaamos::d3d12 {
 
@@ -28,6 +29,8 @@ class SwapChain final : public DxgiObject<IDXGISwapChainEntries> {
   /// error everything is as it was.
   /// @errors KA4040 and those of CreateCommittedResource.
   HRESULT make_buffers(const DXGI_SWAP_CHAIN_DESC1& desc);
+
+  Reporter& reporter() const override { return reporter_of(device_.Get()); }
 
   HRESULT STDMETHODCALLTYPE Present(UINT sync_interval, UINT flags) override;
   HRESULT STDMETHODCALLTYPE Present1(UINT sync_interval, UINT flags,
@@ -78,6 +81,7 @@ class SwapChain final : public DxgiObject<IDXGISwapChainEntries> {
     UINT64 fence_value;
   };
 
+  HRESULT refuse(const std::string& detail) const;
   HRESULT copy_frame();
   void deliver_finished();
 
@@ -101,7 +105,7 @@ class SwapChain final : public DxgiObject<IDXGISwapChainEntries> {
 
 /// Checks a description by the rules of the flip model and makes the swap chain.
 /// @errors KA4001 null; KA4040 a member, an object that is not a queue, a window that has one
-/// already.
+/// already. They are messages of the device of `queue`, if it has one.
 HRESULT create_swap_chain(IUnknown* factory, IUnknown* queue, const DXGI_SWAP_CHAIN_DESC1& desc,
                           HWND window, REFIID riid, void** chain);
 

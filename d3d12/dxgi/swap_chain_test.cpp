@@ -231,17 +231,35 @@ TEST_F(SwapChainTest, AWindowHasOneSwapChain) {
   ASSERT_EQ(create(good_desc()), S_OK);
   const ComPtr<IDXGISwapChain3> first = chain_;
   EXPECT_EQ(create(good_desc()), E_ACCESSDENIED);
-  EXPECT_EQ(messages_.size(), 1u);
+  EXPECT_EQ(messages().size(), 1u);
+}
+
+TEST_F(SwapChainTest, ItsMessagesAreThoseOfItsDevice) {
+  ComPtr<ID3D12Device> other;
+  ASSERT_EQ(D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(other.GetAddressOf())),
+            S_OK);
+  const Listener to_other(reporter_of(other.Get()));
+  const Listener to_none;
+  ASSERT_EQ(create(good_desc()), S_OK);
+  EXPECT_EQ(chain_->Present(5, 0), DXGI_ERROR_INVALID_CALL);
+  EXPECT_EQ(messages().size(), 1u);
+  EXPECT_EQ(to_other.messages.size() + to_none.messages.size(), 0u);
+  ComPtr<IDXGISwapChain1> made;
+  EXPECT_EQ(factory_->CreateSwapChainForHwnd(queue_.Get(), window_, nullptr, nullptr, nullptr,
+                                             made.GetAddressOf()),
+            E_INVALIDARG);
+  EXPECT_EQ(to_none.messages.size(), 1u);
+  EXPECT_EQ(to_other.messages.size(), 0u);
 }
 
 TEST_F(SwapChainTest, RefusesWhatTheFlipModelRefuses) {
   const auto refused = [&](auto change, const char* part) {
     DXGI_SWAP_CHAIN_DESC1 desc = good_desc();
     change(desc);
-    messages_.clear();
+    messages().clear();
     EXPECT_EQ(create(desc), DXGI_ERROR_INVALID_CALL);
-    ASSERT_EQ(messages_.size(), 1u) << part;
-    EXPECT_NE(messages_[0].find(part), std::string::npos) << messages_[0];
+    ASSERT_EQ(messages().size(), 1u) << part;
+    EXPECT_NE(messages()[0].find(part), std::string::npos) << messages()[0];
   };
   refused([](auto& d) { d.BufferCount = 1; }, "BufferCount is 1");
   refused([](auto& d) { d.BufferCount = 17; }, "BufferCount is 17");
@@ -250,15 +268,15 @@ TEST_F(SwapChainTest, RefusesWhatTheFlipModelRefuses) {
   refused([](auto& d) { d.Format = DXGI_FORMAT_R8G8B8A8_UNORM_SRGB; }, "Format is 29");
   ComPtr<IDXGISwapChain1> made;
   const DXGI_SWAP_CHAIN_DESC1 desc = good_desc();
-  messages_.clear();
+  messages().clear();
   EXPECT_EQ(factory_->CreateSwapChainForHwnd(device_.Get(), window_, &desc, nullptr, nullptr,
                                              made.GetAddressOf()),
             DXGI_ERROR_INVALID_CALL);
-  EXPECT_NE(messages_.at(0).find("not a direct ID3D12CommandQueue"), std::string::npos);
+  EXPECT_NE(messages().at(0).find("not a direct ID3D12CommandQueue"), std::string::npos);
   EXPECT_EQ(
       factory_->CreateSwapChainForComposition(queue_.Get(), &desc, nullptr, made.GetAddressOf()),
       DXGI_ERROR_INVALID_CALL);
-  EXPECT_NE(messages_.at(1).find("0 x 0"), std::string::npos);
+  EXPECT_NE(messages().at(1).find("0 x 0"), std::string::npos);
 }
 
 TEST_F(SwapChainTest, ResizesOnceItsBuffersAreReleased) {
@@ -268,7 +286,7 @@ TEST_F(SwapChainTest, ResizesOnceItsBuffersAreReleased) {
                               reinterpret_cast<void**>(buffer.GetAddressOf())),
             S_OK);
   EXPECT_EQ(chain_->ResizeBuffers(3, 64, 48, DXGI_FORMAT_UNKNOWN, 0), DXGI_ERROR_INVALID_CALL);
-  EXPECT_NE(messages_.at(0).find("back buffer 1 has 1 references"), std::string::npos);
+  EXPECT_NE(messages().at(0).find("back buffer 1 has 1 references"), std::string::npos);
   buffer.Reset();
   EXPECT_EQ(
       chain_->ResizeBuffers(3, 64, 48, DXGI_FORMAT_UNKNOWN, DXGI_SWAP_CHAIN_FLAG_ALLOW_TEARING),
@@ -306,10 +324,10 @@ TEST_F(SwapChainTest, PresentsOnlyAsItsFlagsAllow) {
 TEST_F(SwapChainTest, AFolderThatCannotBeMadeIsToldOnce) {
   setenv("KAAMOS_PRESENT", "/proc/kaamos", 1);
   ASSERT_EQ(create(good_desc()), S_OK);
-  messages_.clear();
+  messages().clear();
   for (int i = 0; i < 2; ++i) EXPECT_EQ(chain_->Present(0, 0), S_OK);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_NE(messages_[0].find("/proc/kaamos/"), std::string::npos);
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_NE(messages()[0].find("/proc/kaamos/"), std::string::npos);
 }
 
 TEST_F(SwapChainTest, StaysAsItWasWhenAResizeFails) {
@@ -317,7 +335,7 @@ TEST_F(SwapChainTest, StaysAsItWasWhenAResizeFails) {
   DXGI_SWAP_CHAIN_DESC before = {};
   ASSERT_EQ(chain_->GetDesc(&before), S_OK);
   EXPECT_LT(chain_->ResizeBuffers(0, 20000, 100, DXGI_FORMAT_UNKNOWN, 0), 0);
-  EXPECT_FALSE(messages_.empty());
+  EXPECT_FALSE(messages().empty());
   DXGI_SWAP_CHAIN_DESC desc = {};
   ASSERT_EQ(chain_->GetDesc(&desc), S_OK);
   EXPECT_EQ(desc.BufferDesc.Width, before.BufferDesc.Width);

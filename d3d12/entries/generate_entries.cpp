@@ -139,11 +139,11 @@ void write_method(std::ostream& out, const Interface& interface, const Method& m
   out << "  " << method.result << " STDMETHODCALLTYPE " << method.name << "(" << method.parameters
       << ") override {\n    ";
   if (method.result == "HRESULT") {
-    out << "return missing_result(" << name << ");\n";
+    out << "return reporter().missing(" << name << ");\n";
   } else if (method.result == "void") {
-    out << "missing(" << name << ");\n";
+    out << "reporter().missing(" << name << ");\n";
   } else {
-    out << "missing(" << name << ");\n    return {};\n";
+    out << "reporter().missing(" << name << ");\n    return {};\n";
   }
   out << "  }\n";
 }
@@ -151,7 +151,7 @@ void write_method(std::ostream& out, const Interface& interface, const Method& m
 void write_entries(std::ostream& out, const Chains& chains) {
   out << "// Made by kaamos-d3d12-entries. Every method of every interface, saying that it is "
          "missing.\n#pragma once\n\n#include \"d3d12/com/interface_id.h\"\n"
-         "#include \"d3d12/com/missing.h\"\n\nnamespace kaamos::d3d12 {\n";
+         "#include \"d3d12/com/report.h\"\n\nnamespace kaamos::d3d12 {\n";
   for (const Interface* newest : chains.newest()) {
     const auto chain = chains.chain(*newest);
     // The name of the oldest version: ID3D12DeviceEntries has the methods of ID3D12Device11.
@@ -169,7 +169,8 @@ void write_entries(std::ostream& out, const Chains& chains) {
     for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
       for (const Method& method : (*i)->methods) write_method(out, **i, method);
     }
-    out << "\n protected:\n  virtual ~" << oldest->name << "Entries() = default;\n};\n";
+    out << "\n protected:\n  virtual Reporter& reporter() const = 0;\n  virtual ~" << oldest->name
+        << "Entries() = default;\n};\n";
   }
   out << "\n}  // namespace kaamos::d3d12\n";
 }

@@ -82,7 +82,7 @@ TEST_F(BundleCalls, RunWhereTheyAreExecutedWithWhatTheyKept) {
   uint32_t* result = nullptr;
   ASSERT_EQ(readback->Map(0, nullptr, reinterpret_cast<void**>(&result)), S_OK);
   EXPECT_EQ(*result, 15u);
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 
   ASSERT_EQ(bundle_allocator_->Reset(), S_OK);
   EXPECT_EQ(bundle->Reset(bundle_allocator_.Get(), nullptr), S_OK);
@@ -95,17 +95,17 @@ TEST_F(BundleCalls, WhatIsNoClosedBundleIsRefused) {
   list_->ExecuteBundle(nullptr);
   list_->ExecuteBundle(list_.Get());
   list_->ExecuteBundle(bundle.Get());  // open
-  EXPECT_EQ(messages_.size(), 3u);
+  EXPECT_EQ(messages().size(), 3u);
   ComPtr<ID3D12GraphicsCommandList4> second;
   EXPECT_EQ(create_bundle(nullptr, second), DXGI_ERROR_INVALID_CALL);  // the allocator is taken
   EXPECT_EQ(bundle->Close(), S_OK);
   EXPECT_EQ(bundle->Close(), DXGI_ERROR_INVALID_CALL);
   bundle->Dispatch(1, 1, 1);
   EXPECT_EQ(bundle->Reset(allocator_.Get(), nullptr), DXGI_ERROR_INVALID_CALL);
-  messages_.clear();
+  messages().clear();
   ID3D12CommandList* lists[] = {bundle.Get()};
   queue_->ExecuteCommandLists(1, lists);
-  EXPECT_EQ(messages_.size(), 1u);
+  EXPECT_EQ(messages().size(), 1u);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST_F(CommandListCalls, AViewIsCleared) {
                                       host->GetCPUDescriptorHandleForHeapStart(), target.Get(),
                                       seven, 0, nullptr);
   EXPECT_EQ(read(target.Get(), 4), (std::vector<uint32_t>{7, 7, 7, 7}));
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(CommandListCalls, TimestampsGrow) {
@@ -93,10 +93,10 @@ TEST_F(CommandListCalls, CloseReportsEveryErrorAndReturnsTheFirst) {
   const auto upload = buffer(16, D3D12_HEAP_TYPE_UPLOAD, D3D12_RESOURCE_STATE_GENERIC_READ);
   list_->CopyBufferRegion(small.Get(), 8, upload.Get(), 0, 16);
   list_->Dispatch(1, 1, 1);
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
   EXPECT_EQ(list_->Close(), E_INVALIDARG);
-  ASSERT_EQ(messages_.size(), 2u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA0817");
+  ASSERT_EQ(messages().size(), 2u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA0817");
   EXPECT_EQ(list_->Close(), DXGI_ERROR_INVALID_CALL);
 }
 
@@ -131,14 +131,14 @@ TEST_F(CommandListCalls, ASplitBarrierTakesPlaceAtItsEnd) {
   barrier.Aliasing = {nullptr, data.Get()};
   list_->ResourceBarrier(1, &barrier);
   EXPECT_EQ(read(data.Get(), 1), std::vector<uint32_t>{0});
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(CommandListCalls, WhatIsMissingSaysSo) {
   list_->SOSetTargets(0, 0, nullptr);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA4000");
-  EXPECT_NE(messages_[0].find("ID3D12GraphicsCommandList::SOSetTargets"), std::string::npos);
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA4000");
+  EXPECT_NE(messages()[0].find("ID3D12GraphicsCommandList::SOSetTargets"), std::string::npos);
 }
 
 TEST_F(CommandListCalls, ABarrierBetweenEqualStatesDoesNothing) {
@@ -148,7 +148,7 @@ TEST_F(CommandListCalls, ABarrierBetweenEqualStatesDoesNothing) {
                         D3D12_RESOURCE_STATE_COPY_DEST, D3D12_RESOURCE_STATE_COPY_DEST};
   list_->ResourceBarrier(1, &barrier);
   EXPECT_EQ(list_->Close(), S_OK);
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(CommandListCalls, EventsNeedNotBalance) {
@@ -158,14 +158,14 @@ TEST_F(CommandListCalls, EventsNeedNotBalance) {
   list_->BeginEvent(0, L"inner", sizeof(L"inner"));
   list_->EndEvent();
   run();
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(CommandListCalls, CloseTellsWhatTheFacadeRefused) {
   list_->DispatchRays(nullptr);
   list_->ResourceBarrier(1, nullptr);
   list_->SetDescriptorHeaps(1, nullptr);
-  EXPECT_EQ(messages_.size(), 3u);
+  EXPECT_EQ(messages().size(), 3u);
   EXPECT_EQ(list_->Close(), E_INVALIDARG);
   ASSERT_EQ(allocator_->Reset(), S_OK);
   ASSERT_EQ(list_->Reset(allocator_.Get(), nullptr), S_OK);

@@ -52,32 +52,34 @@ HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, v
   if (level > D3D_FEATURE_LEVEL_12_1) {
     char text[16];
     std::snprintf(text, sizeof(text), "0x%X", static_cast<unsigned>(level));
-    return fail(ErrorId::kFeatureLevel, std::string("D3D12CreateDevice: MinimumFeatureLevel is ") +
-                                            text +
-                                            "; the highest is 0xC100 (D3D_FEATURE_LEVEL_12_1).");
+    return process_reporter().fail(
+        ErrorId::kFeatureLevel, std::string("D3D12CreateDevice: MinimumFeatureLevel is ") + text +
+                                    "; the highest is 0xC100 (D3D_FEATURE_LEVEL_12_1).");
   }
   rtapi::DeviceDesc desc;
   std::string backend = backend_of(adapter);
   if (backend.empty()) {
     const auto devices = rtapi::EnumerateDevices();
     if (devices.empty()) {
-      return fail(ErrorId::kAdapter, "D3D12CreateDevice: this build has no backend.");
+      return process_reporter().fail(ErrorId::kAdapter,
+                                     "D3D12CreateDevice: this build has no backend.");
     }
     backend = devices.front().Backend;
   }
   desc.Backend = backend;
   desc.Checked = debug_layer_enabled();
-  desc.OnMessage = [](const rtapi::Message& message) {
+  const auto reporter = std::make_shared<Reporter>();
+  desc.OnMessage = [reporter](const rtapi::Message& message) {
     const rtapi::Error error{message.Id, rtapi::ErrorCode::kFailed, message.Text};
     if (message.Id.number == kCodeInterpreted || message.Id.number == kFunctionInterpreted) {
-      report_interpreted(error);
+      reporter->report_interpreted(error);
     } else {
-      report(severity_of(message.Severity), error);
+      reporter->report(severity_of(message.Severity), error);
     }
   };
   auto made = rtapi::CreateDevice(desc);
-  if (!made) return fail(made.error());
-  return hand_out(new Device(*made, desc.Checked, luid_of(backend)), riid, device);
+  if (!made) return process_reporter().fail(made.error());
+  return hand_out(new Device(*made, reporter, desc.Checked, luid_of(backend)), riid, device);
 }
 
 }  // namespace
@@ -100,11 +102,13 @@ HRESULT WINAPI D3D12GetDebugInterface(REFIID riid, void** debug) {
 // Experimental shader models are those that are not signed, which every shader is here.
 HRESULT WINAPI D3D12EnableExperimentalFeatures(UINT count, const IID* ids, void*, UINT*) {
   if (count != 0 && ids == nullptr) {
-    return fail(ErrorId::kNullPointer, "D3D12EnableExperimentalFeatures: pIIDs.");
+    return process_reporter().fail(ErrorId::kNullPointer,
+                                   "D3D12EnableExperimentalFeatures: pIIDs.");
   }
   for (UINT i = 0; i < count; ++i) {
     if (ids[i] != D3D12ExperimentalShaderModels) {
-      return fail(ErrorId::kAdapter, "D3D12EnableExperimentalFeatures: pIIDs[" + std::to_string(i) +
+      return process_reporter().fail(ErrorId::kAdapter,
+                                     "D3D12EnableExperimentalFeatures: pIIDs[" + std::to_string(i) +
                                          "] is not D3D12ExperimentalShaderModels, the only one.");
     }
   }
@@ -114,8 +118,8 @@ HRESULT WINAPI D3D12EnableExperimentalFeatures(UINT count, const IID* ids, void*
 HRESULT WINAPI D3D12GetInterface(REFCLSID class_id, REFIID riid, void** object) {
   if (class_id == CLSID_D3D12Debug) return get_debug_interface(riid, object);
   if (object != nullptr) *object = nullptr;
-  return fail(ErrorId::kAdapter,
-              "D3D12GetInterface: the class is not CLSID_D3D12Debug, the only one.");
+  return process_reporter().fail(
+      ErrorId::kAdapter, "D3D12GetInterface: the class is not CLSID_D3D12Debug, the only one.");
 }
 
 }  // extern "C"

@@ -9,10 +9,12 @@
 #include <gtest/gtest.h>
 #include <wrl/client.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "d3d12/com/report.h"
+#include "d3d12/com/report_fixture.h"
+#include "d3d12/objects/device_child.h"
 
 namespace kaamos::d3d12 {
 
@@ -21,13 +23,10 @@ using Microsoft::WRL::ComPtr;
 class D3d12Test : public testing::Test {
  protected:
   void SetUp() override {
-    mute_output(true);
-    sink_ = add_sink([this](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-      if (severity <= D3D12_MESSAGE_SEVERITY_ERROR) messages_.push_back(error.message);
-    });
     ASSERT_EQ(
         D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(device_.GetAddressOf())),
         S_OK);
+    listener_.emplace(reporter_of(device_.Get()));
     D3D12_COMMAND_QUEUE_DESC queue = {};
     ASSERT_EQ(device_->CreateCommandQueue(&queue, IID_PPV_ARGS(queue_.GetAddressOf())), S_OK);
     ASSERT_EQ(device_->CreateCommandAllocator(D3D12_COMMAND_LIST_TYPE_DIRECT,
@@ -38,14 +37,18 @@ class D3d12Test : public testing::Test {
               S_OK);
   }
 
-  void TearDown() override {
-    remove_sink(sink_);
-    mute_output(false);
-  }
+  // The errors of device_.
+  std::vector<std::string>& messages() { return listener_->messages; }
 
   ComPtr<ID3D12Resource> buffer(UINT64 bytes, D3D12_HEAP_TYPE type,
                                 D3D12_RESOURCE_STATES state = D3D12_RESOURCE_STATE_COMMON,
                                 D3D12_RESOURCE_FLAGS flags = D3D12_RESOURCE_FLAG_NONE) {
+    return buffer_of(device_.Get(), bytes, type, state, flags);
+  }
+
+  static ComPtr<ID3D12Resource> buffer_of(ID3D12Device* device, UINT64 bytes, D3D12_HEAP_TYPE type,
+                                          D3D12_RESOURCE_STATES state = D3D12_RESOURCE_STATE_COMMON,
+                                          D3D12_RESOURCE_FLAGS flags = D3D12_RESOURCE_FLAG_NONE) {
     D3D12_HEAP_PROPERTIES heap = {};
     heap.Type = type;
     D3D12_RESOURCE_DESC desc = {};
@@ -56,8 +59,8 @@ class D3d12Test : public testing::Test {
     desc.Layout = D3D12_TEXTURE_LAYOUT_ROW_MAJOR;
     desc.Flags = flags;
     ComPtr<ID3D12Resource> out;
-    EXPECT_EQ(device_->CreateCommittedResource(&heap, D3D12_HEAP_FLAG_NONE, &desc, state, nullptr,
-                                               IID_PPV_ARGS(out.GetAddressOf())),
+    EXPECT_EQ(device->CreateCommittedResource(&heap, D3D12_HEAP_FLAG_NONE, &desc, state, nullptr,
+                                              IID_PPV_ARGS(out.GetAddressOf())),
               S_OK);
     return out;
   }
@@ -83,10 +86,10 @@ class D3d12Test : public testing::Test {
   ComPtr<ID3D12CommandQueue> queue_;
   ComPtr<ID3D12CommandAllocator> allocator_;
   ComPtr<ID3D12GraphicsCommandList4> list_;
-  std::vector<std::string> messages_;
 
  private:
-  uint64_t sink_ = 0;
+  Quiet quiet_;
+  std::optional<Listener> listener_;
 };
 
 }  // namespace kaamos::d3d12

@@ -3,8 +3,14 @@
 
 namespace kaamos::d3d12 {
 
-Device::Device(rtapi::Device device, bool debug, LUID luid)
-    : device_(std::move(device)), debug_(debug), luid_(luid) {}
+Device::Device(rtapi::Device device, std::shared_ptr<Reporter> reporter, bool debug, LUID luid)
+    : reporter_(std::move(reporter)), device_(std::move(device)), debug_(debug), luid_(luid) {
+  listen_to(reporter_);
+}
+
+Reporter& reporter_of(ID3D12Device* device) {
+  return device_of(device).reporter();
+}
 
 HRESULT Device::GetDeviceRemovedReason() {
   if (removed_) return DXGI_ERROR_DEVICE_REMOVED;

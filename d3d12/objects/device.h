@@ -16,10 +16,12 @@ namespace kaamos::d3d12 {
 class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDevice> {
  public:
   /// `debug`: whether the debug layer is on, whose interfaces are hidden otherwise.
-  Device(rtapi::Device device, bool debug, LUID luid);
+  /// `reporter`: that of the messages of `device`.
+  Device(rtapi::Device device, std::shared_ptr<Reporter> reporter, bool debug, LUID luid);
 
   const rtapi::Device& rtapi_device() const { return device_; }
   LiveObjects& live_objects() { return live_objects_; }
+  Reporter& reporter() const override { return *reporter_; }
 
   // Queues, lists, fences
   HRESULT STDMETHODCALLTYPE CreateCommandQueue(const D3D12_COMMAND_QUEUE_DESC* desc, REFIID riid,
@@ -187,6 +189,7 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   HRESULT create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, REFIID riid,
                          void** pipeline);
 
+  std::shared_ptr<Reporter> reporter_;
   rtapi::Device device_;
   bool debug_;
   LUID luid_;

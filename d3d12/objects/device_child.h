@@ -9,7 +9,8 @@
 
 namespace kaamos::d3d12 {
 
-class Device;
+/// That of a device of this library.
+Reporter& reporter_of(ID3D12Device* device);
 
 /// What a device made. `First` derives from ID3D12DeviceChild.
 template <class First, class... Rest>
@@ -30,6 +31,7 @@ class DeviceChild : public NamedObject<First, Rest...> {
  protected:
   ~DeviceChild() override { live_objects(device_.Get()).remove(this); }
   ID3D12Device* device() const { return device_.Get(); }
+  Reporter& reporter() const override { return reporter_of(device_.Get()); }
 
  private:
   Microsoft::WRL::ComPtr<ID3D12Device> device_;

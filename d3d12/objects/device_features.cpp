@@ -9,21 +9,29 @@ namespace kaamos::d3d12 {
 
 namespace {
 
+// The structure that a program wants filled, and who tells it of mistakes.
+struct Query {
+  void* data;
+  UINT size;
+  Reporter& reporter;
+};
+
 // Answers a query whose structure is `Data`, if the size is right.
 template <class Data, class Fill>
-HRESULT answer(void* data, UINT size, const Fill& fill) {
-  if (data == nullptr || size != sizeof(Data)) {
-    return fail(ErrorId::kNullPointer, "CheckFeatureSupport: pFeatureSupportData is null, or of " +
-                                           std::to_string(size) + " bytes instead of " +
-                                           std::to_string(sizeof(Data)) + ".");
+HRESULT answer(const Query& query, const Fill& fill) {
+  if (query.data == nullptr || query.size != sizeof(Data)) {
+    return query.reporter.fail(ErrorId::kNullPointer,
+                               "CheckFeatureSupport: pFeatureSupportData is null, or of " +
+                                   std::to_string(query.size) + " bytes instead of " +
+                                   std::to_string(sizeof(Data)) + ".");
   }
-  return fill(*static_cast<Data*>(data));
+  return fill(*static_cast<Data*>(query.data));
 }
 
 // The same for structures that only hold answers: what `fill` does not set is no.
 template <class Data, class Fill>
-HRESULT options(void* data, UINT size, const Fill& fill) {
-  return answer<Data>(data, size, [&](Data& out) {
+HRESULT options(const Query& query, const Fill& fill) {
+  return answer<Data>(query, [&](Data& out) {
     out = {};
     fill(out);
     return S_OK;
@@ -49,9 +57,10 @@ HRESULT feature_levels(D3D12_FEATURE_DATA_FEATURE_LEVELS& out) {
 }  // namespace
 
 HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size) {
+  const Query query{data, size, reporter()};
   switch (feature) {
     case D3D12_FEATURE_D3D12_OPTIONS:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS>(data, size, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS>(query, [](auto& out) {
         out.DoublePrecisionFloatShaderOps = TRUE;
         out.ResourceBindingTier = D3D12_RESOURCE_BINDING_TIER_3;
         out.TypedUAVLoadAdditionalFormats = TRUE;
@@ -60,68 +69,68 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
         out.ResourceHeapTier = D3D12_RESOURCE_HEAP_TIER_2;
       });
     case D3D12_FEATURE_ARCHITECTURE:
-      return answer<D3D12_FEATURE_DATA_ARCHITECTURE>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_ARCHITECTURE>(query, [](auto& out) {
         if (out.NodeIndex != 0) return E_INVALIDARG;
         out = {0, FALSE, FALSE, FALSE};  // custom heaps do not do all that UMA promises
         return S_OK;
       });
     case D3D12_FEATURE_ARCHITECTURE1:
-      return answer<D3D12_FEATURE_DATA_ARCHITECTURE1>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_ARCHITECTURE1>(query, [](auto& out) {
         if (out.NodeIndex != 0) return E_INVALIDARG;
         out = {0, FALSE, FALSE, FALSE, FALSE};
         return S_OK;
       });
     case D3D12_FEATURE_FEATURE_LEVELS:
-      return answer<D3D12_FEATURE_DATA_FEATURE_LEVELS>(data, size, feature_levels);
+      return answer<D3D12_FEATURE_DATA_FEATURE_LEVELS>(query, feature_levels);
     case D3D12_FEATURE_FORMAT_SUPPORT:
-      return answer<D3D12_FEATURE_DATA_FORMAT_SUPPORT>(data, size, [this](auto& out) {
+      return answer<D3D12_FEATURE_DATA_FORMAT_SUPPORT>(query, [this](auto& out) {
         out = format_support(device_, out.Format);
         return S_OK;
       });
     case D3D12_FEATURE_MULTISAMPLE_QUALITY_LEVELS:
-      return answer<D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS>(query, [](auto& out) {
         out.NumQualityLevels = out.SampleCount == 1 ? 1 : 0;
         return S_OK;
       });
     case D3D12_FEATURE_FORMAT_INFO:
-      return answer<D3D12_FEATURE_DATA_FORMAT_INFO>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_FORMAT_INFO>(query, [](auto& out) {
         const auto format = static_cast<rtapi::Format>(out.Format);
         if (rtapi::GetFormatInfo(format).bytes == 0) return E_INVALIDARG;
         out.PlaneCount = rtapi::HasStencil(format) ? 2 : 1;
         return S_OK;
       });
     case D3D12_FEATURE_GPU_VIRTUAL_ADDRESS_SUPPORT:
-      return options<D3D12_FEATURE_DATA_GPU_VIRTUAL_ADDRESS_SUPPORT>(data, size, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_GPU_VIRTUAL_ADDRESS_SUPPORT>(query, [](auto& out) {
         out = {kAddressBits, 47};
       });
     case D3D12_FEATURE_SHADER_MODEL:
       // A program asks with the highest model it knows and gets the lower of the two.
-      return answer<D3D12_FEATURE_DATA_SHADER_MODEL>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_SHADER_MODEL>(query, [](auto& out) {
         if (out.HighestShaderModel < D3D_SHADER_MODEL_5_1) return E_INVALIDARG;
         out.HighestShaderModel = std::min(out.HighestShaderModel, kHighestShaderModel);
         return S_OK;
       });
     case D3D12_FEATURE_ROOT_SIGNATURE:
-      return answer<D3D12_FEATURE_DATA_ROOT_SIGNATURE>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_ROOT_SIGNATURE>(query, [](auto& out) {
         if (out.HighestVersion < D3D_ROOT_SIGNATURE_VERSION_1_0) return E_INVALIDARG;
         out.HighestVersion = std::min(out.HighestVersion, D3D_ROOT_SIGNATURE_VERSION_1_1);
         return S_OK;
       });
     case D3D12_FEATURE_COMMAND_QUEUE_PRIORITY:
-      return answer<D3D12_FEATURE_DATA_COMMAND_QUEUE_PRIORITY>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_COMMAND_QUEUE_PRIORITY>(query, [](auto& out) {
         out.PriorityForTypeIsSupported = out.CommandListType == D3D12_COMMAND_LIST_TYPE_DIRECT ||
                                          out.CommandListType == D3D12_COMMAND_LIST_TYPE_COMPUTE ||
                                          out.CommandListType == D3D12_COMMAND_LIST_TYPE_COPY;
         return S_OK;
       });
     case D3D12_FEATURE_SERIALIZATION:
-      return answer<D3D12_FEATURE_DATA_SERIALIZATION>(data, size, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_SERIALIZATION>(query, [](auto& out) {
         if (out.NodeIndex != 0) return E_INVALIDARG;
         out.HeapSerializationTier = D3D12_HEAP_SERIALIZATION_TIER_0;
         return S_OK;
       });
     case D3D12_FEATURE_D3D12_OPTIONS1:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS1>(data, size, [this](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS1>(query, [this](auto& out) {
         const uint32_t lanes = device_.GetDesc().WaveLanes;
         out.WaveOps = TRUE;
         out.WaveLaneCountMin = lanes != 0 ? lanes : 8;
@@ -131,55 +140,55 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
         out.Int64ShaderOps = TRUE;
       });
     case D3D12_FEATURE_D3D12_OPTIONS2:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS2>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS2>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS3:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS3>(
-          data, size, [](auto& out) { out.CopyQueueTimestampQueriesSupported = TRUE; });
+          query, [](auto& out) { out.CopyQueueTimestampQueriesSupported = TRUE; });
     case D3D12_FEATURE_D3D12_OPTIONS4:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS4>(
-          data, size, [](auto& out) { out.Native16BitShaderOpsSupported = TRUE; });
+          query, [](auto& out) { out.Native16BitShaderOpsSupported = TRUE; });
     case D3D12_FEATURE_D3D12_OPTIONS5:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS5>(data, size, [this](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS5>(query, [this](auto& out) {
         out.RenderPassesTier = D3D12_RENDER_PASS_TIER_0;
         out.RaytracingTier = static_cast<D3D12_RAYTRACING_TIER>(device_.GetDesc().Tier);
       });
     case D3D12_FEATURE_D3D12_OPTIONS6:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS6>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS6>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS7:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS7>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS7>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS8:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS8>(
-          data, size, [](auto& out) { out.UnalignedBlockTexturesSupported = TRUE; });
+          query, [](auto& out) { out.UnalignedBlockTexturesSupported = TRUE; });
     case D3D12_FEATURE_D3D12_OPTIONS9:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS9>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS9>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS10:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS10>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS10>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS11:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS11>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS11>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS12:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS12>(data, size, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS12>(query, [](auto& out) {
         out.MSPrimitivesPipelineStatisticIncludesCulledPrimitives = D3D12_TRI_STATE_FALSE;
       });
     case D3D12_FEATURE_D3D12_OPTIONS13:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS13>(data, size, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS13>(query, [](auto& out) {
         out.InvertedViewportHeightFlipsYSupported = TRUE;
         out.InvertedViewportDepthFlipsZSupported = TRUE;
       });
     case D3D12_FEATURE_D3D12_OPTIONS14:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS14>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS14>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS15:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS15>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS15>(query, [](auto&) {});
     case D3D12_FEATURE_EXISTING_HEAPS:
-      return options<D3D12_FEATURE_DATA_EXISTING_HEAPS>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_EXISTING_HEAPS>(query, [](auto&) {});
     case D3D12_FEATURE_SHADER_CACHE:
-      return options<D3D12_FEATURE_DATA_SHADER_CACHE>(data, size, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_SHADER_CACHE>(query, [](auto& out) {
         out.SupportFlags = D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_INPROC_CACHE |
                            D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_DISK_CACHE;
       });
     case D3D12_FEATURE_CROSS_NODE:
-      return options<D3D12_FEATURE_DATA_CROSS_NODE>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_CROSS_NODE>(query, [](auto&) {});
     case D3D12_FEATURE_DISPLAYABLE:
-      return options<D3D12_FEATURE_DATA_DISPLAYABLE>(data, size, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_DISPLAYABLE>(query, [](auto&) {});
     default:
       return E_INVALIDARG;  // as D3D12 answers of features that it does not know
   }

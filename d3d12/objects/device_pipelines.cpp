@@ -32,8 +32,9 @@ bool declares_root_signature(const void* blob, size_t size) {
 
 // A library's only global one. [D3D12: CreateRootSignature]
 rtapi::Result<rtapi::RootSignature> declared_root_signature(const rtapi::Device& device,
-                                                            const void* blob, size_t size) {
-  const auto library = load_shader(blob, size);
+                                                            const void* blob, size_t size,
+                                                            Reporter& reporter) {
+  const auto library = load_shader(blob, size, reporter);
   if (!library) return library.error();
   return device.CreateRootSignature(*library);
 }
@@ -128,15 +129,16 @@ rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
 HRESULT Device::CreateRootSignature(UINT, const void* blob, SIZE_T size, REFIID riid,
                                     void** root_signature) {
   if (root_signature != nullptr) *root_signature = nullptr;
-  auto made = declares_root_signature(blob, size) ? declared_root_signature(device_, blob, size)
-                                                  : serialized_root_signature(device_, blob, size);
+  auto made = declares_root_signature(blob, size)
+                  ? declared_root_signature(device_, blob, size, reporter())
+                  : serialized_root_signature(device_, blob, size);
   if (!made) return fail(made.error());
   return hand_out(new RootSignature(this, *made), riid, root_signature);
 }
 
 HRESULT Device::create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, REFIID riid,
                                void** pipeline) {
-  const auto shader = load_shader(desc.CS.pShaderBytecode, desc.CS.BytecodeLength);
+  const auto shader = load_shader(desc.CS.pShaderBytecode, desc.CS.BytecodeLength, reporter());
   if (!shader) return fail(shader.error());
   const auto root_signature = root_signature_for(device_, desc.pRootSignature, desc.CS);
   if (!root_signature) return fail(root_signature.error());
@@ -152,7 +154,7 @@ HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, 
   rtapi::GraphicsPipelineStateDesc out;
   for (auto [bytecode, shader] : {std::pair{&desc.VS, &out.VS}, std::pair{&desc.PS, &out.PS}}) {
     if (bytecode->BytecodeLength == 0) continue;
-    auto library = load_shader(bytecode->pShaderBytecode, bytecode->BytecodeLength);
+    auto library = load_shader(bytecode->pShaderBytecode, bytecode->BytecodeLength, reporter());
     if (!library) return fail(library.error());
     shader->Library = *std::move(library);
   }

@@ -105,7 +105,7 @@ HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_H
   auto made = desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER
                   ? make_buffer(device.rtapi_device(), heap, desc, state)
                   : make_texture(device.rtapi_device(), heap, desc, state, clear);
-  if (!made) return fail(made.error());
+  if (!made) return device.reporter().fail(made.error());
   return hand_out(new Resource(&device, *std::move(made), desc, heap, flags, placed_in), riid,
                   resource);
 }

@@ -58,9 +58,9 @@ TEST_F(DeviceCalls, AnUploadBufferIsMappedAndADefaultOneIsNot) {
   EXPECT_EQ(upload->Map(1, nullptr, &bytes), E_INVALIDARG);
   EXPECT_EQ(bytes, nullptr);
   EXPECT_FALSE(SUCCEEDED(buffer(256, D3D12_HEAP_TYPE_DEFAULT)->Map(0, nullptr, &bytes)));
-  ASSERT_EQ(messages_.size(), 2u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA4012");
-  EXPECT_EQ(messages_[1].substr(0, 6), "KA0911");
+  ASSERT_EQ(messages().size(), 2u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA4012");
+  EXPECT_EQ(messages()[1].substr(0, 6), "KA0911");
 }
 
 TEST_F(DeviceCalls, ABufferDescWithATexturesMembersIsRefused) {
@@ -75,8 +75,8 @@ TEST_F(DeviceCalls, ABufferDescWithATexturesMembersIsRefused) {
                                              IID_PPV_ARGS(&resource)),
             E_INVALIDARG);
   EXPECT_EQ(resource, nullptr);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA4011");
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA4011");
 }
 
 D3D12_RESOURCE_DESC texture(UINT width, UINT height, DXGI_FORMAT format, UINT16 mips) {
@@ -149,8 +149,8 @@ TEST_F(DeviceCalls, PlacedResourcesLieInsideTheirHeap) {
       device_->CreatePlacedResource(heap.Get(), 65536, &desc, D3D12_RESOURCE_STATE_GENERIC_READ,
                                     nullptr, IID_PPV_ARGS(placed.ReleaseAndGetAddressOf())),
       E_INVALIDARG);
-  EXPECT_NE(messages_.back().find("bytes 65536 to 196608 of a heap of 131072"), std::string::npos)
-      << messages_.back();
+  EXPECT_NE(messages().back().find("bytes 65536 to 196608 of a heap of 131072"), std::string::npos)
+      << messages().back();
 }
 
 TEST_F(DeviceCalls, ViewsThatCannotBeAreReported) {
@@ -168,14 +168,14 @@ TEST_F(DeviceCalls, ViewsThatCannotBeAreReported) {
   view.Buffer.NumElements = 16;
   view.Buffer.StructureByteStride = 16;
   device_->CreateShaderResourceView(data.Get(), &view, heap->GetCPUDescriptorHandleForHeapStart());
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
   view.Buffer.NumElements = 17;
   device_->CreateShaderResourceView(data.Get(), &view, heap->GetCPUDescriptorHandleForHeapStart());
   view.ViewDimension = D3D12_SRV_DIMENSION_TEXTURE2DMS;
   device_->CreateShaderResourceView(data.Get(), &view, heap->GetCPUDescriptorHandleForHeapStart());
-  ASSERT_EQ(messages_.size(), 2u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA0624");
-  EXPECT_EQ(messages_[1].substr(0, 6), "KA4013");
+  ASSERT_EQ(messages().size(), 2u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA0624");
+  EXPECT_EQ(messages()[1].substr(0, 6), "KA4013");
 }
 
 // Ranges {2, 1} into {1, 2}: descriptors 0, 1, 2 arrive in order.
@@ -192,11 +192,11 @@ TEST_F(DeviceCalls, CopyDescriptorsSplitsRanges) {
   const UINT from_sizes[] = {2, 1}, to_sizes[] = {1, 2};
   device_->CopyDescriptors(2, to, to_sizes, 2, from, from_sizes,
                            D3D12_DESCRIPTOR_HEAP_TYPE_SAMPLER);
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
   device_->CopyDescriptors(2, to, to_sizes, 1, from, from_sizes,
                            D3D12_DESCRIPTOR_HEAP_TYPE_SAMPLER);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].substr(0, 6), "KA4013");
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA4013");
 }
 
 TEST_F(DeviceCalls, FeaturesAreWhatRtapiHas) {
@@ -239,7 +239,7 @@ TEST_F(DeviceCalls, FormatsSupportWhatCanBeMade) {
   const auto depth = support(DXGI_FORMAT_D32_FLOAT);
   EXPECT_NE(depth.Support1 & D3D12_FORMAT_SUPPORT1_DEPTH_STENCIL, 0);
   EXPECT_EQ(support(DXGI_FORMAT_NV12).Support1, D3D12_FORMAT_SUPPORT1_NONE);
-  EXPECT_TRUE(messages_.empty());  // a probe that fails is no error
+  EXPECT_TRUE(messages().empty());  // a probe that fails is no error
 }
 
 TEST_F(DeviceCalls, TheDebugLayersInterfacesNeedTheDebugLayer) {

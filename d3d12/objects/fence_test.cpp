@@ -34,7 +34,7 @@ TEST_F(FenceCalls, TheProgramMayCloseItsHandleBeforehand) {
   ASSERT_EQ(fence->SetEventOnCompletion(1, event), S_OK);
   CloseHandle(event);
   ASSERT_EQ(fence->Signal(1), S_OK);
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(FenceCalls, AQueueThatWaitsLetsTheEventWaitToo) {

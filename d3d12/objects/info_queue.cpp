@@ -70,16 +70,16 @@ HRESULT FilterStack::write(D3D12_INFO_QUEUE_FILTER* filter, SIZE_T* size) const 
 // ---------------------------------------------------------------------------------------------
 // Storage
 
-InfoQueue::InfoQueue() {
-  sink_ = add_sink([this](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+void InfoQueue::listen_to(std::shared_ptr<Reporter> reporter) {
+  reporter_ = std::move(reporter);
+  sink_ = reporter_->add_sink([this](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
     const MessageKind kind = message_kind(error.id.number);
     store({kind.category, severity, kind.id, error.message});
   });
 }
 
 InfoQueue::~InfoQueue() {
-  remove_sink(sink_);
-  SetMuteDebugOutput(FALSE);
+  if (reporter_ != nullptr) reporter_->remove_sink(sink_);
 }
 
 void InfoQueue::store(StoredMessage message) {
@@ -325,16 +325,10 @@ BOOL InfoQueue::GetBreakOnID(D3D12_MESSAGE_ID id) {
 }
 
 void InfoQueue::SetMuteDebugOutput(BOOL mute) {
-  {
-    std::lock_guard lock(mutex_);
-    if (muted_ == (mute != FALSE)) return;
-    muted_ = mute != FALSE;
-  }
-  mute_output(mute != FALSE);
+  reporter_->mute(mute != FALSE);
 }
 BOOL InfoQueue::GetMuteDebugOutput() {
-  std::lock_guard lock(mutex_);
-  return muted_;
+  return reporter_->muted();
 }
 
 HRESULT InfoQueue::RegisterMessageCallback(D3D12MessageFunc callback,

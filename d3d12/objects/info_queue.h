@@ -64,7 +64,7 @@ class FilterStack {
   std::vector<MessageFilter> filters_;
 };
 
-/// ID3D12InfoQueue1 over every message of the process (com/report.h).
+/// ID3D12InfoQueue1 over the messages of one device.
 class InfoQueue : public ID3D12InfoQueueEntries {
  public:
   HRESULT STDMETHODCALLTYPE SetMessageCountLimit(UINT64 limit) override;
@@ -115,8 +115,9 @@ class InfoQueue : public ID3D12InfoQueueEntries {
   HRESULT STDMETHODCALLTYPE UnregisterMessageCallback(DWORD cookie) override;
 
  protected:
-  InfoQueue();
   ~InfoQueue() override;
+  /// Stores messages from now on; once.
+  void listen_to(std::shared_ptr<Reporter> reporter);
 
  private:
   struct Callback {
@@ -139,9 +140,9 @@ class InfoQueue : public ID3D12InfoQueueEntries {
   std::set<D3D12_MESSAGE_CATEGORY> break_categories_;
   std::set<D3D12_MESSAGE_SEVERITY> break_severities_;
   std::set<D3D12_MESSAGE_ID> break_ids_;
-  bool muted_ = false;
   std::map<DWORD, Callback> callbacks_;
   DWORD next_cookie_ = 1;
+  std::shared_ptr<Reporter> reporter_;
   uint64_t sink_ = 0;
 };
 

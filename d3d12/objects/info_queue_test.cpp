@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stored messages, filters and callbacks of the debug layer.
+#include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -25,11 +27,12 @@ class InfoQueueCalls : public D3d12Test {
   }
 
   // A heap of no descriptors: KA0620.
-  void make_error_happen() {
+  static void make_error_happen(ID3D12Device* device) {
     D3D12_DESCRIPTOR_HEAP_DESC desc = {};
     ID3D12DescriptorHeap* heap = nullptr;
-    EXPECT_EQ(checked_->CreateDescriptorHeap(&desc, IID_PPV_ARGS(&heap)), E_INVALIDARG);
+    EXPECT_EQ(device->CreateDescriptorHeap(&desc, IID_PPV_ARGS(&heap)), E_INVALIDARG);
   }
+  void make_error_happen() { make_error_happen(checked_.Get()); }
 
   ComPtr<ID3D12Device> checked_;
   ComPtr<ID3D12InfoQueue1> info_;
@@ -199,6 +202,130 @@ TEST_F(InfoQueueCalls, ThreadsDoNotWaitForEachOther) {
   });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(info_->GetNumStoredMessages(), 200u);
+}
+
+// Two devices with the debug layer, and their queues.
+class TwoInfoQueues : public InfoQueueCalls {
+ protected:
+  void SetUp() override {
+    InfoQueueCalls::SetUp();
+    setenv("KAAMOS_D3D12_DEBUG", "1", 1);
+    ASSERT_EQ(
+        D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(other_.GetAddressOf())),
+        S_OK);
+    unsetenv("KAAMOS_D3D12_DEBUG");
+    ASSERT_EQ(other_.As(&other_info_), S_OK);
+    const D3D12_COMMAND_QUEUE_DESC desc = {};
+    ASSERT_EQ(other_->CreateCommandQueue(&desc, IID_PPV_ARGS(other_queue_.GetAddressOf())), S_OK);
+    ASSERT_EQ(other_->CreateCommandAllocator(D3D12_COMMAND_LIST_TYPE_DIRECT,
+                                             IID_PPV_ARGS(other_allocator_.GetAddressOf())),
+              S_OK);
+    ASSERT_EQ(other_->CreateCommandList(0, D3D12_COMMAND_LIST_TYPE_DIRECT, other_allocator_.Get(),
+                                        nullptr, IID_PPV_ARGS(other_list_.GetAddressOf())),
+              S_OK);
+  }
+
+  // How many messages the queues have; forgets them.
+  std::pair<UINT64, UINT64> counts() {
+    const std::pair out{info_->GetNumStoredMessages(), other_info_->GetNumStoredMessages()};
+    info_->ClearStoredMessages();
+    other_info_->ClearStoredMessages();
+    return out;
+  }
+
+  ComPtr<ID3D12Device> other_;
+  ComPtr<ID3D12InfoQueue1> other_info_;
+  ComPtr<ID3D12CommandQueue> other_queue_;
+  ComPtr<ID3D12CommandAllocator> other_allocator_;
+  ComPtr<ID3D12GraphicsCommandList> other_list_;
+};
+
+using Counts = std::pair<UINT64, UINT64>;
+
+TEST_F(TwoInfoQueues, HaveTheMessagesOfTheirDevice) {
+  make_error_happen();
+  EXPECT_EQ(counts(), Counts(1, 0));
+  make_error_happen(other_.Get());
+  EXPECT_EQ(counts(), Counts(0, 1));
+}
+
+// An object, a method that this library lacks, a command list that rtapi refuses.
+TEST_F(TwoInfoQueues, HaveTheMessagesOfTheirDevicesObjects) {
+  EXPECT_EQ(other_queue_->Signal(nullptr, 1), E_INVALIDARG);
+  EXPECT_EQ(counts(), Counts(0, 1));
+  for (int i = 0; i < 2; ++i) {
+    other_queue_->CopyTileMappings(nullptr, nullptr, nullptr, nullptr, nullptr,
+                                   D3D12_TILE_MAPPING_FLAG_NONE);
+  }
+  EXPECT_EQ(counts(), Counts(0, 1));
+  other_list_->CopyBufferRegion(nullptr, 0, nullptr, 0, 4);
+  EXPECT_TRUE(FAILED(other_list_->Close()));
+  EXPECT_EQ(counts(), Counts(0, 1));
+}
+
+// KA0452, of a barrier that executes.
+TEST_F(TwoInfoQueues, HaveWhatCheckedModeSaysOfTheirDevice) {
+  const auto buffer = buffer_of(other_.Get(), 256, D3D12_HEAP_TYPE_DEFAULT);
+  D3D12_RESOURCE_BARRIER barrier = {};
+  barrier.Transition = {buffer.Get(), 0, D3D12_RESOURCE_STATE_COPY_SOURCE,
+                        D3D12_RESOURCE_STATE_COPY_DEST};
+  other_list_->ResourceBarrier(1, &barrier);
+  barrier.Transition.StateBefore = D3D12_RESOURCE_STATE_UNORDERED_ACCESS;
+  other_list_->ResourceBarrier(1, &barrier);
+  ASSERT_EQ(other_list_->Close(), S_OK);
+  EXPECT_EQ(counts(), Counts(0, 0));
+  ID3D12CommandList* lists[] = {other_list_.Get()};
+  other_queue_->ExecuteCommandLists(1, lists);
+  const Counts said = counts();
+  EXPECT_EQ(said.first, 0u);
+  EXPECT_GE(said.second, 1u);
+}
+
+TEST_F(TwoInfoQueues, HaveNoMessageOfACallWithoutADevice) {
+  const Listener process;
+  ComPtr<ID3DBlob> blob;
+  EXPECT_EQ(D3D12SerializeRootSignature(nullptr, D3D_ROOT_SIGNATURE_VERSION_1, blob.GetAddressOf(),
+                                        nullptr),
+            E_INVALIDARG);
+  EXPECT_EQ(process.messages.size(), 1u);
+  EXPECT_EQ(counts(), Counts(0, 0));
+}
+
+TEST_F(TwoInfoQueues, HaveTheirDevicesMessagesOfTwoThreadsAtOnce) {
+  std::atomic<int> calls[2] = {0, 0};
+  DWORD cookies[2] = {0, 0};
+  ID3D12InfoQueue1* queues[] = {info_.Get(), other_info_.Get()};
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(queues[i]->RegisterMessageCallback(
+                  [](D3D12_MESSAGE_CATEGORY, D3D12_MESSAGE_SEVERITY, D3D12_MESSAGE_ID, LPCSTR,
+                     void* context) { ++*static_cast<std::atomic<int>*>(context); },
+                  D3D12_MESSAGE_CALLBACK_FLAG_NONE, &calls[i], &cookies[i]),
+              S_OK);
+  }
+  std::thread one([&] {
+    for (int i = 0; i < 300; ++i) make_error_happen();
+  });
+  std::thread two([&] {
+    for (int i = 0; i < 200; ++i) make_error_happen(other_.Get());
+  });
+  one.join();
+  two.join();
+  EXPECT_EQ(calls[0], 300);
+  EXPECT_EQ(calls[1], 200);
+  EXPECT_EQ(counts(), Counts(300, 200));
+}
+
+TEST_F(TwoInfoQueues, AreMutedOneByOne) {
+  info_->SetMuteDebugOutput(TRUE);
+  EXPECT_TRUE(info_->GetMuteDebugOutput());
+  EXPECT_FALSE(other_info_->GetMuteDebugOutput());
+  unsetenv("KAAMOS_D3D12_MESSAGES");
+  testing::internal::CaptureStderr();
+  make_error_happen();
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  testing::internal::CaptureStderr();
+  make_error_happen(other_.Get());
+  EXPECT_NE(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

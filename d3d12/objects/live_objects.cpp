@@ -74,7 +74,7 @@ std::string text_of(const LiveObject& object) {
 // Each object refers to the device, and the caller does.
 HRESULT Device::ReportLiveDeviceObjects(D3D12_RLDO_FLAGS flags) {
   const auto say = [&](D3D12_MESSAGE_ID id, const std::string& text) {
-    print(D3D12_MESSAGE_SEVERITY_WARNING, text);
+    reporter_->print(D3D12_MESSAGE_SEVERITY_WARNING, text);
     AddMessage(D3D12_MESSAGE_CATEGORY_STATE_CREATION, D3D12_MESSAGE_SEVERITY_WARNING, id,
                text.c_str());
   };

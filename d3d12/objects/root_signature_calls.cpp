@@ -15,13 +15,14 @@ HRESULT serialize(const D3D12_VERSIONED_ROOT_SIGNATURE_DESC* desc, ID3DBlob** bl
                   ID3DBlob** error_blob) {
   if (error_blob != nullptr) *error_blob = nullptr;
   if (blob == nullptr || desc == nullptr) {
-    return fail(ErrorId::kNullPointer, "D3D12SerializeRootSignature: pRootSignature or ppBlob.");
+    return process_reporter().fail(ErrorId::kNullPointer,
+                                   "D3D12SerializeRootSignature: pRootSignature or ppBlob.");
   }
   *blob = nullptr;
   const auto converted = root_signature_desc(*desc);
   const auto refuse = [&](const rtapi::Error& error) {
     if (error_blob != nullptr) *error_blob = new Blob(error.message);
-    return fail(error);
+    return process_reporter().fail(error);
   };
   if (!converted) return refuse(converted.error());
   if (const auto status = rtapi::CheckRootSignature(*converted); !status.ok()) {
@@ -89,7 +90,8 @@ HRESULT WINAPI D3D12SerializeRootSignature(const D3D12_ROOT_SIGNATURE_DESC* desc
   if (blob != nullptr) *blob = nullptr;
   if (error_blob != nullptr) *error_blob = nullptr;
   if (desc == nullptr) {
-    return fail(ErrorId::kNullPointer, "D3D12SerializeRootSignature: pRootSignature.");
+    return process_reporter().fail(ErrorId::kNullPointer,
+                                   "D3D12SerializeRootSignature: pRootSignature.");
   }
   if (version != D3D_ROOT_SIGNATURE_VERSION_1_0) {
     const rtapi::Error error =
@@ -97,7 +99,7 @@ HRESULT WINAPI D3D12SerializeRootSignature(const D3D12_ROOT_SIGNATURE_DESC* desc
                    "D3D12SerializeRootSignature: Version is " + std::to_string(version) +
                        "; it is 1 (1.0). D3D12SerializeVersionedRootSignature takes others.");
     if (error_blob != nullptr) *error_blob = new Blob(error.message);
-    return fail(error);
+    return process_reporter().fail(error);
   }
   D3D12_VERSIONED_ROOT_SIGNATURE_DESC versioned = {};
   versioned.Version = version;
@@ -114,7 +116,7 @@ HRESULT WINAPI D3D12CreateRootSignatureDeserializer(LPCVOID data, SIZE_T size, R
                                                     void** deserializer) {
   if (deserializer != nullptr) *deserializer = nullptr;
   const auto desc = root_signature_of_blob(data, size);
-  if (!desc) return fail(desc.error());
+  if (!desc) return process_reporter().fail(desc.error());
   return hand_out(new Deserializer(*desc), riid, deserializer);
 }
 
@@ -123,7 +125,7 @@ HRESULT WINAPI D3D12CreateVersionedRootSignatureDeserializer(LPCVOID data, SIZE_
   if (deserializer != nullptr) *deserializer = nullptr;
   D3D_ROOT_SIGNATURE_VERSION version = D3D_ROOT_SIGNATURE_VERSION_1_1;
   const auto desc = root_signature_of_blob(data, size, &version);
-  if (!desc) return fail(desc.error());
+  if (!desc) return process_reporter().fail(desc.error());
   return hand_out(new VersionedDeserializer(*desc, version), riid, deserializer);
 }
 

@@ -27,7 +27,8 @@ std::vector<std::string> names_of(const LPCWSTR* names, UINT count) {
 
 class Converter {
  public:
-  explicit Converter(const D3D12_STATE_OBJECT_DESC& desc) : desc_(desc) {}
+  Converter(const D3D12_STATE_OBJECT_DESC& desc, Reporter& reporter)
+      : desc_(desc), reporter_(reporter) {}
 
   rtapi::Result<rtapi::StateSubobject> convert(UINT index) const {
     const D3D12_STATE_SUBOBJECT& subobject = desc_.pSubobjects[index];
@@ -93,10 +94,11 @@ class Converter {
                       "pSubobjects[" + std::to_string(index) + "]: " + detail);
   }
 
-  static rtapi::Result<rtapi::StateSubobject> library(UINT index,
-                                                      const D3D12_DXIL_LIBRARY_DESC& from) {
+  rtapi::Result<rtapi::StateSubobject> library(UINT index,
+                                               const D3D12_DXIL_LIBRARY_DESC& from) const {
     if (from.NumExports != 0 && from.pExports == nullptr) return bad(index, "pExports is null.");
-    auto library = load_shader(from.DXILLibrary.pShaderBytecode, from.DXILLibrary.BytecodeLength);
+    auto library =
+        load_shader(from.DXILLibrary.pShaderBytecode, from.DXILLibrary.BytecodeLength, reporter_);
     if (!library) return library.error();
     return rtapi::StateSubobject(
         rtapi::DxilLibraryDesc{*library, exports_of(from.pExports, from.NumExports)});
@@ -126,11 +128,13 @@ class Converter {
   }
 
   const D3D12_STATE_OBJECT_DESC& desc_;
+  Reporter& reporter_;
 };
 
 }  // namespace
 
-rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT_DESC& desc) {
+rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT_DESC& desc,
+                                                        Reporter& reporter) {
   if (desc.NumSubobjects != 0 && desc.pSubobjects == nullptr) {
     return make_error(ErrorId::kStateObject, "pSubobjects is null.");
   }
@@ -142,7 +146,7 @@ rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT
   }
   rtapi::StateObjectDesc out;
   out.Type = static_cast<rtapi::StateObjectType>(desc.Type);
-  const Converter converter(desc);
+  const Converter converter(desc, reporter);
   for (UINT i = 0; i < desc.NumSubobjects; ++i) {
     auto subobject = converter.convert(i);
     if (!subobject) return subobject.error();

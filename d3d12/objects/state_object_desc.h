@@ -6,12 +6,15 @@
 
 #include <rtapi/rtapi.h>
 
+#include "d3d12/com/report.h"
+
 namespace kaamos::d3d12 {
 
 /// Subobjects keep their order and their indices; associations, which point to a subobject, name
-/// its index. Libraries are compiled or found in the cache.
+/// its index. Libraries are compiled or found in the cache, with what load_shader tells `reporter`.
 /// @errors KA4022 a subobject of an unknown type, a null pointer, an association with a subobject
 /// that is not in the array; KA4020 bytecode; what compiling reports.
-rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT_DESC& desc);
+rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT_DESC& desc,
+                                                        Reporter& reporter);
 
 }  // namespace kaamos::d3d12

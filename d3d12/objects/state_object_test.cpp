@@ -132,8 +132,8 @@ TEST_F(StateObjectCalls, ErrorsNameTheSubobject) {
   group->SetClosestHitShaderImport(L"NotThere");
   ComPtr<ID3D12StateObject> pipeline;
   EXPECT_EQ(device_->CreateStateObject(desc, IID_PPV_ARGS(pipeline.GetAddressOf())), E_INVALIDARG);
-  ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_NE(messages_[0].find("NotThere"), std::string::npos) << messages_[0];
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_NE(messages()[0].find("NotThere"), std::string::npos) << messages()[0];
 }
 
 }  // namespace

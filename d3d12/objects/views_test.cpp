@@ -124,7 +124,7 @@ TEST_F(ViewCalls, CopiedDescriptorsBindWhatTheirOriginalsDo) {
   float* value = nullptr;
   ASSERT_EQ(readback->Map(0, nullptr, reinterpret_cast<void**>(&value)), S_OK);
   EXPECT_FLOAT_EQ(*value, 10);
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(ViewCalls, ARenderPassClearsItsTargets) {
@@ -156,7 +156,7 @@ TEST_F(ViewCalls, ARenderPassClearsItsTargets) {
     std::memcpy(row, texels + size_t{y} * footprint.Footprint.RowPitch, sizeof(row));
     for (const float value : row) EXPECT_EQ(value, 0.25f);
   }
-  EXPECT_TRUE(messages_.empty());
+  EXPECT_TRUE(messages().empty());
 }
 
 }  // namespace

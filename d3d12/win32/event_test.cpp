@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-#include "d3d12/com/report.h"
+#include "d3d12/com/report_fixture.h"
 #include "d3d12/win32/event.h"
 
 namespace kaamos::d3d12 {
@@ -56,11 +56,10 @@ TEST(Event, AClosedHandleIsAnErrorAndItsDuplicateLives) {
   ASSERT_TRUE(DuplicateHandle(GetCurrentProcess(), event, GetCurrentProcess(), &other, 0, FALSE,
                               DUPLICATE_SAME_ACCESS));
   CloseHandle(event);
-  mute_output(true);
+  const Quiet quiet;
   EXPECT_FALSE(SetEvent(event));
   EXPECT_EQ(GetLastError(), ERROR_INVALID_HANDLE);
   EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_FAILED);
-  mute_output(false);
   EXPECT_TRUE(SetEvent(other));
   EXPECT_EQ(WaitForSingleObject(other, 0), WAIT_OBJECT_0);
   CloseHandle(other);

@@ -43,7 +43,7 @@ std::shared_ptr<HandleObject> Handles::find_any(HANDLE handle) {
 BOOL succeed(bool done, DWORD error, const std::string& call, const std::string& text) {
   if (done) return TRUE;
   last_error = error;
-  fail(ErrorId::kWin32, call + ": " + text);
+  process_reporter().fail(ErrorId::kWin32, call + ": " + text);
   return FALSE;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "d3d12/com/report.h"
+#include "d3d12/com/report_fixture.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -30,9 +30,8 @@ TEST(Thread, ItsHandleIsSetWhenItHasEnded) {
 }
 
 TEST(Thread, OneThatWouldStartSuspendedIsRefused) {
-  mute_output(true);
+  const Quiet quiet;
   EXPECT_EQ(CreateThread(nullptr, 0, &add_one, nullptr, CREATE_SUSPENDED, nullptr), nullptr);
-  mute_output(false);
   EXPECT_EQ(GetLastError(), ERROR_INVALID_PARAMETER);
 }
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "d3d12/com/report.h"
+#include "d3d12/com/report_fixture.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -136,11 +136,8 @@ TEST_F(WindowTest, KeepsItsProgramsValues) {
 }
 
 TEST_F(WindowTest, WrongCallsAreErrors) {
-  std::vector<std::string> messages;
-  const uint64_t sink = add_sink([&](D3D12_MESSAGE_SEVERITY, const rtapi::Error& error) {
-    messages.push_back(error.message);
-  });
-  mute_output(true);
+  const Quiet quiet;
+  const Listener listener;
   WNDCLASS again = {};
   again.lpfnWndProc = &procedure;
   again.lpszClassName = "Test";
@@ -153,10 +150,8 @@ TEST_F(WindowTest, WrongCallsAreErrors) {
   RECT rect = {};
   EXPECT_FALSE(GetClientRect(reinterpret_cast<HWND>(2), &rect));
   EXPECT_EQ(GetLastError(), ERROR_INVALID_WINDOW_HANDLE);
-  mute_output(false);
-  remove_sink(sink);
-  EXPECT_THAT(messages, testing::SizeIs(3));
-  EXPECT_THAT(messages[1], testing::HasSubstr("there is no class None"));
+  EXPECT_THAT(listener.messages, testing::SizeIs(3));
+  EXPECT_THAT(listener.messages[1], testing::HasSubstr("there is no class None"));
 }
 
 }  // namespace
