@@ -31,6 +31,8 @@ ShaderScalarType scalar_of(ir::Scalar scalar) {
       return ShaderScalarType::kFloat32;
     case ir::Scalar::kFloat64:
       return ShaderScalarType::kFloat64;
+    default:  // Only plain ones get here.
+      break;
   }
   return ShaderScalarType::kFloat32;
 }

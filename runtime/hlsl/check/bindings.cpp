@@ -217,7 +217,7 @@ void Checker::declare_uniform(const VariableDecl* decl, const Type* type, Scope*
 
 const ir::Expr* Checker::binding_value(BindingInfo* binding, const ir::Expr* index) {
   ir::Expr* node = build_.expr(ir::ExprKind::kBinding, binding->type->ir);
-  if (binding->is_array) node->operands.push_back(build_.convert(index, ir::Scalar::kUint32));
+  if (binding->is_array) node->operands.push_back(build_.convert(index, Scalar::kUint32));
   binding->uses.push_back(node);
   binding_of_[node] = binding;
   if (lower_.function_) lower_.function_->bindings.push_back(binding);

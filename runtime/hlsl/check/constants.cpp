@@ -9,22 +9,17 @@
 namespace kaamos::hlsl {
 namespace {
 
-bool is_float(ir::Scalar scalar) {
-  return scalar >= ir::Scalar::kFloat16;
+bool is_signed(Scalar scalar) {
+  return scalar == Scalar::kInt16 || scalar == Scalar::kInt32 || scalar == Scalar::kInt64;
 }
 
-bool is_signed(ir::Scalar scalar) {
-  return scalar == ir::Scalar::kInt16 || scalar == ir::Scalar::kInt32 ||
-         scalar == ir::Scalar::kInt64;
-}
-
-uint32_t width_of(ir::Scalar scalar) {
+uint32_t width_of(Scalar scalar) {
   switch (scalar) {
-    case ir::Scalar::kInt16:
-    case ir::Scalar::kUint16:
+    case Scalar::kInt16:
+    case Scalar::kUint16:
       return 16;
-    case ir::Scalar::kInt64:
-    case ir::Scalar::kUint64:
+    case Scalar::kInt64:
+    case Scalar::kUint64:
       return 64;
     default:
       return 32;
@@ -42,7 +37,7 @@ double round_to_half(double value) {
              : rounded;
 }
 
-uint64_t saturate_to_integer(double value, ir::Scalar to) {
+uint64_t saturate_to_integer(double value, Scalar to) {
   if (std::isnan(value)) return 0;
   const uint32_t width = width_of(to);
   if (is_signed(to)) {
@@ -99,7 +94,7 @@ std::optional<double> float_operation(ir::BinaryOp op, double left, double right
   }
 }
 
-std::optional<uint64_t> integer_operation(ir::BinaryOp op, ir::Scalar scalar, uint64_t left,
+std::optional<uint64_t> integer_operation(ir::BinaryOp op, Scalar scalar, uint64_t left,
                                           uint64_t right) {
   const uint32_t shift = static_cast<uint32_t>(right) & (width_of(scalar) - 1);
   switch (op) {
@@ -230,7 +225,7 @@ Components evaluate_intrinsic(const ir::Expr* e, int depth) {
     if (!value) return std::nullopt;
     arguments.push_back(*value);
   }
-  const ir::Scalar scalar = e->type->scalar;
+  const Scalar scalar = e->type->scalar;
   std::vector<uint64_t> result;
   for (size_t i = 0; i < component_count(e->type); ++i) {
     const bool is_max = e->intrinsic == Intrinsic::max;
@@ -238,7 +233,7 @@ Components evaluate_intrinsic(const ir::Expr* e, int depth) {
       const uint64_t a = arguments[0][i];
       const uint64_t b = arguments[1][i];
       const auto less = fold_binary(ir::BinaryOp::kLess, scalar, a, b);
-      if (!less || is_float(scalar)) return std::nullopt;
+      if (!less || is_floating(scalar)) return std::nullopt;
       result.push_back((*less != 0) != is_max ? a : b);
     } else {
       return std::nullopt;
@@ -257,7 +252,7 @@ Components evaluate_at(const ir::Expr* expression, int depth) {
       return e->literal;
     case ir::ExprKind::kZero:
       return std::vector<uint64_t>(component_count(e->type),
-                                   is_float(e->type->scalar) ? float_bits(0) : 0);
+                                   is_floating(e->type->scalar) ? float_bits(0) : 0);
     case ir::ExprKind::kConvert: {
       Components value = operand(0);
       if (!value) return std::nullopt;
@@ -379,45 +374,44 @@ double float_value(uint64_t bits) {
   return std::bit_cast<double>(bits);
 }
 
-uint64_t normalise_bits(uint64_t bits, ir::Scalar scalar) {
+uint64_t normalise_bits(uint64_t bits, Scalar scalar) {
   switch (scalar) {
-    case ir::Scalar::kBool:
+    case Scalar::kBool:
       return bits != 0;
-    case ir::Scalar::kInt16:
+    case Scalar::kInt16:
       return static_cast<uint64_t>(int64_t{static_cast<int16_t>(bits)});
-    case ir::Scalar::kUint16:
+    case Scalar::kUint16:
       return static_cast<uint16_t>(bits);
-    case ir::Scalar::kInt32:
+    case Scalar::kInt32:
       return static_cast<uint64_t>(int64_t{static_cast<int32_t>(bits)});
-    case ir::Scalar::kUint32:
+    case Scalar::kUint32:
       return static_cast<uint32_t>(bits);
-    case ir::Scalar::kFloat16:
+    case Scalar::kFloat16:
       return float_bits(round_to_half(float_value(bits)));
-    case ir::Scalar::kFloat32:
+    case Scalar::kFloat32:
       return float_bits(static_cast<double>(static_cast<float>(float_value(bits))));
     default:
       return bits;
   }
 }
 
-uint64_t convert_bits(uint64_t bits, ir::Scalar from, ir::Scalar to) {
+uint64_t convert_bits(uint64_t bits, Scalar from, Scalar to) {
   if (from == to) return bits;
-  if (is_float(from)) {
+  if (is_floating(from)) {
     const double value = float_value(bits);
-    if (to == ir::Scalar::kBool) return value != 0;
-    if (is_float(to)) return normalise_bits(bits, to);
+    if (to == Scalar::kBool) return value != 0;
+    if (is_floating(to)) return normalise_bits(bits, to);
     return normalise_bits(saturate_to_integer(value, to), to);
   }
-  if (to == ir::Scalar::kBool) return bits != 0;
-  if (!is_float(to)) return normalise_bits(bits, to);
+  if (to == Scalar::kBool) return bits != 0;
+  if (!is_floating(to)) return normalise_bits(bits, to);
   const double value =
       is_signed(from) ? static_cast<double>(static_cast<int64_t>(bits)) : static_cast<double>(bits);
   return normalise_bits(float_bits(value), to);
 }
 
-std::optional<uint64_t> fold_binary(ir::BinaryOp op, ir::Scalar scalar, uint64_t left,
-                                    uint64_t right) {
-  if (is_float(scalar)) {
+std::optional<uint64_t> fold_binary(ir::BinaryOp op, Scalar scalar, uint64_t left, uint64_t right) {
+  if (is_floating(scalar)) {
     const double a = float_value(left);
     const double b = float_value(right);
     if (is_comparison(op)) return compare(op, a, b);
@@ -434,15 +428,15 @@ std::optional<uint64_t> fold_binary(ir::BinaryOp op, ir::Scalar scalar, uint64_t
   return normalise_bits(*value, scalar);
 }
 
-std::optional<uint64_t> fold_unary(ir::UnaryOp op, ir::Scalar scalar, uint64_t operand) {
+std::optional<uint64_t> fold_unary(ir::UnaryOp op, Scalar scalar, uint64_t operand) {
   switch (op) {
     case ir::UnaryOp::kNegate:
-      if (is_float(scalar)) return float_bits(-float_value(operand));
+      if (is_floating(scalar)) return float_bits(-float_value(operand));
       return normalise_bits(uint64_t{0} - operand, scalar);
     case ir::UnaryOp::kNot:
       return operand == 0;
     case ir::UnaryOp::kBitNot:
-      if (is_float(scalar)) return std::nullopt;
+      if (is_floating(scalar)) return std::nullopt;
       return normalise_bits(~operand, scalar);
   }
   return std::nullopt;

@@ -51,7 +51,7 @@ int bits_of(Scalar scalar) {
     case Scalar::kMin16Uint:
       return 16;
     default:
-      return static_cast<int>(scalar_bytes(scalar)) * 8;
+      return static_cast<int>(scalar_bytes(scalar, ScalarStorage::kBuffer)) * 8;
   }
 }
 

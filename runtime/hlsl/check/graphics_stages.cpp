@@ -227,10 +227,10 @@ class Checker::GraphicsSignature {
       element.first_column = elements.back().first_column + elements.back().components;
     }
     elements.push_back(std::move(element));
-    if (!value) return build_.convert(build_.read(variable), ir_scalar(type->scalar));
+    if (!value) return build_.convert(build_.read(variable), plain_scalar(type->scalar));
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
     statement->place = build_.read(variable);
-    statement->value = build_.convert(value, ir_scalar(scalar));
+    statement->value = build_.convert(value, plain_scalar(scalar));
     checker_.lower_.emit(statement);
     return nullptr;
   }
@@ -369,7 +369,7 @@ bool Checker::check_graphics_signature(FunctionInfo* function, ir::EntryPoint& e
   }
   if (!inputs.failed) inputs.check_limits(location);
   const bool is_pixel = entry.stage == ir::kStagePixel;
-  const ir::Type* flag = build_.scalar_type(ir::Scalar::kBool);
+  const ir::Type* flag = build_.scalar_type(Scalar::kBool);
   const auto flag_parameter = [&](const char* name, ir::ParameterMode mode) {
     ir::Variable* variable = build_.variable(name, flag, ir::Storage::kParameter);
     variable->mode = mode;
@@ -406,8 +406,7 @@ bool Checker::check_graphics_signature(FunctionInfo* function, ir::EntryPoint& e
 
 const ir::Variable* Checker::live_variable() {
   if (!live_) {
-    live_ =
-        build_.variable("live", build_.scalar_type(ir::Scalar::kBool), ir::Storage::kStaticGlobal);
+    live_ = build_.variable("live", build_.scalar_type(Scalar::kBool), ir::Storage::kStaticGlobal);
   }
   return live_;
 }

@@ -32,18 +32,18 @@ ir::Variable* IrBuilder::variable(std::string name, const ir::Type* type, ir::St
   return node;
 }
 
-const ir::Type* IrBuilder::with_scalar(const ir::Type* shape, ir::Scalar scalar) {
+const ir::Type* IrBuilder::with_scalar(const ir::Type* shape, Scalar scalar) {
   const uint32_t rows = shape->kind == ir::TypeKind::kMatrix ? shape->rows : 0;
   const uint32_t columns = shape->kind == ir::TypeKind::kScalar ? 0 : shape->columns;
-  return types_.numeric(static_cast<Scalar>(scalar), rows, columns)->ir;
+  return types_.numeric(scalar, rows, columns)->ir;
 }
 
-const ir::Type* IrBuilder::scalar_type(ir::Scalar scalar) {
-  return types_.scalar(static_cast<Scalar>(scalar))->ir;
+const ir::Type* IrBuilder::scalar_type(Scalar scalar) {
+  return types_.scalar(scalar)->ir;
 }
 
-const ir::Type* IrBuilder::vector_type(ir::Scalar scalar, size_t size) {
-  return types_.vector(static_cast<Scalar>(scalar), static_cast<uint32_t>(size))->ir;
+const ir::Type* IrBuilder::vector_type(Scalar scalar, size_t size) {
+  return types_.vector(scalar, static_cast<uint32_t>(size))->ir;
 }
 
 const ir::Expr* IrBuilder::fold(const ir::Expr* expression) {
@@ -67,21 +67,21 @@ const ir::Expr* IrBuilder::literal(const ir::Type* type, std::vector<uint64_t> v
 }
 
 const ir::Expr* IrBuilder::uint32(uint64_t value) {
-  return literal(scalar_type(ir::Scalar::kUint32), {static_cast<uint32_t>(value)});
+  return literal(scalar_type(Scalar::kUint32), {static_cast<uint32_t>(value)});
 }
 
 const ir::Expr* IrBuilder::int32(int64_t value) {
-  return literal(scalar_type(ir::Scalar::kInt32),
+  return literal(scalar_type(Scalar::kInt32),
                  {static_cast<uint64_t>(int64_t{static_cast<int32_t>(value)})});
 }
 
 const ir::Expr* IrBuilder::boolean(bool value) {
-  return literal(scalar_type(ir::Scalar::kBool), {value});
+  return literal(scalar_type(Scalar::kBool), {value});
 }
 
 const ir::Expr* IrBuilder::zero(const ir::Type* type) {
   if (type->kind == ir::TypeKind::kScalar || type->kind == ir::TypeKind::kVector) {
-    const bool is_float = type->scalar >= ir::Scalar::kFloat16;
+    const bool is_float = type->scalar >= Scalar::kFloat16;
     const size_t count = type->kind == ir::TypeKind::kScalar ? 1 : type->columns;
     return literal(type, std::vector<uint64_t>(count, is_float ? float_bits(0) : 0));
   }
@@ -148,7 +148,7 @@ const ir::Expr* IrBuilder::matrix_swizzle(const ir::Expr* base, std::vector<uint
   return node;
 }
 
-const ir::Expr* IrBuilder::convert(const ir::Expr* operand, ir::Scalar scalar) {
+const ir::Expr* IrBuilder::convert(const ir::Expr* operand, Scalar scalar) {
   if (operand->type->scalar == scalar) return operand;
   return fold(expr(ir::ExprKind::kConvert, with_scalar(operand->type, scalar), {operand}));
 }
@@ -178,7 +178,7 @@ const ir::Expr* IrBuilder::unary(ir::UnaryOp op, const ir::Expr* operand) {
 
 const ir::Expr* IrBuilder::binary(ir::BinaryOp op, const ir::Expr* left, const ir::Expr* right) {
   const ir::Type* type =
-      op >= ir::BinaryOp::kLess ? with_scalar(left->type, ir::Scalar::kBool) : left->type;
+      op >= ir::BinaryOp::kLess ? with_scalar(left->type, Scalar::kBool) : left->type;
   ir::Expr* node = expr(ir::ExprKind::kBinary, type, {left, right});
   node->binary = op;
   return fold(node);
@@ -209,7 +209,7 @@ const ir::Expr* IrBuilder::add(const ir::Expr* base, uint32_t constant) {
 }
 
 const ir::Expr* IrBuilder::add_scaled(const ir::Expr* base, const ir::Expr* index, uint32_t scale) {
-  const ir::Expr* scaled = convert(index, ir::Scalar::kUint32);
+  const ir::Expr* scaled = convert(index, Scalar::kUint32);
   if (scale != 1) scaled = binary(ir::BinaryOp::kMultiply, scaled, uint32(scale));
   if (scaled->kind == ir::ExprKind::kLiteral) {
     return add(base, static_cast<uint32_t>(scaled->literal[0]));

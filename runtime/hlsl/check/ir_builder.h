@@ -35,7 +35,7 @@ class IrBuilder {
   // A single component gives a scalar.
   const ir::Expr* swizzle(const ir::Expr* base, std::vector<uint8_t> components);
   const ir::Expr* matrix_swizzle(const ir::Expr* base, std::vector<uint8_t> components);
-  const ir::Expr* convert(const ir::Expr* operand, ir::Scalar scalar);
+  const ir::Expr* convert(const ir::Expr* operand, Scalar scalar);
   const ir::Expr* splat(const ir::Expr* operand, const ir::Type* type);
   const ir::Expr* truncate(const ir::Expr* operand, const ir::Type* type);
   const ir::Expr* construct(const ir::Type* type, std::vector<const ir::Expr*> parts);
@@ -49,9 +49,9 @@ class IrBuilder {
   const ir::Expr* add_scaled(const ir::Expr* base, const ir::Expr* index, uint32_t scale);
 
   // The type of the same shape with another scalar.
-  const ir::Type* with_scalar(const ir::Type* shape, ir::Scalar scalar);
-  const ir::Type* scalar_type(ir::Scalar scalar);
-  const ir::Type* vector_type(ir::Scalar scalar, size_t size);
+  const ir::Type* with_scalar(const ir::Type* shape, Scalar scalar);
+  const ir::Type* scalar_type(Scalar scalar);
+  const ir::Type* vector_type(Scalar scalar, size_t size);
 
  private:
   const ir::Expr* fold(const ir::Expr* expression);

@@ -46,7 +46,7 @@ uint32_t payload_bytes(const Type* type) {
   switch (type->kind) {
     case TypeKind::kNumeric:
     case TypeKind::kEnum:
-      return type->components() * std::max(4u, scalar_bytes(type->scalar));
+      return type->components() * std::max(4u, scalar_bytes(type->scalar, ScalarStorage::kBuffer));
     case TypeKind::kArray:
       return clamp_size(uint64_t{payload_bytes(type->element)} * type->count);
     case TypeKind::kStruct: {

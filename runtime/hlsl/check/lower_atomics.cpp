@@ -58,8 +58,8 @@ Value Lowerer::call_interlocked(const AtomicRule& rule, std::vector<Value>& argu
     return error_value();
   }
   const Type* type = target.type;
-  const bool integer =
-      type->is_scalar() && is_integer(type->scalar) && scalar_bytes(type->scalar) >= 4;
+  const bool integer = type->is_scalar() && is_integer(type->scalar) &&
+                       scalar_bytes(type->scalar, ScalarStorage::kBuffer) >= 4;
   const bool exchanges_float = type->is_scalar() &&
                                plain_scalar(type->scalar) == Scalar::kFloat32 &&
                                (rule.on_floats || rule.op == ir::AtomicOp::kExchange);

@@ -36,7 +36,7 @@ Value Lowerer::unit_of(const Value& value) {
 
 const ir::Expr* Lowerer::extract_bits(const ir::Expr* unit, const FieldInfo& field) {
   const Scalar scalar = field.unit->scalar;
-  const uint32_t size = scalar_bytes(scalar) * 8;
+  const uint32_t size = scalar_bytes(scalar, ScalarStorage::kBuffer) * 8;
   const auto shift = [&](ir::BinaryOp op, const ir::Expr* value, uint32_t bits) {
     return bits == 0 ? value
                      : build_.binary(op, value, build_.literal(value->type, {uint64_t{bits}}));
@@ -44,7 +44,7 @@ const ir::Expr* Lowerer::extract_bits(const ir::Expr* unit, const FieldInfo& fie
   const ir::Expr* value = nullptr;
   if (is_signed_integer(field.type->scalar)) {
     value = shift(ir::BinaryOp::kShiftLeft, unit, size - field.bit_offset - field.bit_width);
-    value = build_.convert(value, ir_scalar(signed_twin(scalar)));
+    value = build_.convert(value, plain_scalar(signed_twin(scalar)));
     value = shift(ir::BinaryOp::kShiftRight, value, size - field.bit_width);
   } else {
     value = shift(ir::BinaryOp::kShiftRight, unit, field.bit_offset);
@@ -58,7 +58,8 @@ const ir::Expr* Lowerer::insert_bits(const ir::Expr* unit, const FieldInfo& fiel
                                      const ir::Expr* value) {
   const ir::Type* type = unit->type;
   const uint64_t mask = mask_of(field.bit_width);
-  const uint64_t kept = ~(mask << field.bit_offset) & mask_of(scalar_bytes(type->scalar) * 8);
+  const uint64_t kept =
+      ~(mask << field.bit_offset) & mask_of(scalar_bytes(type->scalar, ScalarStorage::kBuffer) * 8);
   const ir::Expr* part = build_.binary(ir::BinaryOp::kBitAnd, build_.convert(value, type->scalar),
                                        build_.literal(type, {mask}));
   part = build_.binary(ir::BinaryOp::kShiftLeft, part,

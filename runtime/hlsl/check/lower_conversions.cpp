@@ -113,18 +113,18 @@ Value Lowerer::settle(Value value) {
     }
   }
   const Type* type = types_.with_scalar(value.type, scalar);
-  return rvalue(build_.convert(value.expr, ir_scalar(scalar)), type);
+  return rvalue(build_.convert(value.expr, plain_scalar(scalar)), type);
 }
 
 const ir::Expr* Lowerer::convert_numeric(const ir::Expr* expr, const Type* from, const Type* to) {
-  const ir::Scalar scalar = ir_scalar(to->scalar);
+  const Scalar scalar = plain_scalar(to->scalar);
   const bool same_shape = from->rows == to->rows && from->columns == to->columns;
   if (same_shape) return build_.convert(expr, scalar);
   if (from->is_scalar()) return build_.splat(build_.convert(expr, scalar), to->ir);
   if (from->is_vector()) {
     if (to->is_scalar()) return build_.convert(build_.swizzle(expr, {0}), scalar);
     if (to->is_vector()) {
-      const ir::Type* shorter = build_.vector_type(ir_scalar(from->scalar), to->columns);
+      const ir::Type* shorter = build_.vector_type(plain_scalar(from->scalar), to->columns);
       return build_.convert(build_.truncate(expr, shorter), scalar);
     }
     return build_.construct(to->ir, {build_.convert(expr, scalar)});
@@ -201,7 +201,7 @@ const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocat
   if (to->is_enum()) {
     if (!is_explicit || !(from->is_scalar() || from->is_enum())) return refuse();
     const ir::Expr* expr = load(value);
-    return expr ? build_.convert(expr, ir_scalar(to->scalar)) : nullptr;
+    return expr ? build_.convert(expr, plain_scalar(to->scalar)) : nullptr;
   }
   if (from->is_resource() && to->is_resource()) {
     return from->ir == to->ir ? load(value) : refuse();
@@ -226,7 +226,7 @@ const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocat
   if (!expr) return nullptr;
   if (from->is_scalar()) {
     if (const auto bits = evaluate(expr);
-        bits && convert_bits((*bits)[0], expr->type->scalar, ir::Scalar::kBool) == 0) {
+        bits && convert_bits((*bits)[0], expr->type->scalar, Scalar::kBool) == 0) {
       return build_.zero(to->ir);
     }
     const uint64_t count = flat_component_count(to);

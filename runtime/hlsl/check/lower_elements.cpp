@@ -50,7 +50,7 @@ Value Lowerer::memory_element(const Value& base, const ir::Expr* index) {
     result.offset = build_.add_scaled(base.offset, index, array_stride(type->element, base.layout));
     return result;
   }
-  const uint32_t bytes = scalar_bytes(type->scalar);
+  const uint32_t bytes = scalar_bytes(type->scalar, ScalarStorage::kBuffer);
   if (type->is_vector()) {
     const uint32_t stride = base.component_stride ? base.component_stride : bytes;
     result.type = types_.scalar(type->scalar);

@@ -345,7 +345,7 @@ Value Lowerer::lower_index(const IndexExpr* expr) {
     const ir::Expr* index = index_value(values[1], expr->index->location);
     if (!index) return error_value();
     Value value = base;
-    value.offset = build_.convert(index, ir::Scalar::kUint32);
+    value.offset = build_.convert(index, Scalar::kUint32);
     return value;
   }
   if (base.kind == ValueKind::kHeap || base.kind == ValueKind::kInitList) {
@@ -445,11 +445,11 @@ Value Lowerer::lower_construct(const Type* type, std::span<const Expr* const> ar
         for (uint8_t column = 0; column < from->columns; ++column) {
           parts.push_back(
               build_.convert(build_.matrix_swizzle(base, {static_cast<uint8_t>(row * 4 + column)}),
-                             ir_scalar(type->scalar)));
+                             plain_scalar(type->scalar)));
         }
       }
     } else {
-      parts.push_back(build_.convert(expr, ir_scalar(type->scalar)));
+      parts.push_back(build_.convert(expr, plain_scalar(type->scalar)));
     }
   }
   if (count != type->components()) {

@@ -55,12 +55,12 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
     if (!check_count(name, count, 1, 1, location)) return error_value();
     const Type* type = types_.scalar(Scalar::kUint32);
     const ir::Expr* index = index_value(arguments[0], location);
-    return rvalue(index ? build_.convert(index, ir::Scalar::kUint32) : nullptr, type);
+    return rvalue(index ? build_.convert(index, Scalar::kUint32) : nullptr, type);
   }
   if (name == "CheckAccessFullyMapped") {
     if (!check_count(name, count, 1, 1, location)) return error_value();
     const ir::Expr* status = convert(arguments[0], types_.scalar(Scalar::kUint32), location);
-    return rvalue(status ? build_.convert(status, ir::Scalar::kBool) : nullptr, types_.boolean());
+    return rvalue(status ? build_.convert(status, Scalar::kBool) : nullptr, types_.boolean());
   }
   if (name == "D3DCOLORtoUBYTE4") {
     if (!check_count(name, count, 1, 1, location)) return error_value();
@@ -69,11 +69,11 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
     if (!value) return error_value();
     const ir::Expr* scale =
         build_.splat(build_.literal(types_.scalar(Scalar::kFloat32)->ir,
-                                    {normalise_bits(float_bits(255.001953), ir::Scalar::kFloat32)}),
+                                    {normalise_bits(float_bits(255.001953), Scalar::kFloat32)}),
                      type->ir);
     const ir::Expr* scaled =
         build_.binary(ir::BinaryOp::kMultiply, build_.swizzle(value, {2, 1, 0, 3}), scale);
-    return rvalue(build_.convert(scaled, ir::Scalar::kInt32), types_.vector(Scalar::kInt32, 4));
+    return rvalue(build_.convert(scaled, Scalar::kInt32), types_.vector(Scalar::kInt32, 4));
   }
   if (name == "TraceRay") return call_trace_ray(arguments, location);
   if (name == "ReportHit") return call_report_hit(arguments, location);
@@ -169,7 +169,8 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
       if (type->scalar == Scalar::kBool) type = types_.with_scalar(type, Scalar::kUint32);
       result = types_.with_scalar(type, Scalar::kUint32);
       if (rule.intrinsic == Intrinsic::reversebits) result = type;
-      if (rule.intrinsic == Intrinsic::countbits && scalar_bytes(type->scalar) == 4) {
+      if (rule.intrinsic == Intrinsic::countbits &&
+          scalar_bytes(type->scalar, ScalarStorage::kBuffer) == 4) {
         type = result;
       }
       break;
@@ -216,7 +217,8 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
     case S::kAsFloat16:
     case S::kAsInt16:
     case S::kAsUint16:
-      if (scalar_bytes(type->scalar) != 2) return refuse(0, "components of 16 bits");
+      if (scalar_bytes(type->scalar, ScalarStorage::kBuffer) != 2)
+        return refuse(0, "components of 16 bits");
       result = types_.with_scalar(type, shape == S::kAsFloat16 ? Scalar::kFloat16
                                         : shape == S::kAsInt16 ? Scalar::kInt16
                                                                : Scalar::kUint16);

@@ -20,7 +20,7 @@ Value Lowerer::index_multisampled(const Value& base, const Value& index, SourceL
     const ir::Expr* sample = index_value(index, location);
     if (!sample) return error_value();
     Value value = base;
-    value.offset = build_.convert(sample, ir::Scalar::kInt32);
+    value.offset = build_.convert(sample, Scalar::kInt32);
     return value;
   }
   const Type* type = base.type;

@@ -147,13 +147,12 @@ Value Lowerer::lower_unary(const UnaryExpr* expr) {
   }
   if (expr->op == UnaryOp::kNot) {
     const Type* boolean = types_.with_scalar(type, Scalar::kBool);
-    return rvalue(build_.unary(ir::UnaryOp::kNot, build_.convert(value, ir::Scalar::kBool)),
-                  boolean);
+    return rvalue(build_.unary(ir::UnaryOp::kNot, build_.convert(value, Scalar::kBool)), boolean);
   }
   // Arithmetic on a bool is done on an int.
   if (type->scalar == Scalar::kBool) {
     type = types_.with_scalar(type, Scalar::kInt32);
-    value = build_.convert(value, ir::Scalar::kInt32);
+    value = build_.convert(value, Scalar::kInt32);
   }
   if (expr->op == UnaryOp::kPlus) return rvalue(value, type);
   if (expr->op == UnaryOp::kMinus) return rvalue(build_.unary(ir::UnaryOp::kNegate, value), type);
@@ -254,7 +253,7 @@ Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
     at(location);
     if (is_shift(op) && &value == &right && from->is_scalar() == type->is_scalar() &&
         is_floating(from->scalar)) {
-      return build_.convert(expr, ir_scalar(type->scalar));
+      return build_.convert(expr, plain_scalar(type->scalar));
     }
     return convert_numeric(expr, from, type);
   };

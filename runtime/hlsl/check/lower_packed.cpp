@@ -56,7 +56,7 @@ Value Lowerer::add_uint64(std::vector<Value>& arguments, SourceLocation location
     const ir::Expr* sum =
         build_.read(temporary(build_.binary(ir::BinaryOp::kAdd, half(0, low), half(1, low))));
     const ir::Expr* carry =
-        build_.convert(build_.binary(ir::BinaryOp::kLess, sum, half(0, low)), ir::Scalar::kUint32);
+        build_.convert(build_.binary(ir::BinaryOp::kLess, sum, half(0, low)), Scalar::kUint32);
     parts.push_back(sum);
     parts.push_back(build_.binary(ir::BinaryOp::kAdd,
                                   build_.binary(ir::BinaryOp::kAdd, half(0, high), half(1, high)),
@@ -77,7 +77,7 @@ Value Lowerer::dot_of_halves(std::vector<Value>& arguments, SourceLocation locat
   for (size_t i = 0; i < 2; ++i) {
     const ir::Expr* operand = convert(arguments[i], half2, arguments[i].location);
     if (!operand) return error_value();
-    operands[i] = build_.read(temporary(build_.convert(operand, ir::Scalar::kFloat32)));
+    operands[i] = build_.read(temporary(build_.convert(operand, Scalar::kFloat32)));
   }
   const ir::Expr* sum = convert(arguments[2], result, arguments[2].location);
   if (!sum) return error_value();

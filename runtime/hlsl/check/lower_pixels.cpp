@@ -49,7 +49,7 @@ Value Lowerer::call_pixel_function(std::string_view name, std::vector<Value>& ar
     const ir::Expr* negative = nullptr;
     for (const ir::Expr* row : rows) {
       const ir::Expr* less = build_.binary(ir::BinaryOp::kLess, row, build_.zero(row->type));
-      const ir::Type* flag = build_.scalar_type(ir::Scalar::kBool);
+      const ir::Type* flag = build_.scalar_type(Scalar::kBool);
       const ir::Expr* any = build_.intrinsic(Intrinsic::any, flag, {less});
       negative = negative ? build_.binary(ir::BinaryOp::kBitOr, negative, any) : any;
     }
@@ -102,9 +102,9 @@ Value Lowerer::call_level_of_detail(const Value& object, bool clamped,
   at(location);
   if (traits.is_array) {
     std::vector<const ir::Expr*> parts = {coordinates,
-                                          build_.zero(build_.scalar_type(ir::Scalar::kFloat32))};
+                                          build_.zero(build_.scalar_type(Scalar::kFloat32))};
     coordinates =
-        build_.construct(build_.vector_type(ir::Scalar::kFloat32, size + 1), std::move(parts));
+        build_.construct(build_.vector_type(Scalar::kFloat32, size + 1), std::move(parts));
   }
   const Type* type = types_.scalar(Scalar::kFloat32);
   ir::Expr* level = build_.expr(ir::ExprKind::kSample, type->ir, {resource, sampler, coordinates});
@@ -112,11 +112,11 @@ Value Lowerer::call_level_of_detail(const Value& object, bool clamped,
   level->implicit_level = true;
   if (!clamped) return rvalue(level, type);
   const ir::Expr* sizes =
-      build_.expr(ir::ExprKind::kDimensions, build_.vector_type(ir::Scalar::kUint32, 4),
+      build_.expr(ir::ExprKind::kDimensions, build_.vector_type(Scalar::kUint32, 4),
                   {resource, build_.uint32(0)});
-  const ir::Expr* mips = build_.convert(build_.swizzle(sizes, {3}), ir::Scalar::kFloat32);
+  const ir::Expr* mips = build_.convert(build_.swizzle(sizes, {3}), Scalar::kFloat32);
   const ir::Expr* last = build_.binary(ir::BinaryOp::kSubtract, mips,
-                                       build_.convert(build_.uint32(1), ir::Scalar::kFloat32));
+                                       build_.convert(build_.uint32(1), Scalar::kFloat32));
   const ir::Expr* lowest = build_.zero(type->ir);
   return rvalue(build_.intrinsic(Intrinsic::clamp, type->ir, {level, lowest, last}), type);
 }
@@ -125,7 +125,7 @@ void Lowerer::take_level_zero(FunctionInfo& function) {
   for (ir::Expr* sample : function.implicit_levels) {
     if (!sample->implicit_level) continue;
     sample->implicit_level = false;
-    const ir::Expr* least = build_.zero(build_.scalar_type(ir::Scalar::kFloat32));
+    const ir::Expr* least = build_.zero(build_.scalar_type(Scalar::kFloat32));
     if (std::exchange(sample->clamps_level, false)) {
       least = sample->operands.back();
       sample->operands.pop_back();

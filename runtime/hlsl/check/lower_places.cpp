@@ -210,7 +210,8 @@ const ir::Expr* Lowerer::load(const Value& value) {
         return node;
       };
       const Type* scalar = types_.scalar(type->scalar);
-      const uint32_t bytes = type->is_numeric() ? scalar_bytes(type->scalar) : 0;
+      const uint32_t bytes =
+          type->is_numeric() ? scalar_bytes(type->scalar, ScalarStorage::kBuffer) : 0;
       if (value.component_stride) {
         std::vector<const ir::Expr*> parts;
         const auto part = [&](uint32_t component) {
@@ -279,7 +280,7 @@ const ir::Expr* Lowerer::load(const Value& value) {
 
 uint32_t Lowerer::component_bytes(const Value& target, uint32_t component) {
   const Type* whole = target.whole ? target.whole : target.type;
-  const uint32_t bytes = scalar_bytes(whole->scalar);
+  const uint32_t bytes = scalar_bytes(whole->scalar, ScalarStorage::kBuffer);
   if (!whole->is_matrix()) {
     return component * (target.component_stride ? target.component_stride : bytes);
   }

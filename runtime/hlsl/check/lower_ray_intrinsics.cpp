@@ -15,7 +15,7 @@ constexpr uint32_t kCallStages = kTraceStages | ir::kStageCallable;
 
 Value Lowerer::call_system_value(const SystemValueRule& rule, SourceLocation location) {
   use_in_stages(rule.name, rule.stages, location);
-  const Type* type = types_.numeric(static_cast<Scalar>(rule.scalar), rule.rows, rule.columns);
+  const Type* type = types_.numeric(rule.scalar, rule.rows, rule.columns);
   ir::Expr* node = build_.expr(ir::ExprKind::kSystemValue, type->ir);
   node->system_value = rule.value;
   return rvalue(node, type);

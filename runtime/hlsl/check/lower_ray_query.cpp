@@ -69,7 +69,7 @@ Value Lowerer::call_query_method(const Value& object, const NamePart& part,
   if (!query) return error_value();
   if (const QueryValueRule* rule = find_query_value(name)) {
     if (!check_count(name, arguments.size(), 0, 0, location)) return error_value();
-    const Type* type = types_.numeric(static_cast<Scalar>(rule->scalar), rule->rows, rule->columns);
+    const Type* type = types_.numeric(rule->scalar, rule->rows, rule->columns);
     ir::Expr* node = build_.expr(ir::ExprKind::kQueryValue, type->ir, {query});
     node->query_value = rule->value;
     node->index = rule->of_committed ? 1 : 0;

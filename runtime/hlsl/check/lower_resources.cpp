@@ -33,7 +33,7 @@ Value Lowerer::index_resource(const Value& base, const Value& index, SourceLocat
     const ir::Expr* level = index_value(index, location);
     if (!level) return error_value();
     Value value = base;
-    value.offset = build_.convert(level, ir::Scalar::kInt32);
+    value.offset = build_.convert(level, Scalar::kInt32);
     return value;
   }
   const ir::Expr* resource = is_mips ? base.expr : load(base);
@@ -41,7 +41,7 @@ Value Lowerer::index_resource(const Value& base, const Value& index, SourceLocat
   if (is_structured(type->resource)) {
     const ir::Expr* element = index_value(index, location);
     if (!element) return error_value();
-    return memory(resource, build_.convert(element, ir::Scalar::kUint32), build_.uint32(0),
+    return memory(resource, build_.convert(element, Scalar::kUint32), build_.uint32(0),
                   type->element, ir::Layout::kStructured, !traits.is_writable);
   }
   const bool is_cube = type->resource == ir::ResourceKind::kTextureCube ||
@@ -124,7 +124,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
     const bool wide = name.ends_with("64");
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAtomic);
     statement->target = ir::AtomicTarget::kMemory;
-    statement->operands = {resource, build_.convert(offset, ir::Scalar::kUint32)};
+    statement->operands = {resource, build_.convert(offset, Scalar::kUint32)};
     if (atomic->on_floats) {
       return emit_atomic(*atomic, statement, types_.scalar(Scalar::kFloat32),
                          std::span(arguments).subspan(1), location);
@@ -162,7 +162,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
       return error_value();
     }
     type = settled_value.type->is_numeric() && settled_value.type->is_scalar() &&
-                   scalar_bytes(settled_value.type->scalar) == 4 &&
+                   scalar_bytes(settled_value.type->scalar, ScalarStorage::kBuffer) == 4 &&
                    plain_scalar(settled_value.type->scalar) != Scalar::kFloat32
                ? types_.scalar(Scalar::kUint32)
                : settled_value.type;
@@ -175,7 +175,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
   const ir::Expr* offset = index_value(arguments[0], arguments[0].location);
   if (!offset) return error_value();
   at(location);
-  Value target = memory(resource, nullptr, build_.convert(offset, ir::Scalar::kUint32), type,
+  Value target = memory(resource, nullptr, build_.convert(offset, Scalar::kUint32), type,
                         ir::Layout::kStructured, !writable);
   if (is_load) {
     target.is_place = false;

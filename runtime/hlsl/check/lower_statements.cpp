@@ -420,7 +420,7 @@ void Lowerer::lower_switch(const SwitchStmt* statement) {
       type = types_.scalar(selector.type->scalar == Scalar::kBool ? Scalar::kInt32
                                                                   : selector.type->scalar);
       const ir::Expr* value = load(selector);
-      node->value = value ? build_.convert(value, ir_scalar(type->scalar)) : nullptr;
+      node->value = value ? build_.convert(value, plain_scalar(type->scalar)) : nullptr;
     }
   }
   if (!node->value) node->value = build_.int32(0);
@@ -441,7 +441,7 @@ void Lowerer::lower_switch(const SwitchStmt* statement) {
       const auto value = checker_.constant_integer(label.value, scope_, "a case label");
       if (!value) continue;
       const int64_t number = static_cast<int64_t>(
-          convert_bits(static_cast<uint64_t>(*value), ir::Scalar::kInt64, ir_scalar(type->scalar)));
+          convert_bits(static_cast<uint64_t>(*value), Scalar::kInt64, plain_scalar(type->scalar)));
       if (!seen.insert(number).second) {
         report(CheckId::kDuplicateCase, label.location, {std::to_string(number)});
         continue;

@@ -153,9 +153,9 @@ const ir::Expr* Lowerer::value_in_lone_lane(const ir::Stmt& wave) {
     case WaveOp::kAllEqual:
       return filled(build_.boolean(true));
     case WaveOp::kCountBits:
-      return build_.convert(value, ir::Scalar::kUint32);
+      return build_.convert(value, Scalar::kUint32);
     case WaveOp::kBallot:
-      return first_of_four(build_.convert(value, ir::Scalar::kUint32));
+      return first_of_four(build_.convert(value, Scalar::kUint32));
     case WaveOp::kMatch:
       return first_of_four(build_.uint32(1));
     case WaveOp::kPrefixProduct:

@@ -304,7 +304,7 @@ class Checker::PixelFunctions {
       sample.operands.push_back(ddy);
       return;
     }
-    const ir::Type* real = build_.scalar_type(ir::Scalar::kFloat32);
+    const ir::Type* real = build_.scalar_type(Scalar::kFloat32);
     const auto level_of_detail = [&] {
       ir::Expr* level = build_.expr(ir::ExprKind::kSample, real,
                                     {sample.operands[0], sample.operands[1], at, ddx, ddy});

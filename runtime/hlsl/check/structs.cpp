@@ -120,7 +120,7 @@ void Checker::declare_bit_field(StructInfo* info, const VariableDecl* decl, cons
     report(CheckId::kBitFieldType, decl->location, {name, to_string(type)});
     return;
   }
-  const uint32_t unit_bits = scalar_bytes(type->scalar) * 8;
+  const uint32_t unit_bits = scalar_bytes(type->scalar, ScalarStorage::kBuffer) * 8;
   if (*width == 0 && decl->name.empty()) {
     info->open_bits = 0;
     return;

@@ -7,57 +7,6 @@
 
 namespace kaamos::hlsl {
 
-Scalar plain_scalar(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kLiteralInt:
-      return Scalar::kInt64;
-    case Scalar::kLiteralFloat:
-      return Scalar::kFloat64;
-    case Scalar::kHalf:
-    case Scalar::kMin16Float:
-    case Scalar::kMin10Float:
-      return Scalar::kFloat32;
-    case Scalar::kMin16Int:
-    case Scalar::kMin12Int:
-      return Scalar::kInt32;
-    case Scalar::kMin16Uint:
-      return Scalar::kUint32;
-    default:
-      return scalar;
-  }
-}
-
-ir::Scalar ir_scalar(Scalar scalar) {
-  return static_cast<ir::Scalar>(plain_scalar(scalar));
-}
-
-uint32_t scalar_bytes(ir::Scalar scalar) {
-  switch (scalar) {
-    case ir::Scalar::kInt16:
-    case ir::Scalar::kUint16:
-    case ir::Scalar::kFloat16:
-      return 2;
-    case ir::Scalar::kInt64:
-    case ir::Scalar::kUint64:
-    case ir::Scalar::kFloat64:
-      return 8;
-    default:
-      return 4;
-  }
-}
-
-uint32_t scalar_bytes(Scalar scalar) {
-  return is_literal(scalar) ? 4 : scalar_bytes(ir_scalar(scalar));
-}
-
-std::string_view name_of(Scalar scalar) {
-  static constexpr std::string_view kNames[] = {
-      "bool",     "int16_t",    "uint16_t",   "int",      "uint",        "int64_t",
-      "uint64_t", "float16_t",  "float",      "double",   "literal int", "literal float",
-      "half",     "min16float", "min10float", "min16int", "min12int",    "min16uint"};
-  return kNames[static_cast<size_t>(scalar)];
-}
-
 uint64_t flat_component_count(const Type* type) {
   constexpr uint64_t kMany = 1ull << 31;
   switch (type->kind) {
@@ -132,7 +81,7 @@ const Type* TypeTable::numeric(Scalar scalar, uint32_t rows, uint32_t columns, b
     ir::Type* ir_type = make_ir(rows      ? ir::TypeKind::kMatrix
                                 : columns ? ir::TypeKind::kVector
                                           : ir::TypeKind::kScalar);
-    ir_type->scalar = ir_scalar(scalar);
+    ir_type->scalar = plain_scalar(scalar);
     ir_type->rows = static_cast<uint8_t>(std::max(rows, 1u));
     ir_type->columns = static_cast<uint8_t>(std::max(columns, 1u));
     type->ir = ir_type;

@@ -19,54 +19,6 @@
 
 namespace kaamos::hlsl {
 
-// The first ten have the numbers of ir::Scalar. A literal type adapts to what it is used with; its
-// values are held as 64-bit integers and doubles. half and the min types have 32 bits; they are
-// types of their own for overloads and templates.
-enum class Scalar : uint8_t {
-  kBool,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kInt64,
-  kUint64,
-  kFloat16,
-  kFloat32,
-  kFloat64,
-  kLiteralInt,
-  kLiteralFloat,
-  kHalf,  // Without native 16-bit types; with them half is kFloat16, and there are no min types.
-  kMin16Float,
-  kMin10Float,
-  kMin16Int,
-  kMin12Int,
-  kMin16Uint,
-};
-
-constexpr bool is_floating(Scalar scalar) {
-  return scalar == Scalar::kFloat16 || scalar == Scalar::kFloat32 || scalar == Scalar::kFloat64 ||
-         scalar == Scalar::kLiteralFloat || scalar == Scalar::kHalf ||
-         scalar == Scalar::kMin16Float || scalar == Scalar::kMin10Float;
-}
-constexpr bool is_literal(Scalar scalar) {
-  return scalar == Scalar::kLiteralInt || scalar == Scalar::kLiteralFloat;
-}
-constexpr bool is_signed_integer(Scalar scalar) {
-  return scalar == Scalar::kInt16 || scalar == Scalar::kInt32 || scalar == Scalar::kInt64 ||
-         scalar == Scalar::kLiteralInt || scalar == Scalar::kMin16Int ||
-         scalar == Scalar::kMin12Int;
-}
-constexpr bool is_integer(Scalar scalar) {
-  return !is_floating(scalar) && scalar != Scalar::kBool;
-}
-// The type whose values it has: float for half.
-Scalar plain_scalar(Scalar scalar);
-ir::Scalar ir_scalar(Scalar scalar);
-// Bytes in memory; a bool takes 4.
-uint32_t scalar_bytes(Scalar scalar);
-uint32_t scalar_bytes(ir::Scalar scalar);
-std::string_view name_of(Scalar scalar);
-
 enum class TypeKind : uint8_t {
   kError,  // already diagnosed; converts to and from anything without a message
   kVoid,

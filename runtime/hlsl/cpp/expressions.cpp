@@ -8,6 +8,7 @@
 
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/cpp/emitter.h"
+#include "runtime/hlsl/ir/operators.h"
 #include "runtime/hlsl/ir/texture_shape.h"
 
 namespace kaamos::hlsl {
@@ -23,59 +24,12 @@ std::string descriptor_words(ResourceKind kind) {
          "), ks::DescriptorAccess(" + std::to_string(static_cast<int>(c.access)) + ")";
 }
 
-bool is_float(Scalar scalar) {
-  return scalar == Scalar::kFloat16 || scalar == Scalar::kFloat32 || scalar == Scalar::kFloat64;
-}
-
 // C++ promotes smaller operands to int, and half is a class.
 bool has_native_operators(const Type* type) {
   return type->kind == TypeKind::kScalar &&
          (type->scalar == Scalar::kInt32 || type->scalar == Scalar::kUint32 ||
           type->scalar == Scalar::kInt64 || type->scalar == Scalar::kUint64 ||
           type->scalar == Scalar::kFloat32 || type->scalar == Scalar::kFloat64);
-}
-
-struct BinaryNames {
-  const char* function;
-  const char* native;  // null if C++'s operator means something else
-};
-
-BinaryNames names_of(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::kAdd:
-      return {"add", "+"};
-    case BinaryOp::kSubtract:
-      return {"sub", "-"};
-    case BinaryOp::kMultiply:
-      return {"mul_c", "*"};
-    case BinaryOp::kDivide:
-      return {"div", nullptr};
-    case BinaryOp::kModulo:
-      return {"mod", nullptr};
-    case BinaryOp::kBitAnd:
-      return {"bit_and", "&"};
-    case BinaryOp::kBitOr:
-      return {"bit_or", "|"};
-    case BinaryOp::kBitXor:
-      return {"bit_xor", "^"};
-    case BinaryOp::kShiftLeft:
-      return {"shl", nullptr};
-    case BinaryOp::kShiftRight:
-      return {"shr", nullptr};
-    case BinaryOp::kLess:
-      return {"less", "<"};
-    case BinaryOp::kLessEqual:
-      return {"less_equal", "<="};
-    case BinaryOp::kGreater:
-      return {"greater", ">"};
-    case BinaryOp::kGreaterEqual:
-      return {"greater_equal", ">="};
-    case BinaryOp::kEqual:
-      return {"equal", "=="};
-    case BinaryOp::kNotEqual:
-      return {"not_equal", "!="};
-  }
-  return {"", nullptr};
 }
 
 std::string float_text(double number, const char* format, const char* suffix, const char* infinity,
@@ -163,6 +117,8 @@ std::string CppEmitter::scalar_literal(Scalar scalar, uint64_t bits) {
     case Scalar::kFloat64:
       return float_text(std::bit_cast<double>(bits), "%.17g", "", "__builtin_inf()", bits,
                         "double");
+    default:  // Only plain ones get here.
+      break;
   }
   return "0";
 }
@@ -239,14 +195,13 @@ std::string CppEmitter::unary(const Expr& expr) {
 
 std::string CppEmitter::binary(const Expr& expr) {
   const Type* operand_type = expr.operands[0]->type;
-  BinaryNames names = names_of(expr.binary);
-  if (expr.binary == BinaryOp::kDivide && is_float(operand_type->scalar)) {
-    names.native = "/";
+  const BinarySpelling& spelling = spelling_of(expr.binary);
+  const bool divides = expr.binary == BinaryOp::kDivide && is_floating(operand_type->scalar);
+  if ((spelling.is_native || divides) && has_native_operators(operand_type)) {
+    return "(" + value(expr.operands[0]) + " " + spelling.symbol + " " + value(expr.operands[1]) +
+           ")";
   }
-  if (names.native != nullptr && has_native_operators(operand_type)) {
-    return "(" + value(expr.operands[0]) + " " + names.native + " " + value(expr.operands[1]) + ")";
-  }
-  return call(std::string("ks::") + names.function, expr.operands);
+  return call(spelling.cpp, expr.operands);
 }
 
 std::string CppEmitter::element(const Expr& expr, bool as_place) {

@@ -12,23 +12,6 @@ using namespace ir;
 
 namespace {
 
-uint32_t scalar_bytes(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kBool:
-      return 1;
-    case Scalar::kInt16:
-    case Scalar::kUint16:
-    case Scalar::kFloat16:
-      return 2;
-    case Scalar::kInt64:
-    case Scalar::kUint64:
-    case Scalar::kFloat64:
-      return 8;
-    default:
-      return 4;
-  }
-}
-
 // Resources are handles: a struct that contains one is never in a buffer.
 bool lies_in_memory(const Type* type) {
   switch (type->kind) {
@@ -89,6 +72,8 @@ const char* scalar_name(Scalar scalar) {
       return "float";
     case Scalar::kFloat64:
       return "double";
+    default:  // Only plain ones get here.
+      break;
   }
   return "int32_t";
 }
@@ -120,11 +105,11 @@ uint32_t CppEmitter::stack_bytes(const Type* t) const {
     case TypeKind::kVoid:
       return 0;
     case TypeKind::kScalar:
-      return scalar_bytes(t->scalar);
+      return scalar_bytes(t->scalar, ScalarStorage::kVariable);
     case TypeKind::kVector:
-      return scalar_bytes(t->scalar) * t->columns;
+      return scalar_bytes(t->scalar, ScalarStorage::kVariable) * t->columns;
     case TypeKind::kMatrix:
-      return scalar_bytes(t->scalar) * t->columns * t->rows;
+      return scalar_bytes(t->scalar, ScalarStorage::kVariable) * t->columns * t->rows;
     case TypeKind::kArray:
       return stack_bytes(t->element) * t->count;
     case TypeKind::kStruct: {

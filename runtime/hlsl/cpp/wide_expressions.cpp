@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "runtime/hlsl/cpp/wide_emitter.h"
+#include "runtime/hlsl/ir/operators.h"
 #include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
@@ -21,44 +22,6 @@ bool has_access(const Expr* root) {
             expr.kind == ExprKind::kTypedLoad || expr.kind == ExprKind::kSample;
   });
   return found;
-}
-
-const char* function_of(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::kAdd:
-      return "ks::add";
-    case BinaryOp::kSubtract:
-      return "ks::sub";
-    case BinaryOp::kMultiply:
-      return "ks::mul_c";
-    case BinaryOp::kDivide:
-      return "ks::div";
-    case BinaryOp::kModulo:
-      return "ks::mod";
-    case BinaryOp::kBitAnd:
-      return "ks::bit_and";
-    case BinaryOp::kBitOr:
-      return "ks::bit_or";
-    case BinaryOp::kBitXor:
-      return "ks::bit_xor";
-    case BinaryOp::kShiftLeft:
-      return "ks::shl";
-    case BinaryOp::kShiftRight:
-      return "ks::shr";
-    case BinaryOp::kLess:
-      return "ks::less";
-    case BinaryOp::kLessEqual:
-      return "ks::less_equal";
-    case BinaryOp::kGreater:
-      return "ks::greater";
-    case BinaryOp::kGreaterEqual:
-      return "ks::greater_equal";
-    case BinaryOp::kEqual:
-      return "ks::equal";
-    case BinaryOp::kNotEqual:
-      return "ks::not_equal";
-  }
-  return "";
 }
 
 // Whether the prelude's function for the intrinsic takes wide values of the scalar type:
@@ -351,7 +314,7 @@ std::string WideEmitter::varying(const Expr& expr) {
                                                  : "ks::bit_not",
                   expr.operands);
     case ExprKind::kBinary:
-      return call(function_of(expr.binary), expr.operands);
+      return call(spelling_of(expr.binary).cpp, expr.operands);
     case ExprKind::kSelect:
       if (!is_varying(expr.operands[0]) && expr.operands[0]->type->kind == TypeKind::kScalar) {
         return "ks::select(" + out_.value(expr.operands[0]) + ", " + value(expr.operands[1]) +

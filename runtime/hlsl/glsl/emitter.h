@@ -274,10 +274,8 @@ namespace glsl {
 std::string scalar_name(ir::Scalar scalar);               // "uint64_t"
 std::string vector_name(ir::Scalar scalar, int columns);  // one column is a scalar
 const char* suffix(ir::Scalar scalar);                    // "u64"
-bool is_float(ir::Scalar scalar);
-uint32_t memory_bytes(ir::Scalar scalar);  // bool takes 4
-std::string component(int index);          // "x"
-std::string number(uint64_t n);            // "3u"
+std::string component(int index);                         // "x"
+std::string number(uint64_t n);                           // "3u"
 bool contains_bool(const ir::Type* type);
 // Total number of 32-bit words for all scalars: two for a 64-bit one, one for any other.
 uint32_t words(const ir::Type* type);

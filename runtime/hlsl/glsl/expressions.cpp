@@ -4,6 +4,7 @@
 // functions.
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/glsl/emitter.h"
+#include "runtime/hlsl/ir/operators.h"
 
 namespace kaamos::hlsl {
 
@@ -13,49 +14,6 @@ namespace {
 
 bool is_vector(const Type* type) {
   return type->kind == TypeKind::kVector && type->columns > 1;
-}
-
-struct BinaryNames {
-  const char* function;
-  const char* native;  // for scalars; null if GLSL's operator means something else
-};
-
-BinaryNames names_of(BinaryOp op) {
-  switch (op) {
-    case BinaryOp::kAdd:
-      return {"k_add", "+"};
-    case BinaryOp::kSubtract:
-      return {"k_subtract", "-"};
-    case BinaryOp::kMultiply:
-      return {"k_multiply", "*"};
-    case BinaryOp::kDivide:
-      return {"k_divide", nullptr};
-    case BinaryOp::kModulo:
-      return {"k_modulo", nullptr};
-    case BinaryOp::kBitAnd:
-      return {"k_bit_and", "&"};
-    case BinaryOp::kBitOr:
-      return {"k_bit_or", "|"};
-    case BinaryOp::kBitXor:
-      return {"k_bit_xor", "^"};
-    case BinaryOp::kShiftLeft:
-      return {"k_shift_left", nullptr};
-    case BinaryOp::kShiftRight:
-      return {"k_shift_right", nullptr};
-    case BinaryOp::kLess:
-      return {"k_less", "<"};
-    case BinaryOp::kLessEqual:
-      return {"k_less_equal", "<="};
-    case BinaryOp::kGreater:
-      return {"k_greater", ">"};
-    case BinaryOp::kGreaterEqual:
-      return {"k_greater_equal", ">="};
-    case BinaryOp::kEqual:
-      return {"k_equal", "=="};
-    case BinaryOp::kNotEqual:
-      return {"k_not_equal", "!="};
-  }
-  return {"", nullptr};
 }
 
 bool is_arithmetic(BinaryOp op) {
@@ -184,7 +142,7 @@ std::string GlslEmitter::convert(const Expr& expr) {
   }
   // GLSL's constructors wrap integers, and round integers and doubles, as HLSL does.
   const bool plain = to->scalar == Scalar::kFloat32 || to->scalar == Scalar::kFloat64 ||
-                     (!glsl::is_float(from->scalar) && !glsl::is_float(to->scalar)) ||
+                     (!is_floating(from->scalar) && !is_floating(to->scalar)) ||
                      to->scalar == Scalar::kBool;
   return call(plain ? type(to) : function, expr.operands);
 }
@@ -222,18 +180,19 @@ std::string GlslEmitter::unary(const Expr& expr) {
 
 std::string GlslEmitter::binary(const Expr& expr) {
   const Type* operand = expr.operands[0]->type;
-  const BinaryNames names = names_of(expr.binary);
+  const BinarySpelling& spelling = spelling_of(expr.binary);
   if (operand->kind == TypeKind::kMatrix) {
-    return matrix_call(names.function, expr.type, expr.operands);
+    return matrix_call(spelling.glsl, expr.type, expr.operands);
   }
   const bool boolean = operand->scalar == Scalar::kBool;
   const bool equality = expr.binary == BinaryOp::kEqual || expr.binary == BinaryOp::kNotEqual;
-  const bool native = names.native != nullptr && (!boolean || (equality && !is_vector(operand))) &&
+  const bool native = spelling.is_native && (!boolean || (equality && !is_vector(operand))) &&
                       (!is_vector(operand) || is_arithmetic(expr.binary));
   if (native) {
-    return "(" + value(expr.operands[0]) + " " + names.native + " " + value(expr.operands[1]) + ")";
+    return "(" + value(expr.operands[0]) + " " + spelling.symbol + " " + value(expr.operands[1]) +
+           ")";
   }
-  return call(names.function, expr.operands);
+  return call(spelling.glsl, expr.operands);
 }
 
 std::string GlslEmitter::intrinsic(const Expr& expr) {

@@ -31,7 +31,7 @@ bool has_vector_access(Scalar scalar) {
 
 // The low bits of an offset that are ignored.
 uint32_t ignored_bits(Scalar scalar) {
-  return glsl::memory_bytes(scalar) < 4 ? 1 : 3;
+  return scalar_bytes(scalar, ScalarStorage::kBuffer) < 4 ? 1 : 3;
 }
 
 bool is_numeric(const Type* type) {
@@ -78,7 +78,7 @@ namespace {
 // prelude function reads: a scalar or, if the matrix is stored by rows, a row.
 template <typename Visit>
 void each_part(const Type* t, Layout layout, bool row_major, const Visit& visit) {
-  const uint32_t bytes = glsl::memory_bytes(t->scalar);
+  const uint32_t bytes = scalar_bytes(t->scalar, ScalarStorage::kBuffer);
   if (t->kind == TypeKind::kVector) {
     for (int i = 0; i < t->columns; ++i) {
       visit("value." + glsl::component(i), static_cast<uint32_t>(i) * bytes, 1);

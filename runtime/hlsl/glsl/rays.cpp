@@ -452,7 +452,7 @@ std::string GlslEmitter::attributes_function(const Type* t, bool store) {
       return;
     }
     const auto word = [](uint32_t i) { return "g_attributes[" + std::to_string(i) + "]"; };
-    const uint32_t count = glsl::memory_bytes(scalar) == 8 ? 2 : 1;
+    const uint32_t count = scalar_bytes(scalar, ScalarStorage::kBuffer) == 8 ? 2 : 1;
     if (store) {
       for (uint32_t i = 0; i < count; ++i) {
         text += "  " + word(next + i) + " = " + to_word(scalar, part, static_cast<int>(i)) + ";\n";

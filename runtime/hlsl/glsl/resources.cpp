@@ -356,7 +356,7 @@ void GlslEmitter::atomic(const Stmt& stmt) {
     return;
   }
   const Type* resource = stmt.operands[0]->type;
-  const bool is_wide = glsl::memory_bytes(scalar) == 8;
+  const bool is_wide = scalar_bytes(scalar, ScalarStorage::kBuffer) == 8;
   if (stmt.target == AtomicTarget::kTyped && !is_typed_buffer(resource) && is_wide) {
     const std::string t = type(stmt.value->type);
     const std::string compare =

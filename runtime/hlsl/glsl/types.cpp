@@ -34,25 +34,6 @@ const char* suffix(Scalar scalar) {
   return kNames[static_cast<int>(scalar)];
 }
 
-bool is_float(Scalar scalar) {
-  return scalar == Scalar::kFloat16 || scalar == Scalar::kFloat32 || scalar == Scalar::kFloat64;
-}
-
-uint32_t memory_bytes(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kInt16:
-    case Scalar::kUint16:
-    case Scalar::kFloat16:
-      return 2;
-    case Scalar::kInt64:
-    case Scalar::kUint64:
-    case Scalar::kFloat64:
-      return 8;
-    default:
-      return 4;
-  }
-}
-
 std::string component(int index) {
   return std::string(1, "xyzw"[index & 3]);
 }
@@ -86,7 +67,8 @@ uint32_t words(const Type* type) {
     case TypeKind::kScalar:
     case TypeKind::kVector:
     case TypeKind::kMatrix:
-      return (memory_bytes(type->scalar) == 8 ? 2u : 1u) * type->rows * type->columns;
+      return (scalar_bytes(type->scalar, ScalarStorage::kBuffer) == 8 ? 2u : 1u) * type->rows *
+             type->columns;
     case TypeKind::kArray:
       return words(type->element) * type->count;
     case TypeKind::kStruct: {
@@ -284,6 +266,8 @@ std::string GlslEmitter::scalar_literal(Scalar scalar, uint64_t bits) {
       return float32_literal(static_cast<float>(std::bit_cast<double>(bits)));
     case Scalar::kFloat64:
       return float64_literal(std::bit_cast<double>(bits));
+    default:  // Only plain ones get here.
+      break;
   }
   return "0";
 }
@@ -306,7 +290,7 @@ bool GlslEmitter::is_constant(const Expr& expr) const {
       return true;
     case ExprKind::kLiteral:
       for (const uint64_t bits : expr.literal) {
-        if (glsl::is_float(expr.type->scalar) && !is_plain(std::bit_cast<double>(bits))) {
+        if (is_floating(expr.type->scalar) && !is_plain(std::bit_cast<double>(bits))) {
           return false;
         }
       }

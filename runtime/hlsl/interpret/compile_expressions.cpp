@@ -36,6 +36,8 @@ void put_scalar(std::byte* at, Scalar scalar, uint64_t bits) {
       return put(at, shader::to_half(static_cast<float>(std::bit_cast<double>(bits))));
     case Scalar::kFloat32:
       return put(at, static_cast<float>(std::bit_cast<double>(bits)));
+    default:  // Only plain ones get here.
+      break;
   }
 }
 
@@ -88,7 +90,7 @@ void Compiler::kernel(Node& node, Kernel found) {
 }
 
 void Compiler::gather(Node& node, std::vector<uint8_t> components) {
-  node.stride = scalar_bytes(node.expr->type->scalar);
+  node.stride = scalar_bytes(node.expr->type->scalar, ScalarStorage::kVariable);
   node.components = std::move(components);
   in_slot(node, evaluate_gather());
 }
@@ -96,7 +98,7 @@ void Compiler::gather(Node& node, std::vector<uint8_t> components) {
 void Compiler::literal(Node& node) {
   const Expr& expr = *node.expr;
   auto& bytes = program_.constants.emplace_back(std::max(node.bytes, 1u));
-  const uint32_t step = scalar_bytes(expr.type->scalar);
+  const uint32_t step = scalar_bytes(expr.type->scalar, ScalarStorage::kVariable);
   for (size_t i = 0; i < expr.literal.size() && i < node.count; ++i) {
     put_scalar(bytes.data() + i * step, expr.type->scalar, expr.literal[i]);
   }
@@ -147,7 +149,7 @@ void Compiler::swizzle(Node& node, const Type* base) {
     for (uint8_t& c : components) c = static_cast<uint8_t>(c / 4 * base->columns + c % 4);
   }
   if (components.size() == 1) {
-    node.offset = components[0] * scalar_bytes(base->scalar);
+    node.offset = components[0] * scalar_bytes(base->scalar, ScalarStorage::kVariable);
     node.components = std::move(components);
     node.evaluate = evaluate_member();
     node.locate = locate_member();

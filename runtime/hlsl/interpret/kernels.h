@@ -45,6 +45,8 @@ auto with_scalar(ir::Scalar scalar, const Visit& visit) {
       return visit(std::type_identity<float>{});
     case ir::Scalar::kFloat64:
       return visit(std::type_identity<double>{});
+    default:  // Only plain ones get here.
+      break;
   }
   return visit(std::type_identity<int32_t>{});
 }

@@ -19,7 +19,7 @@ void run_lone(const shader::WaveCall& call) {
     return;
   }
   const uint32_t own = 0;
-  with_scalar(static_cast<ir::Scalar>(call.scalar), [&](auto scalar) {
+  with_scalar(scalar_of(call.scalar), [&](auto scalar) {
     using T = typename decltype(scalar)::type;
     shader::wave_results<T>(call.op,
                             {1, 1, call.components, static_cast<const T*>(call.value),
@@ -50,7 +50,7 @@ void run_wave(const Action& action, Frame& frame) {
   call.op = action.stmt->wave;
   if (!action.operands.empty()) {
     const ir::Type* type = action.operands[0]->expr->type;
-    call.scalar = static_cast<shader::WaveScalar>(type->scalar);
+    call.scalar = wave_scalar(type->scalar);
     call.components = static_cast<uint8_t>(component_count(type));
     call.value = evaluate(*action.operands[0], frame);
   }

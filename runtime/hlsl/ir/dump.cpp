@@ -6,6 +6,7 @@
 
 #include "runtime/hlsl/ir/builtin_functions.h"
 #include "runtime/hlsl/ir/builtin_types.h"
+#include "runtime/hlsl/ir/operators.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr const char* kScalarNames[] = {"bool",  "int16",  "uint16", "int",   "uint",
                                         "int64", "uint64", "half",   "float", "double"};
 constexpr const char* kUnaryNames[] = {"-", "!", "~"};
-constexpr const char* kBinaryNames[] = {"+",  "-",  "*", "/",  "%", "&",  "|",  "^",
-                                        "<<", ">>", "<", "<=", ">", ">=", "==", "!="};
 constexpr const char* kSampleNames[] = {"sample_level", "sample_gradient", "sample_compare_level",
                                         "gather",       "gather_compare",  "level_of_detail"};
 constexpr const char* kAtomicNames[] = {
@@ -131,7 +130,7 @@ class Dumper {
       case ir::ExprKind::kBinary:
         text += "(";
         expr(of->operands[0]);
-        text += std::string(" ") + kBinaryNames[static_cast<size_t>(of->binary)] + " ";
+        text += std::string(" ") + ir::spelling_of(of->binary).symbol + " ";
         expr(of->operands[1]);
         text += ")";
         return;

@@ -14,23 +14,6 @@ uint32_t align(uint32_t offset, uint32_t alignment) {
   return (offset + alignment - 1) / alignment * alignment;
 }
 
-uint32_t scalar_bytes(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kBool:
-      return 1;
-    case Scalar::kInt16:
-    case Scalar::kUint16:
-    case Scalar::kFloat16:
-      return 2;
-    case Scalar::kInt64:
-    case Scalar::kUint64:
-    case Scalar::kFloat64:
-      return 8;
-    default:
-      return 4;
-  }
-}
-
 uint32_t component_count(const Type* type) {
   switch (type->kind) {
     case TypeKind::kScalar:
@@ -69,7 +52,7 @@ Extent Layouts::extent_of(const Type* type) {
     case TypeKind::kScalar:
     case TypeKind::kVector:
     case TypeKind::kMatrix: {
-      const uint32_t bytes = scalar_bytes(type->scalar);
+      const uint32_t bytes = scalar_bytes(type->scalar, ScalarStorage::kVariable);
       return {bytes * component_count(type), bytes};
     }
     case TypeKind::kArray: {
@@ -92,10 +75,6 @@ uint32_t Layouts::field_offset(const Struct& structure, uint32_t field) {
 }
 
 namespace {
-
-uint32_t memory_bytes(Scalar scalar) {
-  return scalar == Scalar::kBool ? 4 : scalar_bytes(scalar);
-}
 
 const Type* innermost(const Type* type) {
   while (type->kind == TypeKind::kArray) type = type->element;
@@ -143,8 +122,8 @@ class MoveCollector {
       }
       return;
     }
-    const uint32_t wide = memory_bytes(scalar_);
-    const uint32_t narrow = scalar_bytes(scalar_);
+    const uint32_t wide = scalar_bytes(scalar_, ScalarStorage::kBuffer);
+    const uint32_t narrow = scalar_bytes(scalar_, ScalarStorage::kVariable);
     if (type->kind != TypeKind::kMatrix) {
       add(memory, at, component_count(type));
       return;
@@ -161,12 +140,12 @@ class MoveCollector {
 
   void add(uint32_t memory, uint32_t at, uint32_t count) {
     const bool is_bool = scalar_ == Scalar::kBool;
-    const auto bytes = static_cast<uint8_t>(memory_bytes(scalar_));
+    const auto bytes = static_cast<uint8_t>(scalar_bytes(scalar_, ScalarStorage::kBuffer));
     if (!out_.empty()) {
       Move& last = out_.back();
       if (last.member == member_ && last.bytes == bytes && last.is_bool == is_bool &&
           last.at + last.count * bytes == memory &&
-          last.value + last.count * scalar_bytes(scalar_) == at) {
+          last.value + last.count * scalar_bytes(scalar_, ScalarStorage::kVariable) == at) {
         last.count += count;
         return;
       }

@@ -22,7 +22,6 @@ inline constexpr uint32_t kMaxValueBytes = 1u << 24;
 // The limit for one load or store; anything beyond it is moved only in part.
 inline constexpr size_t kMaxMoves = 1u << 20;
 
-uint32_t scalar_bytes(ir::Scalar scalar);
 // Components of a scalar, vector or matrix.
 uint32_t component_count(const ir::Type* type);
 uint32_t align(uint32_t offset, uint32_t alignment);

@@ -25,6 +25,7 @@
 #include "kaamos/shader/graphics.h"
 #include "kaamos/shader/wave_op.h"
 #include "runtime/hlsl/ir/intrinsics.h"
+#include "runtime/hlsl/ir/scalar.h"
 
 namespace kaamos::hlsl::ir {
 
@@ -37,19 +38,6 @@ struct Location {
 
 // ---------------------------------------------------------------------------------------------
 // Types: interned in the Module, compared by address.
-
-enum class Scalar : uint8_t {
-  kBool,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kInt64,
-  kUint64,
-  kFloat16,
-  kFloat32,
-  kFloat64,
-};
 
 enum class TypeKind : uint8_t { kVoid, kScalar, kVector, kMatrix, kArray, kStruct, kResource };
 
@@ -89,7 +77,7 @@ struct Struct;
 
 struct Type {
   TypeKind kind = TypeKind::kVoid;
-  Scalar scalar = Scalar::kFloat32;  // scalar, vector, matrix
+  Scalar scalar = Scalar::kFloat32;  // scalar, vector, matrix; plain
   uint8_t rows = 1;                  // matrix
   uint8_t columns = 1;               // vector: its size; matrix
   const Type* element = nullptr;     // array; resource: element type T where there is one

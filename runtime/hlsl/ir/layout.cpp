@@ -10,30 +10,15 @@ uint64_t align(uint64_t offset, uint64_t alignment) {
   return (offset + alignment - 1) / alignment * alignment;
 }
 
-uint32_t scalar_bytes(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kInt16:
-    case Scalar::kUint16:
-    case Scalar::kFloat16:
-      return 2;
-    case Scalar::kInt64:
-    case Scalar::kUint64:
-    case Scalar::kFloat64:
-      return 8;
-    default:
-      return 4;  // bool too
-  }
-}
-
 uint32_t scalar_alignment(const Type* type) {
   return type->kind == TypeKind::kScalar || type->kind == TypeKind::kVector ||
                  type->kind == TypeKind::kMatrix
-             ? scalar_bytes(type->scalar)
+             ? scalar_bytes(type->scalar, ScalarStorage::kBuffer)
              : 1;
 }
 
 Extent extent_of_matrix(const Type* type, Layout layout, bool row_major) {
-  const uint32_t bytes = scalar_bytes(type->scalar);
+  const uint32_t bytes = scalar_bytes(type->scalar, ScalarStorage::kBuffer);
   const uint32_t lines = row_major ? type->rows : type->columns;
   const uint32_t line = bytes * (row_major ? type->columns : type->rows);
   const uint64_t size = uint64_t{matrix_stride(type, layout, row_major)} * (lines - 1) + line;
@@ -59,9 +44,11 @@ Extent extent_of_struct(const Struct& structure, Layout layout) {
 Extent extent_of(const Type* type, Layout layout, bool row_major) {
   switch (type->kind) {
     case TypeKind::kScalar:
-      return {scalar_bytes(type->scalar), scalar_bytes(type->scalar)};
+      return {scalar_bytes(type->scalar, ScalarStorage::kBuffer),
+              scalar_bytes(type->scalar, ScalarStorage::kBuffer)};
     case TypeKind::kVector:
-      return {uint64_t{scalar_bytes(type->scalar)} * type->columns, scalar_bytes(type->scalar)};
+      return {uint64_t{scalar_bytes(type->scalar, ScalarStorage::kBuffer)} * type->columns,
+              scalar_bytes(type->scalar, ScalarStorage::kBuffer)};
     case TypeKind::kMatrix:
       return extent_of_matrix(type, layout, row_major);
     case TypeKind::kArray: {
@@ -83,7 +70,8 @@ uint64_t array_stride(const Type* element, Layout layout, bool row_major) {
 }
 
 uint32_t matrix_stride(const Type* matrix, Layout layout, bool row_major) {
-  const uint32_t line = scalar_bytes(matrix->scalar) * (row_major ? matrix->columns : matrix->rows);
+  const uint32_t line = scalar_bytes(matrix->scalar, ScalarStorage::kBuffer) *
+                        (row_major ? matrix->columns : matrix->rows);
   return static_cast<uint32_t>(layout == Layout::kConstantBuffer ? align(line, 16) : line);
 }
 
