@@ -5,18 +5,6 @@
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
-namespace {
-
-constexpr char kClassLetters[] = {'t', 'u', 'b', 's'};
-constexpr uint64_t kUnboundedCount = 0xFFFFFFFFu;
-
-uint64_t end_of(const BindingInfo& binding) {
-  return binding.count == kUnboundedCount ? uint64_t{1} << 32
-                                          : binding.register_index + binding.count;
-}
-
-}  // namespace
-
 void Checker::apply_register(BindingInfo* binding, const Annotations& annotations) {
   for (const RegisterBinding& written : annotations.registers) {
     if (written.register_class != 0 &&
@@ -50,7 +38,8 @@ VariableInfo* Checker::make_binding(const std::string& name, const Type* type,
   BindingInfo* binding = &bindings_.emplace_back();
   binding->unit = global_->unit;
   binding->name = name;
-  binding->location = location;
+  binding->place = location.raw;
+  binding->automatic_space = options_->automatic_space;
   binding->is_array = type->is_array();
   const Type* element = type;
   for (; element->is_array(); element = element->element) {
@@ -60,6 +49,7 @@ VariableInfo* Checker::make_binding(const std::string& name, const Type* type,
   }
   if (type->is_array() && type->count == 0) binding->count = kUnboundedCount;
   binding->type = element;
+  binding->resource = element->ir;
   binding->register_class = traits_of(element->resource).register_class;
   if (element->resource == ir::ResourceKind::kConstantBuffer) {
     binding->size_bytes = layout_of(element->element, ir::Layout::kConstantBuffer).size;
@@ -94,10 +84,12 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
   BindingInfo* binding = &bindings_.emplace_back();
   binding->unit = global_->unit;
   binding->name = decl->name;
-  binding->location = decl->location;
+  binding->place = decl->location.raw;
+  binding->automatic_space = options_->automatic_space;
   binding->register_class = 2;
   // Set before the members, because the size of an array may (wrongly) name one of them.
   binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
+  binding->resource = binding->type->ir;
   apply_register(binding, decl->annotations);
   uint32_t offset = 0;
   for (const Decl* member : decl->members) {
@@ -173,11 +165,13 @@ void Checker::open_globals_buffer(SourceLocation location) {
   globals_struct_ = structure->ir;
   globals_buffer_ = &bindings_.emplace_back();
   globals_buffer_->unit = global_->unit;
-  globals_buffers_.push_back(globals_buffer_);
+  facts_.globals_buffers.push_back(globals_buffer_);
   globals_buffer_->name = "$Globals";
   globals_buffer_->register_class = 2;
-  globals_buffer_->location = location;
+  globals_buffer_->place = location.raw;
+  globals_buffer_->automatic_space = options_->automatic_space;
   globals_buffer_->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
+  globals_buffer_->resource = globals_buffer_->type->ir;
 }
 
 // A global that is neither static nor a resource is a member of the constant buffer $Globals.
@@ -222,98 +216,6 @@ const ir::Expr* Checker::binding_value(BindingInfo* binding, const ir::Expr* ind
   binding_of_[node] = binding;
   if (lower_.function_) lower_.function_->bindings.push_back(binding);
   return node;
-}
-
-// First fit among the registers of the binding's class and space, in the order of declaration;
-// unbounded arrays come after all others. [DXC: resource allocation]
-void Checker::assign_automatic(BindingInfo* binding) {
-  enter_unit(binding->unit);
-  if (!binding->has_space) binding->space = options_->automatic_space;
-  std::vector<const BindingInfo*> taken;
-  for (const BindingInfo& other : bindings_) {
-    const bool same = other.reachable && other.has_register && other.unit == binding->unit &&
-                      other.register_class == binding->register_class &&
-                      other.space == binding->space;
-    if (same) taken.push_back(&other);
-  }
-  std::sort(taken.begin(), taken.end(), [](const BindingInfo* a, const BindingInfo* b) {
-    return a->register_index < b->register_index;
-  });
-  uint64_t next = 0;
-  for (const BindingInfo* other : taken) {
-    const bool fits =
-        binding->count != kUnboundedCount && next + binding->count <= other->register_index;
-    if (fits) break;
-    next = std::max(next, end_of(*other));
-  }
-  if (next + (binding->count == kUnboundedCount ? 1 : binding->count) > (uint64_t{1} << 32)) {
-    report(CheckId::kNoRegister, binding->location, {binding->name});
-    return;
-  }
-  binding->register_index = static_cast<uint32_t>(next);
-  binding->has_register = true;
-}
-
-void Checker::assign_registers() {
-  std::set<const BindingInfo*> automatic;
-  // DXC places $Globals before any other constant buffer.
-  for (BindingInfo* buffer : globals_buffers_) {
-    if (!buffer->reachable || buffer->has_register) continue;
-    assign_automatic(buffer);
-    automatic.insert(buffer);
-  }
-  for (const bool unbounded : {false, true}) {
-    for (BindingInfo& binding : bindings_) {
-      if (!binding.reachable || binding.has_register) continue;
-      if ((binding.count == kUnboundedCount) != unbounded) continue;
-      assign_automatic(&binding);
-      automatic.insert(&binding);
-    }
-  }
-  for (BindingInfo& binding : bindings_) {
-    if (!binding.reachable) continue;
-    binding.index = static_cast<uint32_t>(module_->bindings.size());
-    for (ir::Expr* use : binding.uses) use->index = binding.index;
-    ir::Binding& entry = module_->bindings.emplace_back();
-    entry.name = binding.name;
-    entry.type = binding.type->ir;
-    entry.register_class = binding.register_class;
-    entry.register_index = binding.register_index;
-    entry.space = binding.space;
-    entry.count = static_cast<uint32_t>(binding.count);
-    entry.is_array = binding.is_array;
-    entry.automatic = binding.is_automatic || automatic.count(&binding) != 0;
-    entry.size_bytes = binding.size_bytes;
-    entry.location = locate(binding.location);
-  }
-}
-
-// Two bindings of one shader may not share a register.
-void Checker::check_overlaps() {
-  std::vector<BindingInfo*> by_index(module_->bindings.size());
-  for (BindingInfo& binding : bindings_) {
-    if (binding.reachable) by_index[binding.index] = &binding;
-  }
-  std::set<std::pair<uint32_t, uint32_t>> reported;
-  for (const ir::EntryPoint& entry : module_->entry_points) {
-    for (size_t i = 0; i < entry.bindings.size(); ++i) {
-      for (size_t j = i + 1; j < entry.bindings.size(); ++j) {
-        const BindingInfo& a = *by_index[entry.bindings[i]];
-        const BindingInfo& b = *by_index[entry.bindings[j]];
-        // What two libraries declare may be the same resource.
-        const bool overlap = a.unit == b.unit && a.register_class == b.register_class &&
-                             a.space == b.space && a.register_index < end_of(b) &&
-                             b.register_index < end_of(a);
-        if (!overlap || !reported.insert({a.index, b.index}).second) continue;
-        report_with_notes(CheckId::kOverlap, b.location,
-                          {b.name, a.name,
-                           std::string(1, kClassLetters[b.register_class]) +
-                               std::to_string(std::max(a.register_index, b.register_index)),
-                           std::to_string(b.space), entry.name},
-                          {{a.location, "'" + a.name + "' is declared here"}});
-      }
-    }
-  }
 }
 
 }  // namespace kaamos::hlsl

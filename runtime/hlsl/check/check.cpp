@@ -11,8 +11,9 @@ Checker::Checker(const CheckOptions& options, const SourceManager& sources,
       sources_(sources),
       diagnostics_(diagnostics),
       module_(std::make_unique<ir::Module>()),
-      types_(*module_),
-      build_(*module_, types_),
+      ir_types_(*module_),
+      types_(ir_types_),
+      build_(*module_, ir_types_),
       lower_(*this) {
   global_ = make_scope(ScopeKind::kGlobal, nullptr);
   unit_scopes_ = {global_};
@@ -81,11 +82,11 @@ std::unique_ptr<ir::Module> Checker::run(const TranslationUnit& unit) {
   find_entry_points();
   if (options_->target.starts_with("lib")) add_library_functions();
   check_initialisers();
-  finish(*module_);
+  finish();
   if (!has_errors()) check_payload_uses();
   if (!has_errors()) warn_skipped();
   if (has_errors() || diagnostics_.has_errors()) return nullptr;
-  set_aside_unlinked();
+  set_aside_unlinked(*module_);
   return std::move(module_);
 }
 
@@ -114,7 +115,7 @@ std::unique_ptr<ir::Module> Checker::run(const Link& link) {
   check_initialisers();
   find_entry_points();
   check_initialisers();
-  finish(*module_);
+  finish();
   if (has_errors() || diagnostics_.has_errors()) return nullptr;
   return std::move(module_);
 }

@@ -2,8 +2,8 @@
 //
 // The checker's inner state; check.h is what others include. It is one class, split into one file
 // per noun: scopes, resolve_types, declarations, structs, templates, specializations, bindings,
-// imports, entry_points, graphics_stages, pixel_functions, subobjects, payloads, payload_uses,
-// finish_module. The lowerer handles bodies and expressions (lowerer.h).
+// imports, entry_points, graphics_stages, subobjects, payloads, finish. The lowerer handles bodies
+// and expressions (lowerer.h).
 #pragma once
 
 #include <deque>
@@ -16,9 +16,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "runtime/hlsl/builder/constants.h"
+#include "runtime/hlsl/builder/finish/finish_module.h"
+#include "runtime/hlsl/builder/finish/payload_uses.h"
+#include "runtime/hlsl/builder/ir_builder.h"
 #include "runtime/hlsl/check/check.h"
-#include "runtime/hlsl/check/constants.h"
-#include "runtime/hlsl/check/ir_builder.h"
 #include "runtime/hlsl/check/layout.h"
 #include "runtime/hlsl/check/lowerer.h"
 #include "runtime/hlsl/check/symbols.h"
@@ -177,22 +179,16 @@ class Checker {
   SplitPart split_memory(const Type* type, const std::string& name, SplitPlan& plan);
   SplitPart split_resource(const Type* type, const std::string& name, SplitPlan& plan);
   void apply_register(BindingInfo* binding, const Annotations& annotations);
-  void assign_registers();
-  void assign_automatic(BindingInfo* binding);
-  void check_overlaps();
   const ir::Expr* binding_value(BindingInfo* binding, const ir::Expr* index);
 
   // -- Entry points, exports, subobjects
   void find_entry_points();
   void check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name);
-  // -- Vertex and pixel shaders (graphics_stages.cpp, pixel_functions.cpp)
+  // -- Vertex and pixel shaders (graphics_stages.cpp)
   class GraphicsSignature;
   bool check_graphics_signature(FunctionInfo* function, ir::EntryPoint& entry);
   // The static global that says whether a pixel may still write.
   const ir::Variable* live_variable();
-  class PixelFunctions;
-  void make_pixel_functions();
-  void report_stage_use(const StageUse& use, uint32_t stage, const std::string& name);
   bool check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool read_thread_group(FunctionInfo* function, ir::EntryPoint& entry);
@@ -203,13 +199,11 @@ class Checker {
   void add_library_functions();
   void declare_subobject(const SubobjectDecl* decl);
 
-  // -- Payload access qualifiers (payloads.cpp, payload_uses.cpp)
+  // -- Payload access qualifiers (payloads.cpp)
   static bool has_raypayload(const StructInfo& structure);
   void check_payload_struct(StructInfo* info);
   void check_payload_field(FieldInfo& field);
   void check_payload_use(const Type* type, SourceLocation location);
-  void check_payload_uses();
-  class PayloadUses;
 
   // -- Functions without a body (imports.cpp)
   struct Exported {
@@ -226,22 +220,12 @@ class Checker {
                        SourceLocation use);
   void make_import(FunctionInfo* function, SourceLocation use);
   void check_initialiser_imports(const VariableInfo& variable);
-  void collect_imports(const FunctionInfo* function, std::set<const FunctionInfo*>& visited,
-                       std::vector<uint32_t>& imports);
-  std::vector<uint32_t> imports_of(const FunctionInfo* function);
-  void set_aside_unlinked();
   void assign_known_registers();
 
-  // -- The module (finish_module.cpp)
-  void finish(ir::Module& module);
-  void finish_waves(const std::vector<std::pair<FunctionInfo*, FunctionInfo*>>& initialisers);
-  void mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint32_t mark,
-                      std::set<uint32_t>& globals);
-  void mark_bindings(FunctionInfo* function, uint32_t mark);
-  void collect_structs();
-  void collect_struct(const ir::Type* type);
-  void collect_structs_of(const ir::Block& body);
-  void collect_structs_of(const ir::Expr* expression);
+  // -- The module (finish.cpp)
+  class Reports;
+  void finish();
+  void check_payload_uses();
   void warn_skipped();
 
   const CheckOptions* options_;  // of the unit whose code is being checked
@@ -249,6 +233,7 @@ class Checker {
   const SourceManager& sources_;
   DiagnosticEngine& diagnostics_;
   std::unique_ptr<ir::Module> module_;
+  IrTypes ir_types_;
   TypeTable types_;
   IrBuilder build_;
   Lowerer lower_;
@@ -278,7 +263,6 @@ class Checker {
   uint32_t file_cache_ = 0;
   std::unordered_map<std::string, uint32_t> files_;
 
-  std::vector<BindingInfo*> globals_buffers_;  // one for each unit that has any
   BindingInfo* globals_buffer_ = nullptr;
   ir::Struct* globals_struct_ = nullptr;
   uint32_t globals_offset_ = 0;
@@ -289,25 +273,10 @@ class Checker {
   int template_depth_ = 0;
 
   std::vector<FunctionInfo*> all_functions_;  // in declaration order, without templates
-  std::vector<std::pair<FunctionInfo*, size_t>> entries_;
-  ir::Variable* live_ = nullptr;
-  bool names_ordered_views_ = false;
-  std::set<const ir::Struct*> collected_structs_;
-  std::set<const ir::Expr*> collected_exprs_;
-  // An entry point that is generated around a function of the source.
-  struct Wrapper {
-    ir::Function* function;
-    FunctionInfo* wrapped;
-    uint32_t stage;
-  };
-  std::vector<Wrapper> wrappers_;
-  std::vector<FunctionInfo*> library_functions_;  // for Module::library_functions
-  std::unordered_map<const ir::Struct*, const StructInfo*> payload_structs_;
+  ModuleFacts facts_;
+  PayloadFacts payloads_;
   std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
   std::set<std::pair<uint32_t, uint32_t>> reported_uses_;
-  // Bindings of the entry point that mark_reachable walks.
-  std::set<BindingInfo*> entry_bindings_;
-  std::vector<VariableInfo*> entry_globals_;
 };
 
 struct Lowerer::BodyScope {

@@ -282,9 +282,10 @@ void Checker::initialise(VariableInfo* variable) {
     variable->state = VariableInfo::State::kDone;
     return;
   }
-  variable->initialiser_facts = std::make_unique<FunctionInfo>();
+  variable->initialiser_info = std::make_unique<FunctionInfo>();
+  variable->initialiser = variable->initialiser_info.get();
   {
-    Lowerer::BodyScope body(lower_, variable->initialiser_facts.get(), &variable->start_up,
+    Lowerer::BodyScope body(lower_, variable->initialiser_info.get(), &variable->start_up,
                             variable->scope);
     visible_ = variable->sequence;
     at(variable->decl->location);

@@ -169,7 +169,7 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
   if (!entry.function) entry.function = function->ir;
   if (stage != ir::kStageCompute && stage != ir::kStageCallable && !entry.is_graphics())
     lower_.wrap_payload(function, entry);
-  entries_.push_back({function, module_->entry_points.size()});
+  facts_.entries.push_back({function, module_->entry_points.size()});
   module_->entry_points.push_back(std::move(entry));
 }
 
@@ -314,12 +314,8 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
       {"SV_GroupIndex", ir::EntryParameter::kGroupIndex, 1},
   };
   if (!function->ir) return false;
-  ir::Function* wrapper = &module_->function_pool.emplace_back();
-  wrapper->name = function->qualified;
+  ir::Function* wrapper = make_wrapper(*module_, build_, *function->ir);
   wrapper->mangled = function->ir->mangled + "#entry";
-  wrapper->result = types_.void_type()->ir;
-  wrapper->location = function->ir->location;
-  wrapper->end_location = function->ir->end_location;
   Lowerer::BodyScope body(lower_, nullptr, &wrapper->body, function->scope);
   at(function->definition->location);
   bool plain = true;
@@ -382,7 +378,7 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
   call_statement->function = function->ir;
   call_statement->arguments = std::move(arguments);
   wrapper->body.push_back(call_statement);
-  wrappers_.push_back({wrapper, function, ir::kStageCompute});
+  facts_.wrappers.push_back({wrapper, function, ir::kStageCompute});
   entry.function = wrapper;
   return true;
 }
@@ -394,7 +390,7 @@ void Checker::add_library_functions() {
     if (!function->ir) continue;
     module_->library_functions.push_back(
         {exported.name, exported.mangled, lower_.describe(*function), {}, {}});
-    library_functions_.push_back(function);
+    facts_.library_functions.push_back(function);
   }
   for (const ExportRequest& request : options_->exports) {
     const bool found =

@@ -310,16 +310,12 @@ class Checker::GraphicsSignature {
 bool Checker::check_graphics_signature(FunctionInfo* function, ir::EntryPoint& entry) {
   if (!function->ir) return false;
   const SourceLocation location = function->definition->location;
-  ir::Function* wrapper = &module_->function_pool.emplace_back();
-  wrapper->name = function->qualified;
+  ir::Function* wrapper = make_wrapper(*module_, build_, *function->ir);
   // The export keeps the name that DXC gives it.
   std::string& mangled = function->ir->mangled;
   if (mangled.ends_with("#body")) mangled.resize(mangled.size() - 5);
   wrapper->mangled = mangled;
   mangled += "#body";
-  wrapper->result = types_.void_type()->ir;
-  wrapper->location = function->ir->location;
-  wrapper->end_location = function->ir->end_location;
   Lowerer::BodyScope body(lower_, nullptr, &wrapper->body, function->scope);
   at(location);
   GraphicsSignature inputs(*this, entry, false, *wrapper);
@@ -399,26 +395,17 @@ bool Checker::check_graphics_signature(FunctionInfo* function, ir::EntryPoint& e
   if (find_attribute(*function, "earlydepthstencil")) {
     entry.graphics_flags |= shader::kGraphicsEarlyDepthStencil;
   }
-  wrappers_.push_back({wrapper, function, entry.stage});
+  facts_.wrappers.push_back({wrapper, function, entry.stage});
   entry.function = wrapper;
   return true;
 }
 
 const ir::Variable* Checker::live_variable() {
-  if (!live_) {
-    live_ = build_.variable("live", build_.scalar_type(Scalar::kBool), ir::Storage::kStaticGlobal);
+  if (!facts_.live) {
+    facts_.live =
+        build_.variable("live", build_.scalar_type(Scalar::kBool), ir::Storage::kStaticGlobal);
   }
-  return live_;
-}
-
-void Checker::report_stage_use(const StageUse& use, uint32_t stage, const std::string& name) {
-  if (!reported_uses_.insert({use.location.raw, stage}).second) return;
-  if (use.is_implicit_level && stage != ir::kStageVertex) {
-    report(CheckId::kImplicitLevel, use.location, {std::string(use.name)});
-    return;
-  }
-  report(CheckId::kStage, use.location,
-         {std::string(use.name), stage_list(use.stages), std::string(stage_name(stage)), name});
+  return facts_.live;
 }
 
 }  // namespace kaamos::hlsl

@@ -136,48 +136,13 @@ void Checker::make_import(FunctionInfo* function, SourceLocation use) {
   module_->imports.push_back({function->qualified, mangle(*function), lower_.describe(*function)});
 }
 
-void Checker::collect_imports(const FunctionInfo* function, std::set<const FunctionInfo*>& visited,
-                              std::vector<uint32_t>& imports) {
-  if (!visited.insert(function).second) return;
-  if (function->is_import) imports.push_back(function->import_index);
-  for (const FunctionInfo* callee : function->callees) collect_imports(callee, visited, imports);
-}
-
-std::vector<uint32_t> Checker::imports_of(const FunctionInfo* function) {
-  std::vector<uint32_t> imports;
-  std::set<const FunctionInfo*> visited;
-  if (!module_->imports.empty()) collect_imports(function, visited, imports);
-  std::sort(imports.begin(), imports.end());
-  return imports;
-}
-
 // [DXC: static global initializers]
 void Checker::check_initialiser_imports(const VariableInfo& variable) {
-  if (!variable.initialiser_facts) return;
-  const std::vector<uint32_t> imports = imports_of(variable.initialiser_facts.get());
+  if (!variable.initialiser) return;
+  const std::vector<uint32_t> imports = imports_of(*module_, *variable.initialiser);
   if (imports.empty()) return;
   report(CheckId::kInitialiserImport, variable.decl->location,
          {std::string(variable.name), module_->imports[imports[0]].signature});
-}
-
-// Entry points that reach imports go to a list of their own, behind those that run.
-void Checker::set_aside_unlinked() {
-  std::vector<ir::EntryPoint> linked;
-  std::vector<uint32_t> new_index(module_->entry_points.size());
-  for (const bool runs : {true, false}) {
-    for (size_t i = 0; i < new_index.size(); ++i) {
-      ir::EntryPoint& entry = module_->entry_points[i];
-      if (entry.imports.empty() != runs) continue;
-      auto& list = runs ? linked : module_->unlinked_entry_points;
-      new_index[i] = static_cast<uint32_t>(list.size() + (runs ? 0 : linked.size()));
-      list.push_back(entry);
-    }
-  }
-  module_->entry_points = std::move(linked);
-  for (ir::LibraryFunction& function : module_->library_functions) {
-    for (uint32_t& caller : function.callers) caller = new_index[caller];
-    std::sort(function.callers.begin(), function.callers.end());
-  }
 }
 
 // A library by itself has given its resources registers, which root signatures rely on.

@@ -97,7 +97,8 @@ TEST(Layout, ConstantBufferOffsets) {
 class LayoutTypes : public testing::Test {
  protected:
   ir::Module module_;
-  TypeTable types_{module_};
+  IrTypes ir_types_{module_};
+  TypeTable types_{ir_types_};
 };
 
 TEST_F(LayoutTypes, MatricesOfConstantBuffers) {

@@ -327,7 +327,7 @@ Value Lowerer::member_of(const Value& base, const QualifiedName& name) {
     const Value result = field_of(owner, field.index, field.type);
     const bool is_access = info->is_payload && result.kind == ValueKind::kExpr &&
                            result.expr->kind == ir::ExprKind::kField;
-    if (is_access) payload_accesses_[result.expr] = location;
+    if (is_access) checker_.payloads_.accesses[result.expr] = location.raw;
     return result;
   }
   checker_.report_unknown(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)},

@@ -28,7 +28,7 @@ void Lowerer::use_in_stages(std::string_view name, uint32_t stages, SourceLocati
   if (!function_) return;
   const bool known = std::any_of(function_->stage_uses.begin(), function_->stage_uses.end(),
                                  [&](const StageUse& use) { return use.name == name; });
-  if (!known) function_->stage_uses.push_back({location, name, stages});
+  if (!known) function_->stage_uses.push_back({location.raw, name, stages});
 }
 
 std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Value>& arguments,

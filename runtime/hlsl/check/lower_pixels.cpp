@@ -78,7 +78,7 @@ Value Lowerer::call_pixel_function(std::string_view name, std::vector<Value>& ar
 void Lowerer::use_implicit_level(std::string_view name, ir::Expr* sample, SourceLocation location) {
   sample->implicit_level = true;
   if (!function_) return;
-  function_->stage_uses.push_back({location, name, ir::kStagePixel, true});
+  function_->stage_uses.push_back({location.raw, name, ir::kStagePixel, true});
   function_->implicit_levels.push_back(sample);
 }
 
@@ -119,20 +119,6 @@ Value Lowerer::call_level_of_detail(const Value& object, bool clamped,
                                        build_.convert(build_.uint32(1), Scalar::kFloat32));
   const ir::Expr* lowest = build_.zero(type->ir);
   return rvalue(build_.intrinsic(Intrinsic::clamp, type->ir, {level, lowest, last}), type);
-}
-
-void Lowerer::take_level_zero(FunctionInfo& function) {
-  for (ir::Expr* sample : function.implicit_levels) {
-    if (!sample->implicit_level) continue;
-    sample->implicit_level = false;
-    const ir::Expr* least = build_.zero(build_.scalar_type(Scalar::kFloat32));
-    if (std::exchange(sample->clamps_level, false)) {
-      least = sample->operands.back();
-      sample->operands.pop_back();
-    }
-    if (sample->sample == ir::SampleKind::kLevel) sample->operands[3] = least;
-    if (sample->sample == ir::SampleKind::kCompareLevel) sample->operands[4] = least;
-  }
 }
 
 }  // namespace kaamos::hlsl

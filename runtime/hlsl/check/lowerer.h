@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/hlsl/check/ir_builder.h"
+#include "runtime/hlsl/builder/ir_builder.h"
 #include "runtime/hlsl/check/symbols.h"
 #include "runtime/hlsl/check/types.h"
 #include "runtime/hlsl/front/diagnostic.h"
@@ -23,7 +23,6 @@
 namespace kaamos::hlsl {
 
 class Checker;
-struct PayloadLeaf;
 using CheckId = DiagnosticId;
 
 class Lowerer {
@@ -165,8 +164,6 @@ class Lowerer {
                             const Type* type);
   const ir::Expr* emit_wave_of_rows(shader::WaveOp op, const std::vector<const ir::Expr*>& operands,
                                     const Type* from, const Type* type);
-  const ir::Expr* value_in_lone_lane(const ir::Stmt& wave);
-  void make_wave_lone(ir::Stmt& wave);
   Value call_with_outputs(std::string_view name, std::vector<Value>& arguments,
                           SourceLocation location);
   Value call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
@@ -199,8 +196,6 @@ class Lowerer {
   Value call_level_of_detail(const Value& object, bool clamped, std::vector<Value>& arguments,
                              SourceLocation location);
   void use_implicit_level(std::string_view name, ir::Expr* sample, SourceLocation location);
-  // Without derivatives: level 0.
-  void take_level_zero(FunctionInfo& function);
 
   // -- Resource methods (lower_resources.cpp, lower_textures.cpp)
   Value call_resource_method(const Value& object, const NamePart& part,
@@ -272,9 +267,6 @@ class Lowerer {
   static bool ends(const ir::Block& block);
 
   // -- Payload access qualifiers (lower_payloads.cpp)
-  const ir::Expr* payload_field(const ir::Variable* payload, const PayloadLeaf& leaf);
-  void copy_payload_field(const ir::Variable* to, const ir::Variable* from,
-                          const PayloadLeaf& leaf);
   void emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
                   SourceLocation location);
   void wrap_payload(FunctionInfo* function, ir::EntryPoint& entry);
@@ -288,12 +280,6 @@ class Lowerer {
   ir::Location locate(SourceLocation location);
   void at(SourceLocation location) { build_.location = locate(location); }
   bool has_errors() const;
-
-  struct TracePayload {
-    const ir::Variable* variable;
-    const StructInfo* structure;
-    SourceLocation location;
-  };
 
   // The body being lowered.
   FunctionInfo* function_ = nullptr;
@@ -310,9 +296,6 @@ class Lowerer {
   ir::Variable* call_result_ = nullptr;
 
   std::vector<FunctionInfo*> lowered_functions_;  // callees before callers
-  // Where the source names a field of a payload struct, and where it passes one to TraceRay.
-  std::unordered_map<const ir::Expr*, SourceLocation> payload_accesses_;
-  std::unordered_map<const ir::Stmt*, TracePayload> trace_payloads_;
   std::set<std::string> mangled_names_;
   std::unordered_map<const BindingInfo*, uint8_t> counter_uses_;  // up, down
   ir::Block no_block_;  // takes what is lowered outside any body

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The rules for declaring payload structs. [DXR: Payload access qualifiers, Syntax]
 #include "runtime/hlsl/check/checker.h"
-#include "runtime/hlsl/check/payload_access.h"
 
 namespace kaamos::hlsl {
 namespace {
-
-constexpr const char* kNames[] = {"caller", "closesthit", "miss", "anyhit"};
 
 // The stages that can run before, and those that can run after, a stage of this kind in a trace.
 // Any-hit shaders run several times, and the caller gets its own values back if nothing runs.
@@ -28,8 +25,7 @@ uint8_t consumers(uint8_t stage) {
   }
 }
 
-void add_leaves(const StructInfo& structure, std::vector<uint32_t>& path,
-                std::vector<PayloadLeaf>& out) {
+void add_leaves(const StructInfo& structure, std::vector<uint32_t>& path, PayloadLeaves& out) {
   if (structure.base) {
     path.push_back(0);
     add_leaves(*structure.base, path, out);
@@ -40,7 +36,7 @@ void add_leaves(const StructInfo& structure, std::vector<uint32_t>& path,
     if (field.type->is_struct() && field.type->structure->is_payload) {
       add_leaves(*field.type->structure, path, out);
     } else {
-      out.push_back({path, &field, field.access, field.type->ir});
+      out.push_back({path, field.name, field.access, field.type->ir});
     }
     path.pop_back();
   }
@@ -48,45 +44,11 @@ void add_leaves(const StructInfo& structure, std::vector<uint32_t>& path,
 
 }  // namespace
 
-const char* payload_stage_name(uint8_t stage) {
-  for (size_t i = 0; i < 4; ++i) {
-    if (stage == kPayloadStages[i]) return kNames[i];
-  }
-  return "";
-}
-
-uint8_t payload_stage(std::string_view word) {
-  for (size_t i = 0; i < 4; ++i) {
-    if (word == kNames[i]) return kPayloadStages[i];
-  }
-  return 0;
-}
-
-uint8_t payload_stage_of(uint32_t stage) {
-  switch (stage) {
-    case ir::kStageClosestHit:
-      return kPayloadClosestHit;
-    case ir::kStageMiss:
-      return kPayloadMiss;
-    case ir::kStageAnyHit:
-      return kPayloadAnyHit;
-    default:
-      return kPayloadCaller;
-  }
-}
-
-std::vector<PayloadLeaf> payload_leaves(const StructInfo& structure) {
-  std::vector<PayloadLeaf> out;
+PayloadLeaves payload_leaves(const StructInfo& structure) {
+  PayloadLeaves out;
   std::vector<uint32_t> path;
   add_leaves(structure, path, out);
   return out;
-}
-
-bool all_access(const std::vector<PayloadLeaf>& leaves, uint8_t stage) {
-  for (const PayloadLeaf& leaf : leaves) {
-    if (!(leaf.access.read & leaf.access.write & stage)) return false;
-  }
-  return true;
 }
 
 bool Checker::has_raypayload(const StructInfo& structure) {
@@ -100,11 +62,11 @@ bool Checker::has_raypayload(const StructInfo& structure) {
 void Checker::check_payload_struct(StructInfo* info) {
   if (!options_->payload_qualifiers || !has_raypayload(*info)) return;
   info->is_payload = true;
-  payload_structs_[info->ir] = info;
   if (info->base && !info->base->is_payload) {
     report(CheckId::kPayloadBase, info->decl->location, {info->base->name, info->name});
   }
   for (FieldInfo& field : info->fields) check_payload_field(field);
+  payloads_.structs[info->ir] = payload_leaves(*info);
 }
 
 void Checker::check_payload_field(FieldInfo& field) {

@@ -262,7 +262,7 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
                                       Scope* scope) {
   const auto arguments = part.template_arguments;
   const std::string name(part.identifier);
-  names_ordered_views_ = names_ordered_views_ || is_ordered_view(name);
+  facts_.names_ordered_views = facts_.names_ordered_views || is_ordered_view(name);
   if (traits.kind == ir::ResourceKind::kRayQuery) return resolve_ray_query(part, scope);
   if (traits.element == ElementRule::kNone) {
     if (!arguments.empty()) report(CheckId::kNotATemplate, part.location, {name});

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "runtime/hlsl/builder/facts.h"
 #include "runtime/hlsl/check/conversion_costs.h"
 #include "runtime/hlsl/check/types.h"
 #include "runtime/hlsl/front/ast.h"
@@ -18,24 +19,8 @@
 
 namespace kaamos::hlsl {
 
-struct BindingInfo {
-  std::string name;
-  const Type* type = nullptr;  // resource, or an array of them
-  bool is_array = false;
-  uint64_t count = 1;
-  uint8_t register_class = 0;
-  bool has_register = false;
-  uint32_t register_index = 0;
-  bool has_space = false;
-  uint32_t space = 0;
-  uint32_t size_bytes = 0;
-  bool is_ordered = false;  // a RasterizerOrdered view
-  SourceLocation location;
-  uint32_t unit = 0;  // as Scope::unit
-  bool is_automatic = false;
-  bool reachable = false;
-  uint32_t index = 0;  // in Module::bindings, once known
-  std::vector<ir::Expr*> uses;
+struct BindingInfo : BindingFacts {
+  const Type* type = nullptr;  // of the resource, or of an element of an array of them
 };
 
 enum class VariableKind : uint8_t { kLocal, kGlobal, kBufferMember, kBinding, kSplit };
@@ -51,13 +36,13 @@ struct SplitPart {
   std::vector<SplitPart> parts = {};  // in the order of ir::Struct::fields, or of the elements
 };
 
-struct VariableInfo {
+// A local one has its ir::Variable once something refers to it.
+struct VariableInfo : GlobalFacts {
   VariableKind kind = VariableKind::kLocal;
   std::string_view name;
   const Type* type = nullptr;
   bool is_const = false;
   bool is_loop_variable = false;       // of a `for` of HLSL 2018, which outlives the loop
-  ir::Variable* variable = nullptr;    // a local one has it once something refers to it
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember
   SplitPart split;                     // kSplit
@@ -67,8 +52,7 @@ struct VariableInfo {
   Scope* scope = nullptr;
   uint32_t sequence = 0;
   enum class State : uint8_t { kPending, kRunning, kDone } state = State::kDone;
-  ir::Block start_up;  // initialises it when a shader starts, if an expression cannot
-  std::unique_ptr<FunctionInfo> initialiser_facts;
+  std::unique_ptr<FunctionInfo> initialiser_info;  // GlobalFacts::initialiser
 };
 
 struct ParameterInfo {
@@ -83,14 +67,6 @@ struct ParameterInfo {
   bool is_unbounded() const { return type->is_array() && type->count == 0; }
 };
 
-// An operation that only some stages allow.
-struct StageUse {
-  SourceLocation location;
-  std::string_view name;
-  uint32_t stages = 0;             // ir::StageBits
-  bool is_implicit_level = false;  // a warning in other stages, which sample level 0
-};
-
 // An argument of a template: a type, or a value of a scalar type.
 struct TemplateValue {
   const Type* type = nullptr;
@@ -101,7 +77,7 @@ struct TemplateValue {
 };
 using TemplateValues = std::vector<TemplateValue>;
 
-struct FunctionInfo {
+struct FunctionInfo : FunctionFacts {
   std::string_view name;
   std::string qualified;
   const FunctionDecl* decl = nullptr;
@@ -125,30 +101,7 @@ struct FunctionInfo {
   TemplateValues template_values;
 
   enum class State : uint8_t { kPending, kLowering, kDone } state = State::kPending;
-  ir::Function* ir = nullptr;
-  // Facts about its own body.
-  std::vector<FunctionInfo*> callees;
-  std::vector<BindingInfo*> bindings;
-  std::vector<VariableInfo*> globals;
-  std::vector<StageUse> stage_uses;
-  bool traces = false;
-  bool queries = false;
-  bool calls_shader = false;
-  bool ends_shader = false;
-  uint32_t reported_bytes = 0;  // size of the largest attributes that it passes to ReportHit
-  uint32_t reported_type = 0;   // ir::EntryPoint::attribute_type
-  bool has_barrier = false;
-  std::vector<ir::Stmt*> waves;            // kWave
-  std::vector<ir::Expr*> implicit_levels;  // kSample
-  std::vector<ir::Expr*> quads;            // kQuad
-  bool uses_view_heap = false;
-  bool uses_sampler_heap = false;
-  // Without a body: its definition in another library, or its index in Module::imports.
-  FunctionInfo* linked = nullptr;
-  bool is_import = false;
-  uint32_t import_index = 0;
-  uint32_t visit_mark = 0;
-  uint32_t stages = 0;  // of the entry points that reach it
+  FunctionInfo* linked = nullptr;  // without a body: its definition in another library
 };
 
 enum class SymbolKind : uint8_t {

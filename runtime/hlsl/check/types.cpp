@@ -37,12 +37,12 @@ bool contains_resource(const Type* type) {
                      [](const FieldInfo& field) { return contains_resource(field.type); });
 }
 
-TypeTable::TypeTable(ir::Module& module) : module_(module) {
+TypeTable::TypeTable(IrTypes& ir) : ir_(ir) {
   Type* error_type = make(TypeKind::kError);
-  error_type->ir = make_ir(ir::TypeKind::kVoid);
+  error_type->ir = ir_.void_type();
   error_ = error_type;
   Type* void_type = make(TypeKind::kVoid);
-  void_type->ir = make_ir(ir::TypeKind::kVoid);
+  void_type->ir = ir_.void_type();
   void_ = void_type;
   string_ = make(TypeKind::kString);
 }
@@ -51,12 +51,6 @@ Type* TypeTable::make(TypeKind kind) {
   Type* type = &pool_.emplace_back();
   type->kind = kind;
   type->canonical = type;
-  return type;
-}
-
-ir::Type* TypeTable::make_ir(ir::TypeKind kind) {
-  ir::Type* type = &module_.type_pool.emplace_back();
-  type->kind = kind;
   return type;
 }
 
@@ -72,20 +66,8 @@ const Type* TypeTable::numeric(Scalar scalar, uint32_t rows, uint32_t columns, b
   type->rows = static_cast<uint8_t>(rows);
   type->columns = static_cast<uint8_t>(columns);
   type->row_major = row_major;
-  if (canonical) {
-    type->canonical = canonical;
-    type->ir = canonical->ir;
-  } else if (plain_scalar(scalar) != scalar) {
-    type->ir = numeric(plain_scalar(scalar), rows, columns)->ir;
-  } else {
-    ir::Type* ir_type = make_ir(rows      ? ir::TypeKind::kMatrix
-                                : columns ? ir::TypeKind::kVector
-                                          : ir::TypeKind::kScalar);
-    ir_type->scalar = plain_scalar(scalar);
-    ir_type->rows = static_cast<uint8_t>(std::max(rows, 1u));
-    ir_type->columns = static_cast<uint8_t>(std::max(columns, 1u));
-    type->ir = ir_type;
-  }
+  if (canonical) type->canonical = canonical;
+  type->ir = ir_.numeric(plain_scalar(scalar), rows, columns);
   numeric_[key] = type;
   return type;
 }
@@ -121,13 +103,8 @@ const Type* TypeTable::array(const Type* element, uint32_t count) {
   if (canonical) {
     type->canonical = canonical;
     type->ir = canonical->ir;
-  } else if (plain(element) != element) {
-    type->ir = array(plain(element), count)->ir;
   } else {
-    ir::Type* ir_type = make_ir(ir::TypeKind::kArray);
-    ir_type->element = element->ir;
-    ir_type->count = count;
-    type->ir = ir_type;
+    type->ir = ir_.array(element->ir, count);
   }
   return arrays_[{element, count}] = type;
 }
@@ -149,16 +126,7 @@ const Type* TypeTable::resource(ir::ResourceKind kind, const Type* element, bool
   } else {
     const ir::Type* ir_element = element ? element->ir : nullptr;
     if (is_typed(kind)) ir_element = texel_of(element)->ir;
-    const ir::ResourceKind ir_kind =
-        has_elements(kind) && !is_structured(kind) ? ir::ResourceKind::kRWStructuredBuffer : kind;
-    const ir::Type*& ir_slot = ir_resources_[{ir_kind, ir_element}];
-    if (!ir_slot) {
-      ir::Type* ir_type = make_ir(ir::TypeKind::kResource);
-      ir_type->resource = ir_kind;
-      ir_type->element = ir_element;
-      ir_slot = ir_type;
-    }
-    type->ir = ir_slot;
+    type->ir = ir_.resource(kind, ir_element);
   }
   return resources_[{kind, element, written}] = type;
 }
@@ -175,10 +143,7 @@ const Type* TypeTable::ray_query(uint32_t flags) {
   Type* type = make(TypeKind::kResource);
   type->resource = ir::ResourceKind::kRayQuery;
   type->ray_query_flags = flags;
-  ir::Type* ir_type = make_ir(ir::TypeKind::kResource);
-  ir_type->resource = ir::ResourceKind::kRayQuery;
-  ir_type->ray_query_flags = flags;
-  type->ir = ir_type;
+  type->ir = ir_.ray_query(flags);
   slot = type;
   return slot;
 }
@@ -186,9 +151,7 @@ const Type* TypeTable::ray_query(uint32_t flags) {
 const Type* TypeTable::structure(StructInfo* info) {
   Type* type = make(TypeKind::kStruct);
   type->structure = info;
-  ir::Type* ir_type = make_ir(ir::TypeKind::kStruct);
-  ir_type->structure = info->ir;
-  type->ir = ir_type;
+  type->ir = ir_.structure(info->ir);
   info->type = type;
   return type;
 }

@@ -14,6 +14,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "runtime/hlsl/builder/ir_types.h"
+#include "runtime/hlsl/builder/payload_access.h"
 #include "runtime/hlsl/front/ast.h"
 #include "runtime/hlsl/ir/ir.h"
 
@@ -83,12 +85,6 @@ inline bool same_type(const Type* a, const Type* b) {
 uint64_t flat_component_count(const Type* type);
 bool contains_resource(const Type* type);
 
-// The stages that may read and write a field of a payload. [DXR: Payload access qualifiers]
-struct PayloadAccessBits {
-  uint8_t read = 0;  // PayloadStageBits
-  uint8_t write = 0;
-};
-
 struct FieldInfo {
   std::string_view name;
   const Type* type = nullptr;
@@ -121,6 +117,9 @@ struct StructInfo {
   std::string_view template_name;  // "Pair" for Pair<float>; empty if it is not an instance
 };
 
+// The fields of a payload struct, which must have `is_payload`.
+PayloadLeaves payload_leaves(const StructInfo& structure);
+
 struct EnumInfo {
   std::string name;
   Scalar underlying = Scalar::kInt32;
@@ -130,7 +129,7 @@ struct EnumInfo {
 // Creates each type once. Owned by a check; its ir::Types live in the module.
 class TypeTable {
  public:
-  explicit TypeTable(ir::Module& module);
+  explicit TypeTable(IrTypes& ir);
 
   const Type* error() const { return error_; }
   const Type* void_type() const { return void_; }
@@ -160,9 +159,8 @@ class TypeTable {
 
  private:
   Type* make(TypeKind kind);
-  ir::Type* make_ir(ir::TypeKind kind);
 
-  ir::Module& module_;
+  IrTypes& ir_;
   std::deque<Type> pool_;
   const Type* error_ = nullptr;
   const Type* void_ = nullptr;
@@ -171,7 +169,6 @@ class TypeTable {
   std::map<Scalar, const Type*> singles_;
   std::map<std::pair<const Type*, uint32_t>, const Type*> arrays_;
   std::map<std::tuple<ir::ResourceKind, const Type*, bool>, const Type*> resources_;
-  std::map<std::pair<ir::ResourceKind, const ir::Type*>, const ir::Type*> ir_resources_;
   std::map<uint32_t, const Type*> ray_queries_;
 };
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Warns if a shader reads a payload field that has no value at that point, or if what it writes is
-// lost. The payload is followed through calls; every path through a body counts.
+// The payload is followed through calls; every path through a body counts.
+#include "runtime/hlsl/builder/finish/payload_uses.h"
+
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
-#include "runtime/hlsl/check/checker.h"
-#include "runtime/hlsl/check/payload_access.h"
 #include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
@@ -20,33 +21,29 @@ enum FieldState : uint8_t {
   kMayBeLeft = 8,     // not written on some path
 };
 
-}  // namespace
-
-class Checker::PayloadUses {
+class PayloadUses {
  public:
-  PayloadUses(Checker& checker, uint32_t stage)
-      : checker_(checker), stage_(payload_stage_of(stage)) {}
+  PayloadUses(const PayloadFacts& facts, uint32_t stage, PayloadReport& report)
+      : facts_(facts), stage_(payload_stage_of(stage)), report_(report) {}
 
-  void check(const FunctionInfo& function) {
+  void check(const ir::Function& function, const ir::Struct* structure, SourcePlace parameter) {
     State state;
     const ir::Variable* payload = nullptr;
-    if (stage_ != kPayloadCaller && !function.parameters.empty() &&
-        function.parameters[0].type->structure->is_payload) {
-      payload = function.ir->parameters[0];
-      Fields& fields = track(state, payload, *function.parameters[0].type->structure);
+    if (stage_ != kPayloadCaller && structure) {
+      payload = function.parameters[0];
+      Fields& fields = track(state, payload, structure);
       for (size_t i = 0; i < fields.leaves->size(); ++i) {
         fields.states[i] = kMayBeLeft;
         if (!((*fields.leaves)[i].access.read & stage_)) fields.states[i] |= kUndefined;
       }
       fields.of_stage = true;
     }
-    const State end = walk_function(*function.ir, std::move(state));
+    const State end = walk_function(function, std::move(state));
     if (!payload) return;
-    for (const auto& [leaf, location] : dropped_) {
+    for (const auto& [leaf, place] : dropped_) {
       // If a shader passes its payload on, the next trace receives the value.
       if (passed_on_.count(leaf)) continue;
-      checker_.report(CheckId::kPayloadDropped, location,
-                      {std::string(leaf->field->name), payload_stage_name(stage_)});
+      report_.payload_fault(PayloadFault::kDropped, place, leaf->name, stage_);
     }
     const auto found = end.fields.find(payload);
     if (found == end.fields.end()) return;
@@ -55,15 +52,14 @@ class Checker::PayloadUses {
       const bool only_writes = (leaf.access.write & stage_) && !(leaf.access.read & stage_);
       const bool written_before = leaf.access.write & (kPayloadCaller | kPayloadAnyHit);
       if (only_writes && written_before && (found->second.states[i] & kMayBeLeft)) {
-        checker_.report(CheckId::kPayloadDataLoss, function.parameters[0].decl->location,
-                        {std::string(leaf.field->name), payload_stage_name(stage_)});
+        report_.payload_fault(PayloadFault::kDataLoss, parameter, leaf.name, stage_);
       }
     }
   }
 
  private:
   struct Fields {
-    const std::vector<PayloadLeaf>* leaves = nullptr;
+    const PayloadLeaves* leaves = nullptr;
     std::vector<uint8_t> states;  // FieldState
     bool of_stage = false;        // the payload that the shader received
     bool operator==(const Fields&) const = default;
@@ -76,16 +72,10 @@ class Checker::PayloadUses {
     std::optional<State> out;
   };
 
-  const std::vector<PayloadLeaf>* leaves_of(const StructInfo& structure) {
-    auto& leaves = leaves_[&structure];
-    if (leaves.empty()) leaves = payload_leaves(structure);
-    return &leaves;
-  }
-
-  Fields& track(State& state, const ir::Variable* variable, const StructInfo& structure) {
+  Fields& track(State& state, const ir::Variable* variable, const ir::Struct* structure) {
     Fields& fields = state.fields[variable];
     if (!fields.leaves) {
-      fields.leaves = leaves_of(structure);
+      fields.leaves = &facts_.structs.at(structure);
       fields.states.assign(fields.leaves->size(), kMayBeLeft);
     }
     return fields;
@@ -130,7 +120,7 @@ class Checker::PayloadUses {
     const auto found = state.fields.find(expr->variable);
     if (found == state.fields.end()) return nullptr;
     std::reverse(path.begin(), path.end());
-    const std::vector<PayloadLeaf>& leaves = *found->second.leaves;
+    const PayloadLeaves& leaves = *found->second.leaves;
     const auto fits = [&](const PayloadLeaf& leaf) {
       const size_t common = std::min(leaf.path.size(), path.size());
       return std::equal(leaf.path.begin(), leaf.path.begin() + static_cast<ptrdiff_t>(common),
@@ -143,39 +133,36 @@ class Checker::PayloadUses {
     return &found->second;
   }
 
-  const SourceLocation* source_of(const ir::Expr* expr) const {
-    const auto found = checker_.lower_.payload_accesses_.find(expr);
-    return found == checker_.lower_.payload_accesses_.end() ? nullptr : &found->second;
+  const SourcePlace* source_of(const ir::Expr* expr) const {
+    const auto found = facts_.accesses.find(expr);
+    return found == facts_.accesses.end() ? nullptr : &found->second;
   }
 
   void read(State& state, const ir::Expr* expr) {
     if (!state.reachable) return;
     ir::visit_expr(expr, [&](const ir::Expr& one) {
-      const SourceLocation* location = one.kind == ir::ExprKind::kField ? source_of(&one) : nullptr;
+      const SourcePlace* source = one.kind == ir::ExprKind::kField ? source_of(&one) : nullptr;
       size_t first = 0;
       size_t last = 0;
-      Fields* fields = location ? select(state, &one, first, last) : nullptr;
+      Fields* fields = source ? select(state, &one, first, last) : nullptr;
       // Reading a nested payload struct as a whole says nothing about its fields.
       if (!fields || last != first + 1 || !(fields->states[first] & kUndefined)) return;
-      const std::string name((*fields->leaves)[first].field->name);
-      if (fields->states[first] & kAfterTrace) {
-        checker_.report(CheckId::kPayloadNotReturned, *location, {name});
-      } else {
-        checker_.report(CheckId::kPayloadUndefined, *location, {name, payload_stage_name(stage_)});
-      }
+      report_.payload_fault(fields->states[first] & kAfterTrace ? PayloadFault::kNotReturned
+                                                                : PayloadFault::kUndefined,
+                            *source, (*fields->leaves)[first].name, stage_);
     });
   }
 
   void write(State& state, const ir::Expr* place) {
     if (!state.reachable) return;
-    const SourceLocation* location = nullptr;
+    const SourcePlace* source = nullptr;
     for (const ir::Expr* one = place;
          one->kind != ir::ExprKind::kVariable && !one->operands.empty(); one = one->operands[0]) {
       if (one->kind == ir::ExprKind::kElement) read(state, one->operands[1]);
-      if (!location) location = source_of(one);
+      if (!source) source = source_of(one);
     }
     const bool whole = place->kind == ir::ExprKind::kVariable;
-    if (!location && !whole) return;  // made by the compiler itself
+    if (!source && !whole) return;  // made by the compiler itself
     size_t first = 0;
     size_t last = 0;
     Fields* fields = select(state, place, first, last);
@@ -183,7 +170,7 @@ class Checker::PayloadUses {
     for (size_t i = first; i < last; ++i) {
       const PayloadLeaf& leaf = (*fields->leaves)[i];
       if (fields->of_stage && !whole && !(leaf.access.write & stage_)) {
-        dropped_.push_back({&leaf, *location});
+        dropped_.push_back({&leaf, *source});
       }
       // Assigning a whole struct initialises it, but says nothing about its individual fields.
       fields->states[i] = whole ? 0 : kMayBeWritten;
@@ -191,16 +178,15 @@ class Checker::PayloadUses {
   }
 
   void trace(State& state, const ir::Stmt& stmt) {
-    const auto found = checker_.lower_.trace_payloads_.find(&stmt);
-    if (found == checker_.lower_.trace_payloads_.end() || !state.reachable) return;
-    const Lowerer::TracePayload& payload = found->second;
-    Fields& fields = track(state, payload.variable, *payload.structure);
+    const auto found = facts_.traces.find(&stmt);
+    if (found == facts_.traces.end() || !state.reachable) return;
+    const TracePayload& payload = found->second;
+    Fields& fields = track(state, payload.variable, payload.structure);
     for (size_t i = 0; i < fields.leaves->size(); ++i) {
       const PayloadLeaf& leaf = (*fields.leaves)[i];
       if (fields.of_stage && (leaf.access.write & kPayloadCaller)) passed_on_.insert(&leaf);
       if (!(leaf.access.write & kPayloadCaller) && (fields.states[i] & kMayBeWritten)) {
-        checker_.report(CheckId::kPayloadNotPassed, payload.location,
-                        {std::string(leaf.field->name)});
+        report_.payload_fault(PayloadFault::kNotPassed, payload.place, leaf.name, stage_);
       }
       const uint8_t left = fields.states[i] & kMayBeLeft;
       fields.states[i] = leaf.access.read & kPayloadCaller ? left : left | kUndefined | kAfterTrace;
@@ -269,10 +255,9 @@ class Checker::PayloadUses {
     switch (stmt.kind) {
       case StmtKind::kDeclare: {
         const ir::Type* type = stmt.variable->type;
-        const auto found = checker_.payload_structs_.find(type->structure);
-        if (!state.reachable || found == checker_.payload_structs_.end()) break;
+        if (!state.reachable || !facts_.structs.count(type->structure)) break;
         state.fields.erase(stmt.variable);
-        track(state, stmt.variable, *found->second);
+        track(state, stmt.variable, type->structure);
         break;
       }
       case StmtKind::kAssign:
@@ -371,23 +356,21 @@ class Checker::PayloadUses {
   }
 
   using Known = std::vector<std::pair<State, State>>;
-  Checker& checker_;
+  const PayloadFacts& facts_;
   const uint8_t stage_;
-  std::map<const StructInfo*, std::vector<PayloadLeaf>> leaves_;
+  PayloadReport& report_;
   std::map<const ir::Function*, Known> known_;
-  std::vector<std::pair<const PayloadLeaf*, SourceLocation>> dropped_;
+  std::vector<std::pair<const PayloadLeaf*, SourcePlace>> dropped_;
   std::set<const PayloadLeaf*> passed_on_;
   std::vector<Jumps> breaks_;
   std::optional<State> returns_;
 };
 
-void Checker::check_payload_uses() {
-  if (payload_structs_.empty()) return;
-  for (const auto& [function, index] : entries_) {
-    const uint32_t stage = module_->entry_points[index].stage;
-    if (!module_->entry_points[index].imports.empty()) continue;
-    if (function->ir) PayloadUses(*this, stage).check(*function);
-  }
+}  // namespace
+
+void check_payload_uses(const PayloadFacts& facts, const ir::Function& function, uint32_t stage,
+                        const ir::Struct* payload, SourcePlace parameter, PayloadReport& report) {
+  PayloadUses(facts, stage, report).check(function, payload, parameter);
 }
 
 }  // namespace kaamos::hlsl

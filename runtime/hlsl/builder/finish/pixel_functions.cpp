@@ -7,6 +7,8 @@
 // - stores and atomics depend on `live`, a static global that says whether the pixel is covered and
 //   was not discarded; an atomic of another lane gives 0.
 // [D3D11.3: 16.13 Pixel shader, discard; 7.18.11 LOD]
+#include "runtime/hlsl/builder/finish/pixel_functions.h"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -14,7 +16,8 @@
 #include <string>
 #include <utility>
 
-#include "runtime/hlsl/check/checker.h"
+#include "runtime/hlsl/builder/finish/lone_lane.h"
+#include "runtime/hlsl/ir/builtin_types.h"
 #include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
@@ -26,12 +29,10 @@ namespace {
 // How many variables an expression may replace by their values.
 constexpr int kMostReplaced = 8;
 
-}  // namespace
-
-class Checker::PixelFunctions {
+class PixelFunctions {
  public:
-  explicit PixelFunctions(Checker& checker)
-      : module_(*checker.module_), build_(checker.build_), live_(checker.live_variable()) {}
+  PixelFunctions(ir::Module& module, IrBuilder& build, const ir::Variable* live)
+      : module_(module), build_(build), live_(live) {}
 
   void run() {
     std::vector<ir::Function*> functions;
@@ -433,8 +434,6 @@ class Checker::PixelFunctions {
   ir::Block* out_ = nullptr;
 };
 
-namespace {
-
 // What the functions that an entry point reaches can do.
 uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& seen) {
   if (!seen.insert(&function).second) return 0;
@@ -469,30 +468,30 @@ uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& s
 
 }  // namespace
 
-void Checker::make_pixel_functions() {
+void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts,
+                          bool has_errors) {
   // Initialisers are the same for all pixels, so their derivatives are 0. Where no pixel shader
   // comes, levels are 0 too; copies for pixel shaders are made first.
-  for (VariableInfo& variable : variables_) {
-    FunctionInfo* facts = variable.initialiser_facts.get();
-    if (!facts) continue;
-    lower_.take_level_zero(*facts);
-    for (ir::Expr* quad : facts->quads) {
+  for (GlobalFacts* global : facts.globals) {
+    FunctionFacts* initialiser = global->initialiser;
+    if (!initialiser) continue;
+    take_level_zero(build, *initialiser);
+    for (ir::Expr* quad : initialiser->quads) {
       quad->kind = ir::ExprKind::kZero;
       quad->operands.clear();
     }
   }
-  const bool has_errors = has_errors_ || diagnostics_.has_errors();
-  if (live_ && !has_errors) {
-    module_->globals.push_back(live_);
-    PixelFunctions(*this).run();
+  if (facts.live && !has_errors) {
+    module.globals.push_back(facts.live);
+    PixelFunctions(module, build, facts.live).run();
   }
-  for (FunctionInfo* function : lower_.lowered_functions_) lower_.take_level_zero(*function);
+  for (FunctionFacts* function : facts.functions) take_level_zero(build, *function);
   if (has_errors) return;
-  for (ir::EntryPoint& entry : module_->entry_points) {
+  for (ir::EntryPoint& entry : module.entry_points) {
     if (!entry.is_graphics()) continue;
     std::set<const ir::Function*> seen;
     entry.graphics_flags |= flags_of(*entry.function, seen);
-    const bool orders = names_ordered_views_ && entry.stage == ir::kStagePixel &&
+    const bool orders = facts.names_ordered_views && entry.stage == ir::kStagePixel &&
                         (entry.graphics_flags & shader::kGraphicsWritesMemory);
     if (orders) entry.graphics_flags |= shader::kGraphicsOrdersPixels;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/hlsl/check/constants.h"
+#include "runtime/hlsl/builder/constants.h"
 
 #include <algorithm>
 #include <bit>

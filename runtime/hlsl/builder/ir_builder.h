@@ -7,14 +7,14 @@
 #include <initializer_list>
 #include <vector>
 
-#include "runtime/hlsl/check/types.h"
+#include "runtime/hlsl/builder/ir_types.h"
 #include "runtime/hlsl/ir/ir.h"
 
 namespace kaamos::hlsl {
 
 class IrBuilder {
  public:
-  IrBuilder(ir::Module& module, TypeTable& types) : module_(module), types_(types) {}
+  IrBuilder(ir::Module& module, IrTypes& types) : module_(module), types_(types) {}
 
   // Given to every node from now on.
   ir::Location location;
@@ -48,17 +48,22 @@ class IrBuilder {
   const ir::Expr* add(const ir::Expr* base, uint32_t constant);
   const ir::Expr* add_scaled(const ir::Expr* base, const ir::Expr* index, uint32_t scale);
 
-  // The type of the same shape with another scalar.
-  const ir::Type* with_scalar(const ir::Type* shape, Scalar scalar);
-  const ir::Type* scalar_type(Scalar scalar);
-  const ir::Type* vector_type(Scalar scalar, size_t size);
+  IrTypes& types() { return types_; }
+  const ir::Type* scalar_type(Scalar scalar) { return types_.scalar(scalar); }
+  const ir::Type* vector_type(Scalar scalar, size_t size) {
+    return types_.vector(scalar, static_cast<uint32_t>(size));
+  }
 
  private:
   const ir::Expr* fold(const ir::Expr* expression);
 
   ir::Module& module_;
-  TypeTable& types_;
+  IrTypes& types_;
   uint32_t next_variable_ = 0;
 };
+
+// An empty function that stands for `wrapped` as an entry point: it has no parameters, result or
+// body yet.
+ir::Function* make_wrapper(ir::Module& module, IrBuilder& build, const ir::Function& wrapped);
 
 }  // namespace kaamos::hlsl

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/hlsl/check/ir_builder.h"
+#include "runtime/hlsl/builder/ir_builder.h"
 
-#include "runtime/hlsl/check/constants.h"
+#include "runtime/hlsl/builder/constants.h"
 
 namespace kaamos::hlsl {
 
@@ -30,20 +30,6 @@ ir::Variable* IrBuilder::variable(std::string name, const ir::Type* type, ir::St
   node->location = location;
   node->id = next_variable_++;
   return node;
-}
-
-const ir::Type* IrBuilder::with_scalar(const ir::Type* shape, Scalar scalar) {
-  const uint32_t rows = shape->kind == ir::TypeKind::kMatrix ? shape->rows : 0;
-  const uint32_t columns = shape->kind == ir::TypeKind::kScalar ? 0 : shape->columns;
-  return types_.numeric(scalar, rows, columns)->ir;
-}
-
-const ir::Type* IrBuilder::scalar_type(Scalar scalar) {
-  return types_.scalar(scalar)->ir;
-}
-
-const ir::Type* IrBuilder::vector_type(Scalar scalar, size_t size) {
-  return types_.vector(scalar, static_cast<uint32_t>(size))->ir;
 }
 
 const ir::Expr* IrBuilder::fold(const ir::Expr* expression) {
@@ -150,7 +136,7 @@ const ir::Expr* IrBuilder::matrix_swizzle(const ir::Expr* base, std::vector<uint
 
 const ir::Expr* IrBuilder::convert(const ir::Expr* operand, Scalar scalar) {
   if (operand->type->scalar == scalar) return operand;
-  return fold(expr(ir::ExprKind::kConvert, with_scalar(operand->type, scalar), {operand}));
+  return fold(expr(ir::ExprKind::kConvert, types_.with_scalar(operand->type, scalar), {operand}));
 }
 
 const ir::Expr* IrBuilder::splat(const ir::Expr* operand, const ir::Type* type) {
@@ -178,7 +164,7 @@ const ir::Expr* IrBuilder::unary(ir::UnaryOp op, const ir::Expr* operand) {
 
 const ir::Expr* IrBuilder::binary(ir::BinaryOp op, const ir::Expr* left, const ir::Expr* right) {
   const ir::Type* type =
-      op >= ir::BinaryOp::kLess ? with_scalar(left->type, Scalar::kBool) : left->type;
+      op >= ir::BinaryOp::kLess ? types_.with_scalar(left->type, Scalar::kBool) : left->type;
   ir::Expr* node = expr(ir::ExprKind::kBinary, type, {left, right});
   node->binary = op;
   return fold(node);
@@ -218,6 +204,15 @@ const ir::Expr* IrBuilder::add_scaled(const ir::Expr* base, const ir::Expr* inde
     return add(scaled, static_cast<uint32_t>(base->literal[0]));
   }
   return binary(ir::BinaryOp::kAdd, base, scaled);
+}
+
+ir::Function* make_wrapper(ir::Module& module, IrBuilder& build, const ir::Function& wrapped) {
+  ir::Function* wrapper = &module.function_pool.emplace_back();
+  wrapper->name = wrapped.name;
+  wrapper->result = build.types().void_type();
+  wrapper->location = wrapped.location;
+  wrapper->end_location = wrapped.end_location;
+  return wrapper;
 }
 
 }  // namespace kaamos::hlsl

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+//
+// Functions as pixel shaders need them, and what takes their place in all other stages.
+#pragma once
+
+#include "runtime/hlsl/builder/finish/finish_module.h"
+#include "runtime/hlsl/builder/ir_builder.h"
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+// Copies the functions that pixel shaders reach, as said in pixel_functions.cpp, sets levels of
+// detail to 0 everywhere else, and sets EntryPoint::graphics_flags.
+void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts,
+                          bool has_errors);
+
+}  // namespace kaamos::hlsl
