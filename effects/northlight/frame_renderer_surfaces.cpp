@@ -44,7 +44,7 @@ rtapi::Status FrameRenderer::create_gbuffer() {
 }
 
 void FrameRenderer::record_draws(rtapi::CommandList& list) {
-  raster_->record_draws(list, frame_, gpu_, static_cast<float>(moment_.camera.near_plane));
+  raster_->record_draws(list, frame_, static_cast<float>(moment_.camera.near_plane));
 }
 
 void FrameRenderer::record_gbuffer(rtapi::CommandList& list) {

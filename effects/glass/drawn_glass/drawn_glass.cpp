@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "effects/engine/picture.h"
-#include "effects/engine/scene_draws.h"
+#include "effects/engine/scene_pipeline.h"
 #include "effects/reflections/environment_map/environment_map.h"
 #include "effects/surfaces/gbuffer/raster_gbuffer.h"
 
@@ -90,10 +90,9 @@ class DrawnGlass : public EffectPass {
   ComputePass join_;
   Texture mirrored_, sun_, drawn_[kTargets];
   DescriptorHeap targets_;
-  PipelineState sides_[2];  // backs, fronts
-  Buffer draw_buffer_, geometry_buffer_;
+  PipelineState sides_[2];           // backs, fronts
   std::vector<glm::dvec3> centres_;  // of meshes, object space
-  std::vector<SceneDraw> draws_;
+  SceneDrawList draws_;
   std::optional<EnvironmentMap> environment_;
   float near_plane_ = 0;
 };
@@ -160,55 +159,34 @@ rtapi::Status DrawnGlass::create_buffers(const Scene& scene) {
     const Bounds box = scene.meshes[instance.mesh].bounds();
     centres_.push_back(box.empty() ? glm::dvec3(0.0) : (box.min + box.max) * 0.5);
   }
-  const std::vector<SceneDraw> draws(std::max(most_scene_draws(scene), 1u));
-  const auto draw_buffer = CreateUploadBuffer(device_, draws, "glass draws");
-  if (!draw_buffer) return draw_buffer.error();
-  draw_buffer_ = *draw_buffer;
-  std::vector<HitConstants> geometries;
-  for (const GpuGeometry& geometry : gpu_.geometries) geometries.push_back(geometry.constants);
-  if (geometries.empty()) geometries.emplace_back();
-  const auto geometry_buffer = CreateUploadBuffer(device_, geometries, "glass geometries");
-  if (!geometry_buffer) return geometry_buffer.error();
-  geometry_buffer_ = *geometry_buffer;
-  if (const auto s = views_.set_shader_resource(kDraws, draw_buffer_, sizeof(SceneDraw)); !s) {
-    return s;
-  }
-  return views_.set_shader_resource(kGeometries, geometry_buffer_, sizeof(HitConstants));
+  return draws_.create(device_, scene, gpu_, views_, {.draws = kDraws, .geometries = kGeometries},
+                       "glass");
 }
 
 // Far draws come first. What cannot be sorted by the middle of its box is blended in a wrong order.
 rtapi::Status DrawnGlass::begin_frame(const Camera& camera) {
   near_plane_ = static_cast<float>(camera.near_plane) * kRasterNearShare;
-  draws_ = scene_draws(gpu_, kMaskTransparent);
+  std::vector<SceneDraw> draws = scene_draws(gpu_, kMaskTransparent);
   const auto distance = [&](const SceneDraw& draw) {
     const glm::dmat3x4 rows(draw.object_to_world);
     const glm::dvec4 centre(centres_[draw.instance], 1.0);
     return glm::length(glm::dvec3(glm::dot(rows[0], centre), glm::dot(rows[1], centre),
                                   glm::dot(rows[2], centre)));
   };
-  std::stable_sort(draws_.begin(), draws_.end(), [&](const SceneDraw& a, const SceneDraw& b) {
+  std::stable_sort(draws.begin(), draws.end(), [&](const SceneDraw& a, const SceneDraw& b) {
     return distance(a) > distance(b);
   });
-  std::copy(draws_.begin(), draws_.end(), draw_buffer_.data<SceneDraw>().begin());
+  draws_.set(std::move(draws));
   return environment_ ? environment_->set_origin(device_, camera.position(), views_)
                       : rtapi::Status{};
 }
 
 void DrawnGlass::record_glass(CommandList& list) const {
-  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
-    const GpuGeometry& geometry = gpu_.geometries[draws_[i].geometry];
-    list.IASetVertexBuffers(
-        0, VertexBufferView{geometry.vertices,
-                            static_cast<std::uint32_t>(geometry.vertex_range().size_bytes),
-                            geometry.constants.vertex_stride});
-    const IndexBufferView index_view = {
-        geometry.indices, static_cast<std::uint32_t>(geometry.index_range().size_bytes),
-        geometry.constants.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint};
-    list.IASetIndexBuffer(&index_view);
-    list.SetGraphicsRoot32BitConstant(kRootPassWords, i, kDrawWord);
+  for (std::uint32_t i = 0; i < draws_.draws().size(); ++i) {
+    draws_.bind(list, i, kDrawWord);
     for (const PipelineState& side : sides_) {
       list.SetPipelineState(side);
-      list.DrawIndexedInstanced(geometry.index_count, 1, 0, 0, 0);
+      list.DrawIndexedInstanced(draws_.geometry(i).index_count, 1, 0, 0, 0);
     }
   }
 }
@@ -232,9 +210,7 @@ void DrawnGlass::record(CommandList& list, const EffectSettings& settings,
   const CpuDescriptorHandle targets[kTargets] = {targets_.GetCPUDescriptorHandle(0),
                                                  targets_.GetCPUDescriptorHandle(1)};
   list.OMSetRenderTargets(kTargets, targets, false, nullptr);
-  list.RSSetViewports(Viewport{0, 0, words.width, words.height, 0, 1});
-  list.RSSetScissorRects(Rect{0, 0, static_cast<std::int32_t>(frame_.width()),
-                              static_cast<std::int32_t>(frame_.height())});
+  set_draw_area(list, 0, 0, frame_.width(), frame_.height());
   const float black[4] = {0, 0, 0, 0}, open[4] = {1, 1, 1, 1};
   list.ClearRenderTargetView(targets[0], black);
   list.ClearRenderTargetView(targets[1], open);
@@ -250,8 +226,7 @@ void DrawnGlass::record(CommandList& list, const EffectSettings& settings,
 }
 
 std::uint64_t DrawnGlass::bytes() const {
-  return 4 * picture_bytes(mirrored_) + draw_buffer_.size() + geometry_buffer_.size() +
-         (environment_ ? environment_->bytes() : 0);
+  return 4 * picture_bytes(mirrored_) + draws_.bytes() + (environment_ ? environment_->bytes() : 0);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <shaders/light_map_draws.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace kaamos::effects {
@@ -35,13 +34,21 @@ rtapi::Status LightMapDraws::create(const Device& device, const Frame& frame, co
                                     PassViews& views) {
   frame_ = &frame;
   scene_ = &scene;
-  gpu_ = &gpu;
   layout_ = layout;
   atlas_ = atlas;
   boxes_ = instance_boxes(scene);
   if (const auto s = create_targets(device); !s) return s;
-  if (const auto s = create_pipelines(device, library); !s) return s;
-  return create_buffers(device, views);
+  const auto pipeline = ScenePipeline::create(device, frame,
+                                              {.library = library,
+                                               .vertex_shader = "LightMapVertex",
+                                               .pixel_shader = "LightMapPixel",
+                                               .pixel_shader_of_holes = "LightMapHoles",
+                                               .depth_func = ComparisonFunc::kGreater,
+                                               .targets = {Format::kR32G32B32A32Float},
+                                               .name = "light map"});
+  if (!pipeline) return pipeline.error();
+  pipeline_ = *pipeline;
+  return draws_.create(device, scene, gpu, views, {}, "light map");
 }
 
 rtapi::Status LightMapDraws::create_targets(const Device& device) {
@@ -68,56 +75,18 @@ rtapi::Status LightMapDraws::create_targets(const Device& device) {
   return device.CreateDepthStencilView(depth_, depth_target_.GetCPUDescriptorHandle(0));
 }
 
-rtapi::Status LightMapDraws::create_pipelines(const Device& device, const ShaderLibrary& library) {
-  GraphicsPipelineStateDesc desc;
-  desc.pRootSignature = frame_->root_signature();
-  desc.VS = {library, "LightMapVertex"};
-  desc.InputLayout = {
-      {.SemanticName = "POSITION",
-       .Format = Format::kR32G32B32Float,
-       .AlignedByteOffset = kPositionOffset},
-      {.SemanticName = "TEXCOORD", .Format = Format::kR32G32Float, .AlignedByteOffset = kUvOffset}};
-  desc.RasterizerState.CullMode = CullMode::kNone;  // rays hit both sides, too
-  desc.DepthStencilState.DepthFunc = ComparisonFunc::kGreater;
-  desc.RTVFormats = {Format::kR32G32B32A32Float};
-  desc.DSVFormat = Format::kD32Float;
-  for (const bool has_holes : {false, true}) {
-    desc.PS = {library, has_holes ? "LightMapHoles" : "LightMapPixel"};
-    desc.Name = has_holes ? "light map with holes" : "light map";
-    const auto created = device.CreateGraphicsPipelineState(desc);
-    if (!created) return created.error();
-    (has_holes ? with_holes_ : opaque_) = *created;
-  }
-  return {};
-}
-
-rtapi::Status LightMapDraws::create_buffers(const Device& device, PassViews& views) {
-  const std::vector<SceneDraw> draws(std::max(most_scene_draws(*scene_), 1u));
-  const auto draw_buffer = CreateUploadBuffer(device, draws, "light map draws");
-  if (!draw_buffer) return draw_buffer.error();
-  draw_buffer_ = *draw_buffer;
-  std::vector<HitConstants> geometries;
-  for (const GpuGeometry& geometry : gpu_->geometries) geometries.push_back(geometry.constants);
-  if (geometries.empty()) geometries.emplace_back();
-  const auto geometry_buffer = CreateUploadBuffer(device, geometries, "light map geometries");
-  if (!geometry_buffer) return geometry_buffer.error();
-  geometry_buffer_ = *geometry_buffer;
-  if (const auto s = views.set_shader_resource(0, draw_buffer_, sizeof(SceneDraw)); !s) return s;
-  return views.set_shader_resource(1, geometry_buffer_, sizeof(HitConstants));
-}
-
 void LightMapDraws::see(const glm::dvec3& camera_position) {
-  draws_ = scene_draws(*gpu_, kMaskCasters);
-  std::copy(draws_.begin(), draws_.end(), draw_buffer_.data<SceneDraw>().begin());
+  draws_.see_instances(kMaskCasters);
   lights_ = light_constants(*scene_, camera_position);
 }
 
 std::vector<std::uint32_t> LightMapDraws::draws_near(const LightConstants& light) const {
   std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
-    const std::uint32_t instance = draws_[i].instance;
+  const std::vector<SceneDraw>& draws = draws_.draws();
+  for (std::uint32_t i = 0; i < draws.size(); ++i) {
+    const std::uint32_t instance = draws[i].instance;
     if (instance >= boxes_.size()) continue;
-    const Bounds box = draw_box(draws_[i], boxes_[instance]);
+    const Bounds box = draw_box(draws[i], boxes_[instance]);
     if (!box.empty() && reaches(light, box)) out.push_back(i);
   }
   return out;
@@ -136,16 +105,9 @@ void LightMapDraws::record(CommandList& list, const PassViews& views) const {
   list.IASetPrimitiveTopology(PrimitiveTopology::kTriangleList);
   const std::uint32_t words[kWords] = {};
   frame_->bind_draws(list, PassArguments(views, words));
-  const auto look_at = [&](std::uint32_t x, std::uint32_t y, std::uint32_t side) {
-    const auto size = static_cast<float>(side);
-    list.RSSetViewports(Viewport{static_cast<float>(x), static_cast<float>(y), size, size, 0, 1});
-    list.RSSetScissorRects(Rect{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
-                                static_cast<std::int32_t>(x + side),
-                                static_cast<std::int32_t>(y + side)});
-  };
   for (std::uint32_t i = 0; i < lights_.size(); ++i) {
-    look_at(i % kShadowTilesPerRow * kShadowTile, i / kShadowTilesPerRow * kShadowTile,
-            kShadowTile);
+    set_draw_area(list, i % kShadowTilesPerRow * kShadowTile, i / kShadowTilesPerRow * kShadowTile,
+                  kShadowTile, kShadowTile);
     const std::vector<std::uint32_t> draws = draws_near(lights_[i]);
     if (lights_[i].is_spot != 0) {
       record_face(list, i, kSpotFace, draws);
@@ -156,8 +118,8 @@ void LightMapDraws::record(CommandList& list, const PassViews& views) const {
     }
   }
   if (layout_.sun != 0) {
-    look_at(layout_.width - layout_.sun, 0, layout_.sun);
-    std::vector<std::uint32_t> all(draws_.size());
+    set_draw_area(list, layout_.width - layout_.sun, 0, layout_.sun, layout_.sun);
+    std::vector<std::uint32_t> all(draws_.draws().size());
     std::iota(all.begin(), all.end(), 0u);
     record_face(list, 0, kSunFace, all);
   }
@@ -171,24 +133,13 @@ void LightMapDraws::record_face(CommandList& list, std::uint32_t light, std::uin
   list.SetGraphicsRoot32BitConstant(kRootPassWords, light, kLightWord);
   list.SetGraphicsRoot32BitConstant(kRootPassWords, face, kFaceWord);
   for (const std::uint32_t i : draws) {
-    const GpuGeometry& geometry = gpu_->geometries[draws_[i].geometry];
-    list.SetPipelineState(geometry.alpha_tested ? with_holes_ : opaque_);
-    const auto vertex_bytes = static_cast<std::uint32_t>(geometry.vertex_range().size_bytes);
-    const auto index_bytes = static_cast<std::uint32_t>(geometry.index_range().size_bytes);
-    list.IASetVertexBuffers(
-        0, VertexBufferView{geometry.vertices, vertex_bytes, geometry.constants.vertex_stride});
-    const IndexBufferView index_view = {
-        geometry.indices, index_bytes,
-        geometry.constants.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint};
-    list.IASetIndexBuffer(&index_view);
-    list.SetGraphicsRoot32BitConstant(kRootPassWords, i, kDrawWord);
-    list.DrawIndexedInstanced(geometry.index_count, 1, 0, 0, 0);
+    list.SetPipelineState(pipeline_.of(draws_.geometry(i)));
+    draws_.record(list, i, kDrawWord);
   }
 }
 
 std::uint64_t LightMapDraws::bytes() const {
-  return std::uint64_t{layout_.width} * layout_.height * 4 + draw_buffer_.size() +
-         geometry_buffer_.size();
+  return std::uint64_t{layout_.width} * layout_.height * 4 + draws_.bytes();
 }
 
 }  // namespace kaamos::effects

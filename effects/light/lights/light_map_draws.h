@@ -11,7 +11,7 @@
 
 #include "effects/assets/scene/light_constants.h"
 #include "effects/engine/frame.h"
-#include "effects/engine/scene_draws.h"
+#include "effects/engine/scene_pipeline.h"
 
 namespace kaamos::effects {
 
@@ -40,22 +40,18 @@ class LightMapDraws {
 
  private:
   rtapi::Status create_targets(const rtapi::Device& device);
-  rtapi::Status create_pipelines(const rtapi::Device& device, const rtapi::ShaderLibrary& library);
-  rtapi::Status create_buffers(const rtapi::Device& device, PassViews& views);
   void record_face(rtapi::CommandList& list, std::uint32_t light, std::uint32_t face,
                    const std::vector<std::uint32_t>& draws) const;
   std::vector<std::uint32_t> draws_near(const LightConstants& light) const;
 
   const Frame* frame_ = nullptr;
   const Scene* scene_ = nullptr;
-  const GpuScene* gpu_ = nullptr;
   AtlasLayout layout_;
   rtapi::Texture atlas_, depth_;
   rtapi::DescriptorHeap target_, depth_target_;
-  rtapi::PipelineState opaque_, with_holes_;
-  rtapi::Buffer draw_buffer_, geometry_buffer_;
+  ScenePipeline pipeline_;
+  SceneDrawList draws_;
   std::vector<Bounds> boxes_;  // by instance, object space
-  std::vector<SceneDraw> draws_;
   std::vector<LightConstants> lights_;
 };
 

@@ -27,7 +27,14 @@ rtapi::Status ShadowMapDraws::create(const EffectScope& scope, const ShaderLibra
   count_ = count;
   boxes_ = instance_boxes(scope.scene);
   if (const auto s = create_targets(scope.device); !s) return s;
-  if (const auto s = create_pipelines(scope.device, library); !s) return s;
+  const auto pipeline = ScenePipeline::create(scope.device, scope.frame,
+                                              {.library = library,
+                                               .vertex_shader = "ShadowMapVertex",
+                                               .pixel_shader_of_holes = "ShadowMapHoles",
+                                               .depth_func = ComparisonFunc::kLess,
+                                               .name = "shadow map"});
+  if (!pipeline) return pipeline.error();
+  pipeline_ = *pipeline;
   return create_buffers(scope.device, scope.scene);
 }
 
@@ -61,58 +68,21 @@ rtapi::Status ShadowMapDraws::create_targets(const Device& device) {
   return views_->set_shader_resource(4, maps_, view);
 }
 
-rtapi::Status ShadowMapDraws::create_pipelines(const Device& device, const ShaderLibrary& library) {
-  GraphicsPipelineStateDesc desc;
-  desc.pRootSignature = frame_->root_signature();
-  desc.VS = {library, "ShadowMapVertex"};
-  desc.InputLayout = {
-      {.SemanticName = "POSITION",
-       .Format = Format::kR32G32B32Float,
-       .AlignedByteOffset = kPositionOffset},
-      {.SemanticName = "TEXCOORD", .Format = Format::kR32G32Float, .AlignedByteOffset = kUvOffset}};
-  desc.RasterizerState.CullMode = CullMode::kNone;  // rays hit both sides, too
-  desc.DepthStencilState.DepthFunc = ComparisonFunc::kLess;
-  desc.DSVFormat = Format::kD32Float;
-  desc.Name = "shadow map";
-  const auto opaque = device.CreateGraphicsPipelineState(desc);
-  if (!opaque) return opaque.error();
-  opaque_ = *opaque;
-  desc.PS = {library, "ShadowMapHoles"};
-  desc.Name = "shadow map with holes";
-  const auto with_holes = device.CreateGraphicsPipelineState(desc);
-  if (!with_holes) return with_holes.error();
-  with_holes_ = *with_holes;
-  return {};
-}
-
 rtapi::Status ShadowMapDraws::create_buffers(const Device& device, const Scene& scene) {
-  const std::vector<SceneDraw> draws(std::max(most_scene_draws(scene), 1u));
-  const auto draw_buffer = CreateUploadBuffer(device, draws, "shadow map draws");
-  if (!draw_buffer) return draw_buffer.error();
-  draw_buffer_ = *draw_buffer;
-  std::vector<HitConstants> geometries;
-  for (const GpuGeometry& geometry : gpu_->geometries) geometries.push_back(geometry.constants);
-  if (geometries.empty()) geometries.emplace_back();
-  const auto geometry_buffer = CreateUploadBuffer(device, geometries, "shadow map geometries");
-  if (!geometry_buffer) return geometry_buffer.error();
-  geometry_buffer_ = *geometry_buffer;
+  if (const auto s = draws_.create(device, scene, *gpu_, *views_, {}, "shadow map"); !s) return s;
   const auto map_buffer =
       CreateUploadBuffer(device, std::vector<SunMap>(count_), "places of shadow maps");
   if (!map_buffer) return map_buffer.error();
   map_buffer_ = *map_buffer;
-  if (const auto s = views_->set_shader_resource(0, draw_buffer_, sizeof(SceneDraw)); !s) return s;
-  const auto s = views_->set_shader_resource(1, geometry_buffer_, sizeof(HitConstants));
-  if (!s) return s;
   return views_->set_shader_resource(2, map_buffer_, sizeof(SunMap));
 }
 
 void ShadowMapDraws::see_instances(const glm::dvec3& camera_position) {
   camera_position_ = camera_position;
-  draws_ = scene_draws(*gpu_, kMaskCasters);
-  std::copy(draws_.begin(), draws_.end(), draw_buffer_.data<SceneDraw>().begin());
+  draws_.see_instances(kMaskCasters);
   bounds_ = Bounds();
   std::size_t last = boxes_.size();
-  for (const SceneDraw& draw : draws_) {
+  for (const SceneDraw& draw : draws_.draws()) {
     if (draw.instance == last || draw.instance >= boxes_.size()) continue;
     last = draw.instance;
     const Bounds box = draw_box(draw, boxes_[last]);
@@ -125,7 +95,7 @@ void ShadowMapDraws::see_instances(const glm::dvec3& camera_position) {
 Bounds ShadowMapDraws::bounds_of(std::uint32_t instance) const {
   Bounds out;
   if (instance >= boxes_.size()) return out;
-  for (const SceneDraw& draw : draws_) {
+  for (const SceneDraw& draw : draws_.draws()) {
     if (draw.instance != instance) continue;
     const Bounds box = draw_box(draw, boxes_[instance]);
     if (box.empty()) continue;
@@ -143,10 +113,7 @@ void ShadowMapDraws::set_maps(const std::vector<SunMap>& maps) {
 void ShadowMapDraws::record(CommandList& list, const ShadowMapConstants& constants) const {
   list.BeginEvent("shadow maps");
   list.ResourceBarrier(ResourceBarrier::Transition(maps_, kMapState, ResourceStates::kDepthWrite));
-  const auto side = static_cast<float>(size_);
-  list.RSSetViewports(Viewport{0, 0, side, side, 0, 1});
-  list.RSSetScissorRects(
-      Rect{0, 0, static_cast<std::int32_t>(size_), static_cast<std::int32_t>(size_)});
+  set_draw_area(list, 0, 0, size_, size_);
   list.IASetPrimitiveTopology(PrimitiveTopology::kTriangleList);
   frame_->bind_draws(list, PassArguments(*views_, constants));
   for (std::uint32_t i = 0; i < count_; ++i) {
@@ -154,34 +121,14 @@ void ShadowMapDraws::record(CommandList& list, const ShadowMapConstants& constan
     list.OMSetRenderTargets(0, nullptr, false, &target);
     list.ClearDepthStencilView(target, ClearFlags::kDepth, 1, 0);
     list.SetGraphicsRoot32BitConstant(kRootPassWords, i, kMapWord);
-    record_scene(list, false);
-    record_scene(list, true);
+    pipeline_.record(list, draws_, kDrawWord);
   }
   list.ResourceBarrier(ResourceBarrier::Transition(maps_, ResourceStates::kDepthWrite, kMapState));
   list.EndEvent();
 }
 
-void ShadowMapDraws::record_scene(CommandList& list, bool with_holes) const {
-  list.SetPipelineState(with_holes ? with_holes_ : opaque_);
-  for (std::uint32_t i = 0; i < draws_.size(); ++i) {
-    const GpuGeometry& geometry = gpu_->geometries[draws_[i].geometry];
-    if (geometry.alpha_tested != with_holes) continue;
-    const auto vertex_bytes = static_cast<std::uint32_t>(geometry.vertex_range().size_bytes);
-    const auto index_bytes = static_cast<std::uint32_t>(geometry.index_range().size_bytes);
-    list.IASetVertexBuffers(
-        0, VertexBufferView{geometry.vertices, vertex_bytes, geometry.constants.vertex_stride});
-    const IndexBufferView index_view = {
-        geometry.indices, index_bytes,
-        geometry.constants.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint};
-    list.IASetIndexBuffer(&index_view);
-    list.SetGraphicsRoot32BitConstant(kRootPassWords, i, kDrawWord);
-    list.DrawIndexedInstanced(geometry.index_count, 1, 0, 0, 0);
-  }
-}
-
 std::uint64_t ShadowMapDraws::bytes() const {
-  return std::uint64_t{size_} * size_ * count_ * 4 + draw_buffer_.size() + geometry_buffer_.size() +
-         map_buffer_.size();
+  return std::uint64_t{size_} * size_ * count_ * 4 + draws_.bytes() + map_buffer_.size();
 }
 
 }  // namespace kaamos::effects

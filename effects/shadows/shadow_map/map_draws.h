@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "effects/engine/effect_pass.h"
-#include "effects/engine/scene_draws.h"
+#include "effects/engine/scene_pipeline.h"
 #include "effects/shadows/shadow_map/sun_maps.h"
 
 namespace kaamos::effects {
@@ -44,9 +44,7 @@ class ShadowMapDraws {
 
  private:
   rtapi::Status create_targets(const rtapi::Device& device);
-  rtapi::Status create_pipelines(const rtapi::Device& device, const rtapi::ShaderLibrary& library);
   rtapi::Status create_buffers(const rtapi::Device& device, const Scene& scene);
-  void record_scene(rtapi::CommandList& list, bool with_holes) const;
 
   const Frame* frame_ = nullptr;
   const GpuScene* gpu_ = nullptr;
@@ -54,10 +52,10 @@ class ShadowMapDraws {
   std::uint32_t size_ = 0, count_ = 0;
   rtapi::Texture maps_;
   rtapi::DescriptorHeap targets_;
-  rtapi::PipelineState opaque_, with_holes_;
-  rtapi::Buffer draw_buffer_, geometry_buffer_, map_buffer_;
+  ScenePipeline pipeline_;
+  SceneDrawList draws_;
+  rtapi::Buffer map_buffer_;
   std::vector<Bounds> boxes_;  // by instance, object space
-  std::vector<SceneDraw> draws_;
   Bounds bounds_;
   glm::dvec3 camera_position_{0.0};
 };

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "effects/engine/compute_pass.h"
-#include "effects/engine/scene_draws.h"
+#include "effects/engine/scene_pipeline.h"
 
 namespace kaamos::effects {
 
@@ -33,7 +33,7 @@ inline constexpr float kRasterNearShare = 1.0f / 1024.0f;
 /// Both passes, and the pictures between them.
 class RasterGBuffer {
  public:
-  /// Makes pipelines and pictures. `gpu` is `scene` on the device; its buffers must stay.
+  /// Makes pipelines and pictures. `gpu` is `scene` on the device and must stay.
   /// @errors those of rtapi::Device::CreateGraphicsPipelineState, on Vulkan KA0965 without graphics
   /// pipelines among them; those of ComputePass::create, Frame::create_pass_views and
   /// rtapi::Device::CreateTexture.
@@ -44,8 +44,7 @@ class RasterGBuffer {
   /// Records the draws of the scene as it stands now in GpuScene::instances: visibility() and
   /// depth() are written. The list of the frame before must have finished: what the device reads is
   /// written now. `near_plane`: the camera's.
-  void record_draws(rtapi::CommandList& list, const Frame& frame, const GpuScene& gpu,
-                    float near_plane);
+  void record_draws(rtapi::CommandList& list, const Frame& frame, float near_plane);
   /// Records what makes the frame's pictures of visibility(): all that gbuffer_pass writes.
   void record_resolve(rtapi::CommandList& list, const Frame& frame) const;
 
@@ -55,26 +54,20 @@ class RasterGBuffer {
   /// kRasterNearShare times the camera's near plane, over view depth; 0: nothing.
   const rtapi::Texture& depth() const { return depth_; }
   /// The draws of the last record_draws; visibility() counts them.
-  const std::vector<SceneDraw>& draws() const { return draws_; }
+  const std::vector<SceneDraw>& draws() const { return draws_.draws(); }
   /// Bytes of both pictures and of the draws.
   std::uint64_t bytes() const;
 
  private:
   rtapi::Status create_targets(const rtapi::Device& device, const Frame& frame);
-  rtapi::Status create_pipelines(const rtapi::Device& device, const Frame& frame,
-                                 const rtapi::ShaderLibrary& library);
-  rtapi::Status create_buffers(const rtapi::Device& device, const Frame& frame, const Scene& scene,
-                               const GpuScene& gpu);
-  void record_scene(rtapi::CommandList& list, const GpuScene& gpu) const;
 
   rtapi::Texture visibility_, depth_;
   rtapi::DescriptorHeap render_targets_, depth_targets_;
-  rtapi::PipelineState opaque_, with_holes_;
+  ScenePipeline pipeline_;
   ComputePass resolve_;
-  rtapi::Buffer draw_buffer_, geometry_buffer_;
   PassViews views_;
   float near_plane_ = 0;
-  std::vector<SceneDraw> draws_;
+  SceneDrawList draws_;
 };
 
 }  // namespace kaamos::effects
