@@ -72,7 +72,7 @@ double error_after_eight_frames(const std::string& backend, const Scene& scene, 
   const FloatImage filtered = renderer->read("reflection_denoised").value();
   constexpr std::uint32_t kSamples = 256;
   renderer->run("reflections", kSamples).value();
-  const FloatImage sum = renderer->read(renderer->sum("reflection")).value();
+  const FloatImage sum = renderer->read(renderer->effects().sum("reflection")).value();
   double squares = 0;
   for (std::size_t i = 0; i < sum.values.size(); i += 4) {
     squares += std::pow(filtered.values[i] - sum.values[i] / kSamples, 2);

@@ -27,7 +27,7 @@ TEST(RotatingPixels, FourFramesTraceEveryPixelOnce) {
   show.render();
   FrameRenderer& renderer = show.renderer();
   for (const char* signal : {"ao", "indirect"}) {
-    const rtapi::Texture sum = renderer.sum(signal);
+    const rtapi::Texture sum = renderer.effects().sum(signal);
     const std::uint32_t channels = signal[0] == 'a' ? 1 : 4;
     const FloatImage none(width, height, channels, -1000.0f);
     std::vector<std::uint32_t> times(width * height);

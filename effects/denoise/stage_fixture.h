@@ -108,7 +108,9 @@ class Show {
     renderer_->render().value();
   }
   FloatImage read(const std::string& layer) { return renderer_->read(layer).value(); }
-  FloatImage changes() { return renderer_->read(renderer_->gradients()->changes()).value(); }
+  FloatImage changes() {
+    return renderer_->read(renderer_->effects().gradients().gradients()->changes()).value();
+  }
   FrameRenderer& renderer() { return *renderer_; }
 
  private:

@@ -135,7 +135,10 @@ Lags lags_of_occluder(const std::string& effect, FrameTexture sum, std::uint32_t
   for (const DenoiseMethod method : {DenoiseMethod::kSvgf, DenoiseMethod::kAdaptiveSvgf}) {
     denoisers.push_back(
         Denoiser::create(renderer.device(), renderer.frame(), libraries,
-                         {{"test", signal, false, {renderer.gradients()->changes(), channel}}},
+                         {{"test",
+                           signal,
+                           false,
+                           {renderer.effects().gradients().gradients()->changes(), channel}}},
                          default_denoise(method))
             .value());
     denoisers.back()
@@ -146,7 +149,7 @@ Lags lags_of_occluder(const std::string& effect, FrameTexture sum, std::uint32_t
     show.render(seconds);
     std::vector<double> out;
     for (Denoiser& denoiser : denoisers) {
-      renderer
+      renderer.runner()
           .execute([&](rtapi::CommandList& list) {
             denoiser.load(list, renderer.frame(), 1);
             denoiser.dispatch(list, renderer.frame());
@@ -186,7 +189,7 @@ TEST(TemporalGradients, MoreSignalsThanChannelsAreRefused) {
   show.render();
   FrameRenderer& renderer = show.renderer();
   TemporalGradients gradients =
-      TemporalGradients::create(renderer.device(), renderer.frame(), renderer.gpu_scene(),
+      TemporalGradients::create(renderer.device(), renderer.frame(), renderer.context().gpu,
                                 denoise_libraries().value())
           .value();
   const rtapi::Texture& sum = renderer.frame().texture(kAmbientOcclusionSum);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// An effect that is more than one ray tracing pass: draws, compute passes, pictures between them.
+/// An effect as its frame runs it: rays, draws, compute passes, pictures between them.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -14,7 +14,7 @@
 
 namespace kaamos::effects {
 
-/// What such an effect is made from. All of it but `settings` stays for the pass's life, and may be
+/// What an effect is made from. All of it but `settings` stays for the pass's life, and may be
 /// kept by reference.
 struct EffectScope {
   const rtapi::Device& device;  ///< makes pipelines, pictures and buffers
@@ -25,10 +25,12 @@ struct EffectScope {
   /// One of the row's libraries, by EffectLibrary::file.
   std::function<const rtapi::ShaderLibrary&(const std::string& file)> library;
   /// Holds the effect's signals at their registers u, and what EffectNeeds ask for at theirs. The
-  /// effect may set others.
+  /// effect may set others; they hold nothing where the effect has none.
   PassViews& views;
   const EffectSettings& settings;  ///< those of the frame; of this call only
 };
+
+class RayEffect;
 
 /// The passes of one effect over one frame. Not for several threads at once.
 class EffectPass {
@@ -48,6 +50,8 @@ class EffectPass {
                       const PassConstants& constants) = 0;
   /// Bytes of the pictures and buffers that stand between its passes.
   virtual std::uint64_t bytes() const = 0;
+  /// The effect as one ray tracing pass. Null: it is more than that. [ray_effect.h]
+  virtual const RayEffect* rays() const { return nullptr; }
 };
 
 }  // namespace kaamos::effects

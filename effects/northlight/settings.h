@@ -83,6 +83,14 @@ std::uint32_t pixel_offset(const EffectSettings& settings, std::uint32_t index);
 /// within one. [PassConstants::first_sample]
 std::uint32_t first_sample(const EffectSettings& settings, std::uint32_t index);
 
+/// Brings along what the chosen effects include. [Effect::includes]
+void add_included(std::map<std::string, EffectSettings>& chosen,
+                  const std::vector<Effect>& effects);
+
+/// Local lights of a scene, as many as light_constants makes.
+std::uint32_t count_local_lights(const Scene& scene);
+/// Whether an instance is transparent.
+bool has_glass(const Scene& scene);
 /// Whether the scene has what an effect is about: a sun, local lights, glass, glossy
 /// materials.
 bool scene_offers(const Scene& scene, const EffectNeeds& needs);
@@ -90,5 +98,19 @@ bool scene_offers(const Scene& scene, const EffectNeeds& needs);
 /// Whether an effect among these has pictures of its own and so needs a whole frame.
 bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
                       const std::vector<Effect>& effects = northlight_effects());
+
+/// The chosen effect in whose favour another one is left out; null: none.
+const Effect* what_replaces(const FrameSettings& settings, const std::vector<Effect>& effects,
+                            const Effect& effect);
+/// Whether an effect is rendered: chosen, and of use in this scene.
+bool is_rendered(const Scene& scene, const FrameSettings& settings,
+                 const std::vector<Effect>& effects, const std::string& name);
+/// Whether reflections are chosen, and left out because nothing shows them.
+bool is_matte(const Scene& scene, const FrameSettings& settings,
+              const std::vector<Effect>& effects);
+
+/// @errors KA3046 an unknown name in settings.effects; an effect with pictures of its own without
+/// settings.whole_frame; a map of the sun that is too large.
+rtapi::Status check_settings(const FrameSettings& settings, const std::vector<Effect>& effects);
 
 }  // namespace kaamos::effects

@@ -118,8 +118,8 @@ rtapi::Result<std::unique_ptr<PathReference>> PathReference::create(const rtapi:
   if (const auto s = out->renderer_->begin_frame(moment); !s) return s.error();
   const auto library = path_tracer_library();
   if (!library) return library.error();
-  auto tracer = PathTracer::create(device, out->renderer_->frame(), out->renderer_->gpu_scene(),
-                                   scene, out->renderer_->states_at(moment),
+  auto tracer = PathTracer::create(device, out->renderer_->frame(), out->renderer_->context().gpu,
+                                   scene, out->renderer_->scene_stage().states_at(moment),
                                    moment.camera.position(), desc.paths, *library);
   if (!tracer) return tracer.error();
   out->tracer_ = std::move(*tracer);

@@ -82,8 +82,8 @@ class PathSamplers : public OnBackends {
   std::vector<glm::vec4> run(const char* shader, const SampleWords& words, std::uint32_t result) {
     const Frame& frame = renderer_->frame();
     const ComputePass pass = ComputePass::create(device_, frame, library_, shader).value();
-    renderer_
-        ->execute([&](rtapi::CommandList& list) {
+    renderer_->runner()
+        .execute([&](rtapi::CommandList& list) {
           pass.dispatch_groups(list, frame, {}, PassArguments(views_, words), kSamples / 64, 1);
         })
         .value();

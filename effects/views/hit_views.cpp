@@ -19,8 +19,8 @@ struct Lengths {
 
 Lengths lengths_of(const FrameRenderer& renderer) {
   ReflectionConstants constants;
-  const auto chosen = renderer.settings().effects.find("reflections");
-  if (chosen != renderer.settings().effects.end()) {
+  const auto chosen = renderer.context().settings.effects.find("reflections");
+  if (chosen != renderer.context().settings.effects.end()) {
     constants = chosen->second.get_constants<ReflectionConstants>();
   }
   const bool single = constants.single_length != 0;
@@ -49,7 +49,7 @@ rtapi::Result<FloatImage> view_hits(FrameRenderer& renderer, const std::string& 
   const rtapi::Device& device = renderer.device();
   const Frame& frame = renderer.frame();
   const auto pass =
-      RayPass::create(device, frame, renderer.gpu_scene(), hit_view_pass(*library, closest_hit));
+      RayPass::create(device, frame, renderer.context().gpu, hit_view_pass(*library, closest_hit));
   if (!pass) return pass.error();
   const auto numbers = frame.create_picture(device, "view", rtapi::Format::kR32G32B32A32Float);
   if (!numbers) return numbers.error();
@@ -57,10 +57,10 @@ rtapi::Result<FloatImage> view_hits(FrameRenderer& renderer, const std::string& 
   if (!views) return views.error();
   if (const auto s = views->set_unordered_access(0, *numbers); !s) return s.error();
   if (is_lit) {
-    if (const auto s = renderer.lighting()->bind(*views); !s) return s.error();
-    if (const auto s = renderer.volume()->bind(*views); !s) return s.error();
+    if (const auto s = renderer.lights().lighting()->bind(*views); !s) return s.error();
+    if (const auto s = renderer.lights().volume()->bind(*views); !s) return s.error();
   }
-  const auto done = renderer.execute([&](rtapi::CommandList& list) {
+  const auto done = renderer.runner().execute([&](rtapi::CommandList& list) {
     pass->dispatch(list, frame, {.sample_count = 1}, frame.height(),
                    PassArguments(*views, lengths_of(renderer)));
   });

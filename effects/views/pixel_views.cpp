@@ -39,7 +39,7 @@ class PixelView {
                     std::uint32_t constant = 0) {
     const auto pass = ComputePass::create(renderer_.device(), frame_, library_, kernel);
     if (!pass) return pass.error();
-    const auto done = renderer_.execute([&](rtapi::CommandList& list) {
+    const auto done = renderer_.runner().execute([&](rtapi::CommandList& list) {
       pass->dispatch(list, frame_, {}, PassArguments(views, constant), width, height);
     });
     if (!done) return done.error();
@@ -77,7 +77,7 @@ rtapi::Result<FloatImage> run_over(FrameRenderer& renderer, const std::string& k
 rtapi::Result<FloatImage> run_over_memory(FrameRenderer& renderer, const std::string& name,
                                           const std::string& of_light,
                                           const std::string& of_visibility) {
-  const SignalFilters& filters = renderer.filters();
+  const SignalFilters& filters = renderer.filters().signals();
   const SignalFilters::Signal& signal = *filters.find(name);
   const SignalFilters::Memory memory = filters.memory(signal);
   const bool is_light = memory.moments != nullptr;
@@ -129,14 +129,14 @@ rtapi::Result<rtapi::ShaderLibrary> pixel_views_library() {
 }
 
 rtapi::Result<FloatImage> view_bottom_levels(FrameRenderer& renderer) {
-  const Scene& scene = renderer.scene();
-  const FrameMoment& moment = renderer.moment();
-  const std::vector<InstanceState> states = renderer.states_at(moment);
+  const Scene& scene = renderer.context().scene;
+  const FrameMoment& moment = renderer.context().moment;
+  const std::vector<InstanceState> states = renderer.scene_stage().states_at(moment);
   std::vector<glm::vec4> corners;
   for (std::size_t i = 0; i < states.size(); ++i) {
     add_box(scene, i, states[i], moment.camera.position(), corners);
   }
-  std::vector<std::uint32_t> levels = number_bottom_levels(renderer.gpu_scene(), states.size());
+  std::vector<std::uint32_t> levels = number_bottom_levels(renderer.context().gpu, states.size());
   const auto instances = static_cast<std::uint32_t>(states.size());
   // A view needs at least one element, even of an empty scene.
   if (states.empty()) {
@@ -159,7 +159,7 @@ rtapi::Result<FloatImage> view_bottom_levels(FrameRenderer& renderer) {
 
 rtapi::Result<FloatImage> view_light_clusters(FrameRenderer& renderer) {
   return run_over(renderer, "LightClusters",
-                  [&](PassViews& views) { return renderer.lighting()->bind(views); });
+                  [&](PassViews& views) { return renderer.lights().lighting()->bind(views); });
 }
 
 rtapi::Result<FloatImage> view_variance(FrameRenderer& renderer, const std::string& signal) {
@@ -172,7 +172,7 @@ rtapi::Result<FloatImage> view_history_length(FrameRenderer& renderer, const std
 
 rtapi::Result<FloatImage> view_volume_cells(FrameRenderer& renderer) {
   return run_over(renderer, "VolumeCells",
-                  [&](PassViews& views) { return renderer.volume()->bind(views); });
+                  [&](PassViews& views) { return renderer.lights().volume()->bind(views); });
 }
 
 }  // namespace kaamos::effects

@@ -155,7 +155,7 @@ TEST_P(PixelViews, VarianceOfVisibilityFollowsFromItsMean) {
   const auto renderer = make_view_renderer(scene, {GetParam(), {"sun"}, DenoiseMethod::kSvgf});
   renderer->render().value();
   const FloatImage variance = see(*renderer, "variance", "sun");
-  const auto samples = static_cast<float>(renderer->settings().effects.at("sun").samples);
+  const auto samples = static_cast<float>(renderer->context().settings.effects.at("sun").samples);
   int partly = 0;
   for_each_pixel([&](std::uint32_t x, std::uint32_t y) {
     const float mean = variance.at(x, y, 2);

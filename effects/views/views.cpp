@@ -307,14 +307,14 @@ Result<const View*> find_view(const std::string& name) {
 
 std::vector<std::string> remembered_signals(const FrameRenderer& renderer) {
   std::vector<std::string> out;
-  const FrameSettings& settings = renderer.settings();
+  const FrameSettings& settings = renderer.context().settings;
   const DenoiseMethod method = settings.denoise.method;
   const bool remembers = method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
                          method == DenoiseMethod::kControl ||
                          method == DenoiseMethod::kAdaptiveSvgf;
   if (!settings.whole_frame || !remembers) return out;
-  for (const Effect& effect : renderer.effects()) {
-    if (!renderer.renders(effect.name) || !(effect.pass || effect.make)) continue;
+  for (const Effect& effect : renderer.context().effects) {
+    if (!renderer.effects().renders(effect.name) || !(effect.pass || effect.make)) continue;
     for (const EffectSignal& signal : effect.signals) {
       if (signal.is_sum) out.push_back(signal.name);
     }
@@ -327,13 +327,13 @@ Status check_view(const View& view, const FrameRenderer& renderer, const std::st
     return make_error(ErrorId::kViewMissing, view.name + ": " + what);
   };
   const std::string these = "add effects, such as " + join_names(view.effects);
-  if (view.needs.whole_frame && !renderer.settings().whole_frame) {
+  if (view.needs.whole_frame && !renderer.context().settings.whole_frame) {
     return missing(
         "effects that are rendered alone have no lights, no indirect light and no "
         "denoiser; " +
         these);
   }
-  if (view.needs.volume && !renderer.reads_volume()) {
+  if (view.needs.volume && !renderer.lights().reads_volume()) {
     return missing("no effect of the frame reads the volume of indirect light, so there is none; " +
                    these);
   }

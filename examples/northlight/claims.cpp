@@ -66,7 +66,7 @@ class Filter {
     return denoiser_.create_load(device, frame, libraries, runs.sum(setting));
   }
   rtapi::Result<double> run(EffectRuns& runs) {
-    return runs.renderer().execute([&](rtapi::CommandList& list) {
+    return runs.renderer().runner().execute([&](rtapi::CommandList& list) {
       denoiser_.load(list, runs.renderer().frame(), 1);
       denoiser_.dispatch(list, runs.renderer().frame());
     });
@@ -96,7 +96,7 @@ struct Plan {
 
 rtapi::Result<Plan> make_plan(EffectRuns& runs, const Options& options) {
   Plan plan;
-  const Scene& scene = runs.renderer().scene();
+  const Scene& scene = runs.renderer().context().scene;
   Setting ao = setting_of("ao");
   ao.settings.radius = options.effects.at("ao").radius;
   constexpr std::pair<Cost, std::uint32_t> kAoRuns[] = {

@@ -82,11 +82,11 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
   out->renderer_ = std::move(*renderer);
   out->ao_radius_ = options.effects.at("ao").radius;
   if (options.cpu_clock) {
-    out->renderer_->set_clock([threads = options.threads] { return cpu_ms(threads); });
+    out->renderer_->runner().set_clock([threads = options.threads] { return cpu_ms(threads); });
   }
   if (const auto s = out->renderer_->prepare(progress); !is_done(s)) return s;
   for (const Effect& effect : northlight_effects()) {
-    if (!effect.needs.glass || !out->renderer_->renders(effect.name)) continue;
+    if (!effect.needs.glass || !out->renderer_->effects().renders(effect.name)) continue;
     if (const auto s = out->create_background(); !s) return s.error();
   }
   return Outcome::kDone;
@@ -95,11 +95,11 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
 rtapi::Status EffectRuns::create_background() {
   const auto composite =
       CompositePass::create(renderer_->device(), renderer_->frame(),
-                            renderer_->libraries().at("composition/composite/composite"));
+                            renderer_->context().libraries.at("composition/composite/composite"));
   if (!composite) return composite.error();
   background_ = *composite;
   for (const char* effect : {"ao", "sun"}) {
-    if (!renderer_->renders(effect)) continue;
+    if (!renderer_->effects().renders(effect)) continue;
     Setting setting = setting_of(effect, kBackgroundSamples);
     setting.settings.radius = ao_radius_;
     const auto ran = run(setting);
@@ -109,9 +109,10 @@ rtapi::Status EffectRuns::create_background() {
 }
 
 rtapi::Status EffectRuns::draw_background() {
-  const auto drawn = renderer_->execute([&](rtapi::CommandList& list) {
-    background_->dispatch(list, renderer_->frame(),
-                          {kBackgroundSamples, renderer_->renders("sun") ? kBackgroundSamples : 0});
+  const auto drawn = renderer_->runner().execute([&](rtapi::CommandList& list) {
+    background_->dispatch(
+        list, renderer_->frame(),
+        {kBackgroundSamples, renderer_->effects().renders("sun") ? kBackgroundSamples : 0});
   });
   if (!drawn) return drawn.error();
   return {};
@@ -125,7 +126,7 @@ rtapi::Result<FloatImage> EffectRuns::read_background() {
 }
 
 bool EffectRuns::is_glass(const Setting& setting) const {
-  return find_effect(renderer_->effects(), setting.effect)->needs.glass;
+  return find_effect(renderer_->context().effects, setting.effect)->needs.glass;
 }
 
 rtapi::Result<RunStatistics> EffectRuns::run(const Setting& setting) {
@@ -148,14 +149,14 @@ rtapi::Result<Outcome> EffectRuns::accumulate(const Setting& setting, const Prog
 }
 
 rtapi::Texture EffectRuns::sum(const Setting& setting) const {
-  const Effect* effect = find_effect(renderer_->effects(), setting.effect);
-  return renderer_->sum(effect->signals.front().name);
+  const Effect* effect = find_effect(renderer_->context().effects, setting.effect);
+  return renderer_->effects().sum(effect->signals.front().name);
 }
 
 rtapi::Result<FloatImage> EffectRuns::read_lit() {
-  const auto added = renderer_->execute([&](rtapi::CommandList& list) {
-    renderer_->record_filters(list);
-    renderer_->record_strongest_lights(list);
+  const auto added = renderer_->runner().execute([&](rtapi::CommandList& list) {
+    renderer_->filters().record_rest(list);
+    renderer_->lights().record_strongest(list);
   });
   if (!added) return added.error();
   const auto image = renderer_->read("local_lights");
@@ -165,7 +166,8 @@ rtapi::Result<FloatImage> EffectRuns::read_lit() {
 
 rtapi::Result<FloatImage> EffectRuns::read(const Setting& setting) {
   if (setting.lit) return read_lit();
-  const EffectSignal& signal = find_effect(renderer_->effects(), setting.effect)->signals.front();
+  const EffectSignal& signal =
+      find_effect(renderer_->context().effects, setting.effect)->signals.front();
   const auto image = renderer_->read(is_glass(setting) ? "radiance" : signal.name);
   if (!image) return image.error();
   FloatImage out = first_channels(*image, signal.channels);
@@ -180,7 +182,7 @@ rtapi::Result<FloatImage> EffectRuns::read(const Setting& setting) {
 
 rtapi::Result<std::vector<std::uint8_t>> EffectRuns::mask(bool glass) {
   const auto image =
-      renderer_->read(glass ? renderer_->sum("glass") : renderer_->frame().texture(kIds));
+      renderer_->read(glass ? renderer_->effects().sum("glass") : renderer_->frame().texture(kIds));
   if (!image) return image.error();
   std::vector<std::uint8_t> out(std::size_t{image->width} * image->height);
   for (std::size_t pixel = 0; pixel < out.size(); ++pixel) {

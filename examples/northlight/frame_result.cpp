@@ -34,11 +34,12 @@ rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer) {
     if (!image) return image.error();
     (name == "radiance" ? out.radiance : out.layers[name]) = std::move(*image);
   }
-  if (renderer.set_up()) out.passes.push_back(*renderer.set_up());
-  out.passes.insert(out.passes.end(), renderer.passes().begin(), renderer.passes().end());
-  out.left_out = renderer.left_out();
-  if (renderer.raster() != nullptr) {
-    const auto primary = renderer.compare_primary();
+  if (renderer.context().set_up) out.passes.push_back(*renderer.context().set_up);
+  out.passes.insert(out.passes.end(), renderer.runner().passes().begin(),
+                    renderer.runner().passes().end());
+  out.left_out = renderer.context().left_out;
+  if (renderer.surfaces().raster() != nullptr) {
+    const auto primary = renderer.surfaces().compare();
     if (!primary) return primary.error();
     out.primary = *primary;
   }

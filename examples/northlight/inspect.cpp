@@ -59,16 +59,17 @@ rtapi::Status count_draws(Inspection& seen, rtapi::CommandQueue& queue, rtapi::C
 void inspect(const Options& options, FrameRenderer& renderer, Inspection& seen) {
   const rtapi::Device device = renderer.device();
   if (options.explain) {
-    renderer.set_band_executor([&options, &seen, device](auto& queue, auto& list, const auto& pass,
-                                                         auto first_row, auto row_count) {
+    renderer.runner().set_band_executor([&options, &seen, device](auto& queue, auto& list,
+                                                                  const auto& pass, auto first_row,
+                                                                  auto row_count) {
       const auto done = explain_band(options, seen, queue, list, pass, first_row, row_count);
       return done ? device.GetDeviceRemovedReason() : done;
     });
   } else if (options.heatmap == "overdraw") {
-    renderer.set_draw_executor(
+    renderer.runner().set_draw_executor(
         [&seen](auto& queue, auto& list) { return count_draws(seen, queue, list); });
   } else if (!options.heatmap.empty()) {
-    renderer.set_band_executor(
+    renderer.runner().set_band_executor(
         [&options, &seen](auto& queue, auto& list, const auto&, auto first_row, auto) {
           return count_band(options, seen, queue, list, first_row);
         });
@@ -76,13 +77,13 @@ void inspect(const Options& options, FrameRenderer& renderer, Inspection& seen) 
 }
 
 rtapi::Result<PassTables> describe_tables(const FrameRenderer& renderer) {
-  const auto passes = renderer.ray_passes();
+  const auto passes = create_ray_passes(renderer.context());
   if (!passes) return passes.error();
   PassTables out;
   for (const auto& [name, pass] : *passes) {
     rtapi::TableDescriptionDesc desc;
     desc.Dispatch = pass.tables();
-    desc.TopLevel = renderer.gpu_scene().top_level.GetGPUVirtualAddress();
+    desc.TopLevel = renderer.context().gpu.top_level.GetGPUVirtualAddress();
     for (std::uint32_t type = 0; type < kRayTypeCount; ++type) {
       desc.RayTypes.push_back(
           {type == kRayTypeSurface ? "surface" : "visibility", type, kRayTypeCount, type});

@@ -89,7 +89,7 @@ struct Run {
   rtapi::Result<Outcome> render(const Progress& progress) {
     if (const auto s = renderer->render(progress); !is_done(s)) return s;
     double sum = 0;
-    for (const PassStatistics& pass : renderer->passes()) sum += pass.ms;
+    for (const PassStatistics& pass : renderer->runner().passes()) sum += pass.ms;
     ms.push_back(sum);
     return Outcome::kDone;
   }

@@ -22,7 +22,7 @@ rtapi::Status check_views(const Options& options, const FrameRenderer& renderer)
 }
 
 rtapi::Status add_views(const Options& options, FrameRenderer& renderer, FrameResult& result) {
-  const float exposure = renderer.scene().exposure;
+  const float exposure = renderer.context().scene.exposure;
   for (const std::string& name : options.views) {
     const auto view = find_view(name);
     if (!view.ok()) return view.error();

@@ -159,7 +159,7 @@ int write_frame(FrameRenderer& renderer, const Options& options, const FrameResu
     std::fputs(said.c_str(), stdout);
     return error.empty() ? 0 : 1;
   }
-  if (const std::string error = write_results(options, renderer.scene(), renderer, frame);
+  if (const std::string error = write_results(options, renderer.context().scene, renderer, frame);
       !error.empty()) {
     say_error(error);
     return 1;
@@ -189,7 +189,7 @@ int render_once(FrameRenderer& renderer, const Options& options) {
     if (const auto s = add_views(options, renderer, frame); !s) return report(s.error());
   }
   if (is_done(done) && options.reference > 0) {
-    done = add_reference(options, renderer.scene(), show_progress, say_error, frame);
+    done = add_reference(options, renderer.context().scene, show_progress, say_error, frame);
   }
   return is_done(done) ? write_frame(renderer, options, frame, seen) : report(done, options);
 }
@@ -201,7 +201,7 @@ int render_frames(FrameRenderer& renderer, Scene& scene, const Options& options)
     SequenceResult sequence;
     const auto done = render_sequence(renderer, scene, options, show_progress, files, sequence);
     if (!is_done(done)) return report(done, options);
-    error = add_results(options, renderer.scene(), renderer, sequence, files);
+    error = add_results(options, renderer.context().scene, renderer, sequence, files);
     if (error.empty()) error = files.publish();
     if (error.empty()) {
       remove_later_frames(options.out, options.frames);
@@ -230,7 +230,7 @@ int watch(FrameRenderer& renderer, const Options& options) {
     say_error("--watch needs the effects' shader files: name their folder in $KAAMOS_EFFECTS");
     return 1;
   }
-  ShaderWatcher watcher(folder, kaamos::effects::frame_libraries(renderer.settings()),
+  ShaderWatcher watcher(folder, kaamos::effects::frame_libraries(renderer.context().settings),
                         options.backend == "vulkan");
   std::printf("watching %s; Ctrl-C ends\n", folder.c_str());
   do {

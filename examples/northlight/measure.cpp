@@ -78,7 +78,7 @@ rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
                                      reference.name, cache_folder(options), progress, target);
     if (!is_done(made)) return made;
   }
-  if (reference.light) target.exposure = runs.renderer().scene().exposure;
+  if (reference.light) target.exposure = runs.renderer().context().scene.exposure;
   return Outcome::kDone;
 }
 
@@ -116,7 +116,7 @@ rtapi::Result<Outcome> make_compared(EffectRuns& runs, const MeasurePlan& plan,
     const auto mask = runs.mask(plan.glass);
     if (!mask) return mask.error();
     apply_mask(*mask, *out.truth);
-    if (reference.light) out.truth->exposure = runs.renderer().scene().exposure;
+    if (reference.light) out.truth->exposure = runs.renderer().context().scene.exposure;
     out.target = *out.truth;
   } else {
     const auto made = make_target(runs, plan, reference, options, progress, out.target);

@@ -114,7 +114,7 @@ FrameMoment Motion::moment(std::uint32_t frame) const {
   FrameMoment out;
   out.index = frame;
   out.seconds = is_still_ ? 0 : frame / options_.frames_per_second;
-  out.camera = evaluate_camera(path_, renderer_.scene().cameras.front(), out.seconds);
+  out.camera = evaluate_camera(path_, renderer_.context().scene.cameras.front(), out.seconds);
   out.cut = frame == 0;
   return out;
 }
@@ -156,7 +156,7 @@ rtapi::Status Motion::create_subject(const Method& method) {
                   .filters = std::make_unique<SignalFilters>(),
                   .needs_gradients = method.method == DenoiseMethod::kAdaptiveSvgf};
   for (const MeasuredSignal& signal : signals_) {
-    if (const auto s = renderer_.add_signal(*subject.filters, signal.name); !s) return s;
+    if (const auto s = renderer_.filters().add_signal(*subject.filters, signal.name); !s) return s;
   }
   DenoiseDesc desc = default_denoise(method.method);
   desc.iterations = method.iterations;
@@ -207,14 +207,14 @@ rtapi::Status Motion::look(Subject& subject, std::uint32_t frame, double ms) {
 rtapi::Status Motion::run_frame(std::uint32_t frame) {
   if (const auto s = render(frame); !is_done(s)) return s.error();
   double frame_ms = 0, gradients_ms = 0;
-  for (const PassStatistics& pass : renderer_.passes()) {
+  for (const PassStatistics& pass : renderer_.runner().passes()) {
     (pass.is_gradient ? gradients_ms : frame_ms) += pass.ms;
   }
   for (Subject& subject : subjects_) {
     double ms = frame_ms + (subject.needs_gradients ? gradients_ms : 0);
     if (subject.filters) {
       if (frame == 0) subject.filters->reset();
-      const auto took = renderer_.execute(
+      const auto took = renderer_.runner().execute(
           [&](rtapi::CommandList& list) { subject.filters->record_all(list, renderer_.frame()); });
       if (!took) return took.error();
       ms += *took;
@@ -302,8 +302,8 @@ rtapi::Status Motion::add_rows(MeasuredTable& table, const LookAt& look_at) cons
 std::vector<MeasuredSignal> measured_signals(const Options& options, const Scene& scene,
                                              const FrameRenderer& renderer) {
   std::vector<MeasuredSignal> out;
-  for (const Effect& effect : renderer.effects()) {
-    if (!effect.pass || !renderer.renders(effect.name)) continue;
+  for (const Effect& effect : renderer.context().effects) {
+    if (!effect.pass || !renderer.effects().renders(effect.name)) continue;
     const EffectSignal& signal = effect.signals.front();
     if (!signal.is_sum) continue;
     EffectSettings settings = options.effects.at(effect.name);

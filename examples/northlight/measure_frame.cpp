@@ -121,7 +121,7 @@ rtapi::Result<Outcome> FrameMeasurement::make_truth(bool is_moving) {
 // The frame's radiance by some of its signals, without what the surfaces emit.
 rtapi::Result<FloatImage> read_part(FrameRenderer& renderer, const Part& part) {
   const auto image =
-      part.signals.empty() ? renderer.read("radiance") : renderer.read_composed(part.signals);
+      part.signals.empty() ? renderer.read("radiance") : read_composed(renderer, part.signals);
   if (!image) return image.error();
   const auto emissive = renderer.read("emissive");
   if (!emissive) return emissive.error();
@@ -142,7 +142,7 @@ rtapi::Result<FloatImage> read_part(FrameRenderer& renderer, const Part& part) {
 
 rtapi::Status FrameMeasurement::compare(std::size_t method, FrameRenderer& renderer, Place place) {
   double ms = 0;
-  for (const PassStatistics& pass : renderer.passes()) ms += pass.ms;
+  for (const PassStatistics& pass : renderer.runner().passes()) ms += pass.ms;
   // The whole first: composing parts writes over it.
   for (auto part = frame_parts().rbegin(); part != frame_parts().rend(); ++part) {
     const auto image = read_part(renderer, *part);

@@ -115,8 +115,8 @@ ByteImage layer_picture(const std::string& name, const FloatImage& image, const 
     return to_bytes(distance_picture(result.layers.at("view_z")), 1, 0, true);
   }
   if (name == "base_color") return to_bytes(first_channels(image, 3), 1, 0, true);
-  if (is_light(name, renderer.effects())) {
-    return tonemap(first_channels(image, 3), renderer.scene().exposure);
+  if (is_light(name, renderer.context().effects)) {
+    return tonemap(first_channels(image, 3), renderer.context().scene.exposure);
   }
   if (name == "position") return to_bytes(first_channels(image, 3), 0.05f, 0.5f);
   return to_bytes(image.channels == 4 ? first_channels(image, 3) : image);
@@ -133,12 +133,12 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
   json["height"] = options.frame.height;
   json["seed"] = options.frame.seed;
   json["threads"] = options.threads;
-  for (const Effect& effect : renderer.effects()) {
+  for (const Effect& effect : renderer.context().effects) {
     const auto chosen = options.frame.effects.find(effect.name);
     json[effect.name + "_samples"] =
         chosen == options.frame.effects.end() ? 0 : chosen->second.samples;
   }
-  const GpuSceneStatistics& s = renderer.gpu_scene().statistics;
+  const GpuSceneStatistics& s = renderer.context().gpu.statistics;
   json["build"] = {
       {"bottom_level_ms", s.bottom_level_ms},       {"top_level_ms", s.top_level_ms},
       {"bottom_level_bytes", s.bottom_level_bytes}, {"top_level_bytes", s.top_level_bytes},
@@ -155,7 +155,7 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
                               {"bytes", pass.bytes},
                               {"mrays_per_s", pass.ms > 0 ? rays / pass.ms / 1000 : 0.0}});
   }
-  if (const auto& bake = renderer.bake()) {
+  if (const auto& bake = renderer.lights().bake()) {
     json["bake"] = {{"seconds", bake->seconds},     {"cells", bake->cells},
                     {"in_solids", bake->in_solids}, {"at_bound", bake->at_bound},
                     {"paths", bake->paths},         {"error", bake->error},
@@ -354,7 +354,7 @@ std::string describe_primary(const FrameResult& result) {
 }
 
 std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
-  const GpuSceneStatistics& s = renderer.gpu_scene().statistics;
+  const GpuSceneStatistics& s = renderer.context().gpu.statistics;
   std::string out = fmt::format(
       "{}\nscene: {} triangles ({} unique), built in {:.0f} ms, {:.1f} MiB\n\n"
       "{:<20}{:>10}{:>12}{:>12}{:>12}{:>10}{:>9}\n",
@@ -368,7 +368,7 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
                        pass.ms > 0 ? rays / pass.ms / 1000 : 0.0,
                        pass.bytes == 0 ? "" : fmt::format("{:.1f}", mebibytes(pass.bytes)));
   }
-  if (const auto& bake = renderer.bake()) {
+  if (const auto& bake = renderer.lights().bake()) {
     out += fmt::format(
         "baked {} cells in {:.1f} s with {:.0f} paths each, good to {:.1f} % on average; {:.1f} "
         "MiB\n",

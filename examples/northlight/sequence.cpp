@@ -37,12 +37,13 @@ class FlickerMeter {
       std::optional<rtapi::Texture> filtered;
     };
     std::vector<Pair> pairs;
-    const SignalFilters& filters = renderer.filters();
+    const SignalFilters& filters = renderer.filters().signals();
     for (const auto& signal : filters.signals()) {
       pairs.push_back({signal.name, signal.mean, filters.denoised(signal)});
     }
     pairs.push_back({"frame", renderer.frame().texture(kRadiance), {}});
-    if (renderer.taa() != nullptr) pairs.back().filtered = renderer.taa()->result();
+    if (renderer.composition().taa() != nullptr)
+      pairs.back().filtered = renderer.composition().taa()->result();
     const auto motion = renderer.read(renderer.frame().texture(kMotion));
     if (!motion) return motion.error();
     const auto view_z = renderer.read(renderer.frame().texture(kViewZ));
@@ -215,15 +216,16 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
     if (const auto s = flicker.measure(renderer, i == 0 || moment.cut); !s) return s.error();
     const auto error = files.add(frame_name(i), frame_picture(*radiance, scene.exposure));
     if (!error.empty()) return failure(error);
-    frame.passes = renderer.passes();
-    if (renderer.structures() != nullptr) frame.structures = *renderer.structures();
+    frame.passes = renderer.runner().passes();
+    if (renderer.scene_stage().structures() != nullptr)
+      frame.structures = *renderer.scene_stage().structures();
     frame.cut = moment.cut;
     out.frames.push_back(std::move(frame));
   }
   auto last = read_frame(renderer);
   if (!last) return last.error();
   out.last = std::move(*last);
-  out.last.passes = renderer.passes();
+  out.last.passes = renderer.runner().passes();
   if (const auto s = add_views(options, renderer, out.last); !s) return s.error();
   out.flicker = flicker.lines();
   progress("sequence", 1);

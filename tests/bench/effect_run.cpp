@@ -26,7 +26,7 @@ EffectRun::EffectRun(const std::string& effect, Fixtures& fixtures, RayOrder ord
 
 void EffectRun::sort() {
   list_.Reset().value();
-  renderer_->record_sort(list_, effect_);
+  renderer_->effects().record_sort(list_, effect_);
   renderer_->queue().ExecuteAndWait(list_).value();
 }
 

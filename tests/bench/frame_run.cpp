@@ -32,7 +32,7 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
   settings.volume.samples = 4;  // the time does not depend on what the volume holds
   renderer_ =
       effects::FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
-  renderer_->set_libraries(listening_libraries(renderer_->settings()));
+  renderer_->set_libraries(listening_libraries(renderer_->context().settings));
   renderer_->prepare().value();
   const std::vector<std::string> parts = renderer_->parts();
   if (!std::equal(parts.begin(), parts.end(), kFrameParts.begin(), kFrameParts.end())) {
@@ -44,7 +44,7 @@ void FrameRun::trace_and_shade(const std::string& part) {
   rtapi::CommandList list = device().CreateCommandList().value();
   // Each frame uses other samples, as in a sequence: to the filters, noise that stands still would
   // not be noise.
-  const effects::FrameRenderer::PartOptions options = {.first_sample = frames_++};
+  const effects::PartOptions options = {.first_sample = frames_++};
   for (const char* each : kFrameParts) {
     if (part.empty() || part == each) renderer_->record(list, each, options);
   }
@@ -53,8 +53,8 @@ void FrameRun::trace_and_shade(const std::string& part) {
 
 void FrameRun::denoise_and_compose() {
   rtapi::CommandList list = device().CreateCommandList().value();
-  renderer_->record_filters(list);
-  renderer_->record_compose(list);
+  renderer_->filters().record_rest(list);
+  renderer_->composition().record(list);
   queue().ExecuteAndWait(list).value();
 }
 

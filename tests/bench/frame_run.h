@@ -17,8 +17,8 @@ namespace kaamos::bench {
 
 // The parts of tracing and shading, in order. "lights" is their lists and shadow maps, and the
 // light that they send to each pixel.
-inline constexpr std::array kFrameParts = {"gbuffer", "ao", "sun",        "lights",
-                                           "contact", "gi", "reflections"};
+inline constexpr std::array kFrameParts = {"gbuffer", "lights", "ao",         "sun",
+                                           "contact", "gi",     "reflections"};
 
 class FrameRun {
  public:

@@ -51,7 +51,7 @@ Line paths(Fixtures& fixtures, const Measure& measure) {
       effects::FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
   const effects::Camera& camera = scene.cameras.front();
   const effects::PathTracer tracer =
-      effects::PathTracer::create(renderer->device(), renderer->frame(), renderer->gpu_scene(),
+      effects::PathTracer::create(renderer->device(), renderer->frame(), renderer->context().gpu,
                                   scene, effects::evaluate_instances(scene, 0), camera.position(),
                                   {.bounces = kBounces, .occlusion_radius = 0},
                                   effects::path_tracer_library().value())
@@ -69,8 +69,8 @@ Line paths(Fixtures& fixtures, const Measure& measure) {
   const Pairs times = time_pairs(
       measure,
       [&] {
-        renderer
-            ->execute([&](rtapi::CommandList& list) {
+        renderer->runner()
+            .execute([&](rtapi::CommandList& list) {
               tracer.record(list, renderer->frame(), 0, sample, kSamples, 0, options.height);
             })
             .value();

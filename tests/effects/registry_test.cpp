@@ -123,7 +123,7 @@ TEST(Registry, ARowIsAnEffect) {
   EXPECT_GT(open, toy.values.size() / 4 / 20);
   EXPECT_LT(open, toy.values.size() / 4 * 19 / 20);
   EXPECT_EQ(with->read("toy_denoised").value().values, toy.values);
-  EXPECT_TRUE(std::any_of(with->passes().begin(), with->passes().end(),
+  EXPECT_TRUE(std::any_of(with->runner().passes().begin(), with->runner().passes().end(),
                           [](const PassStatistics& pass) { return pass.name == "toy rays"; }));
   // On its own, with any number of samples: what is read is their mean.
   EXPECT_GT(with->run("toy", 3).value().rays, 0u);
@@ -149,7 +149,7 @@ TEST(Registry, AnAlternativeTakesTheOthersPlace) {
   ASSERT_TRUE(alone->begin_frame({.index = 1, .camera = scene.cameras.front()}));
   alone->render().value();
   EXPECT_EQ(FacingPass::frames, 2);
-  EXPECT_EQ(alone->passes().front().name, "G-buffer");
+  EXPECT_EQ(alone->runner().passes().front().name, "G-buffer");
   const FloatImage facing = alone->read("facing").value();
   EXPECT_GT(*std::max_element(facing.values.begin(), facing.values.end()), 0.99f);
   EXPECT_EQ(alone->run("facing", 1).value().rays, 0u);
@@ -159,7 +159,7 @@ TEST(Registry, AnAlternativeTakesTheOthersPlace) {
       << "the alternative is composed, and ao is a layer beside it";
   EXPECT_TRUE(both->read("ao"));
   with->render().value();
-  EXPECT_FALSE(with->renders("ao"));
+  EXPECT_FALSE(with->effects().renders("ao"));
   EXPECT_TRUE(with->read("facing"));
 }
 
@@ -195,7 +195,7 @@ TEST(Registry, WhatNothingReadsIsNotTraced) {
     const auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
     renderer->render().value();
     is_said =
-        std::any_of(renderer->left_out().begin(), renderer->left_out().end(),
+        std::any_of(renderer->context().left_out.begin(), renderer->context().left_out.end(),
                     [](const std::string& text) { return text.find("ambient occlusion") == 0; });
     const auto layers = renderer->layers();
     return std::find(layers.begin(), layers.end(), "ao") != layers.end();
@@ -235,24 +235,24 @@ TEST(Registry, MatteSurfacesReflectTheLightAroundWithoutRays) {
     return renderer;
   };
   const auto said = [](const FrameRenderer& renderer) {
-    return std::any_of(renderer.left_out().begin(), renderer.left_out().end(),
+    return std::any_of(renderer.context().left_out.begin(), renderer.context().left_out.end(),
                        [](const std::string& text) { return text.find("reflections: no") == 0; });
   };
   const auto left_out = render({"all"}), traced = render({"all", "reflections"});
-  EXPECT_FALSE(left_out->renders("reflections"));
-  EXPECT_TRUE(traced->renders("reflections"));
+  EXPECT_FALSE(left_out->effects().renders("reflections"));
+  EXPECT_TRUE(traced->effects().renders("reflections"));
   EXPECT_TRUE(said(*left_out));
   EXPECT_FALSE(said(*traced));
   const double reflected = mean_radiance(*traced);
   const double nothing = [&] {
-    traced->read_composed({"sun", "local_lights", "indirect"}).value();
+    read_composed(*traced, {"sun", "local_lights", "indirect"}).value();
     return mean_radiance(*traced);
   }();
   ASSERT_GT(reflected, nothing);
   EXPECT_NEAR(mean_radiance(*left_out), reflected, 0.2 * (reflected - nothing));
 
   scene.materials[0].constants.roughness = 0.5f;
-  EXPECT_TRUE(render({"all"})->renders("reflections"));
+  EXPECT_TRUE(render({"all"})->effects().renders("reflections"));
 }
 
 TEST(Registry, EveryRowHasItsShaderFileAndItsOwnNames) {

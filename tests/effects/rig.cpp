@@ -88,11 +88,11 @@ Pictures read(FrameRenderer& renderer, const RigOptions& options) {
     out[name] = renderer.read(name).value();
   }
   out["motion"] = renderer.read(renderer.frame().texture(kMotion)).value();
-  for (const auto& signal : renderer.filters().signals()) {
+  for (const auto& signal : renderer.filters().signals().signals()) {
     out[signal.name] = renderer.read(signal.name).value();
     out[signal.name + "_denoised"] = renderer.read(signal.name + "_denoised").value();
   }
-  if (const DirectLighting* lighting = renderer.main_lighting()) {
+  if (const DirectLighting* lighting = renderer.lights().main()) {
     out["direct"] = renderer.read(lighting->direct()).value();
     if ((options.effects & kRigContact) != 0) {
       out["local"] = renderer.read(lighting->total()).value();

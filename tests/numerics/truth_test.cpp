@@ -89,7 +89,7 @@ TEST(FrameEnergy, IsThatOfThePathTracedTruth) {
                            const std::vector<std::string>& layers) {
     double wanted = 0;
     for (const std::string& layer : layers) wanted += sum_of(truth(layer), &ids);
-    return (sum_of(renderer->read_composed(signals).value(), &ids) - emitted) / wanted;
+    return (sum_of(read_composed(*renderer, signals).value(), &ids) - emitted) / wanted;
   };
   // The whole first: composing parts writes over it.
   expect_energy("whole", sum_of(renderer->read("radiance").value()) / sum_of(truth("")), 0.97,
@@ -101,7 +101,7 @@ TEST(FrameEnergy, IsThatOfThePathTracedTruth) {
   // The filter takes a little from one ray a pixel.
   expect_energy("reflection", part_of({"reflection"}, {"reflection"}), 0.94, 1.00);
 
-  EffectSettings many = renderer->settings().effects.at("reflections");
+  EffectSettings many = renderer->context().settings.effects.at("reflections");
   many.samples = 64;
   ASSERT_TRUE(renderer->run("reflections", many).ok());
   FloatImage signal = renderer->read("reflection").value(), light = truth("reflection");

@@ -45,9 +45,8 @@ std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstant
       CompositePass::create(renderer->device(), renderer->frame(), composite_library().value())
           .value();
   const auto draw_behind = [&] {
-    renderer
-        ->execute(
-            [&](rtapi::CommandList& list) { composite.dispatch(list, renderer->frame(), {}); })
+    renderer->runner()
+        .execute([&](rtapi::CommandList& list) { composite.dispatch(list, renderer->frame(), {}); })
         .value();
   };
   draw_behind();

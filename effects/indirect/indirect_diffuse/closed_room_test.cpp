@@ -84,7 +84,7 @@ double reflected(const std::string& backend, bool lit) {
       FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
   constexpr std::uint32_t kRays = 32;
   renderer->run("reflections", kRays).value();
-  return mean_of(renderer->read(renderer->sum("reflection")).value(),
+  return mean_of(renderer->read(renderer->effects().sum("reflection")).value(),
                  renderer->read("ids").value()) /
          kRays;
 }

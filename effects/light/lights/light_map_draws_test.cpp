@@ -69,8 +69,9 @@ Rendered render(const Scene& scene, const std::string& backend, LightMaps maps,
   Rendered out;
   out.renderer = FrameRenderer::create(device, scene, settings).value();
   out.renderer->render().value();
-  out.atlas = out.renderer->read(out.renderer->lighting()->atlas()).value();
-  if (out.renderer->renders("local")) out.lit = out.renderer->read("local_lights").value();
+  out.atlas = out.renderer->read(out.renderer->lights().lighting()->atlas()).value();
+  if (out.renderer->effects().renders("local"))
+    out.lit = out.renderer->read("local_lights").value();
   return out;
 }
 

@@ -114,8 +114,8 @@ inline double rmse_of(const FloatImage& a, const FloatImage& b) {
 
 inline HitComparison compare(FrameRenderer& renderer, const std::string& signal,
                              const ScreenReflectionConstants& constants) {
-  return compare_hits(renderer.device(), renderer.queue(), renderer.frame(), renderer.gpu_scene(),
-                      renderer.sum(signal + "_hits"), constants, 0)
+  return compare_hits(renderer.device(), renderer.queue(), renderer.frame(), renderer.context().gpu,
+                      renderer.effects().sum(signal + "_hits"), constants, 0)
       .value();
 }
 

@@ -52,8 +52,8 @@ Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionCon
   const auto renderer =
       FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
   renderer->run("reflections", samples).value();
-  return {renderer->read(renderer->sum("reflection")).value(), renderer->read("position").value(),
-          renderer->read("ids").value()};
+  return {renderer->read(renderer->effects().sum("reflection")).value(),
+          renderer->read("position").value(), renderer->read("ids").value()};
 }
 
 // Single scattering loses the light that microfacets reflect onto others. The exact loss is known
@@ -246,7 +246,7 @@ struct Fires {
     double sum = 0;
     for (std::uint32_t run = 0; run < runs; ++run) {
       renderer->run("reflections", settings, run * samples).value();
-      const FloatImage image = renderer->read(renderer->sum("reflection")).value();
+      const FloatImage image = renderer->read(renderer->effects().sum("reflection")).value();
       for (std::size_t i = 0; i < image.values.size(); i += 4) sum += image.values[i];
     }
     return sum / (static_cast<double>(runs) * samples * kSize * kSize);

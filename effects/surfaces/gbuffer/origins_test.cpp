@@ -84,9 +84,9 @@ void probe(const rtapi::Device& device, const Scene& scene, Counts& counts) {
   const auto renderer = FrameRenderer::create(device, scene, settings).value();
   renderer->render().value();
   const Frame& frame = renderer->frame();
-  const GpuScene& gpu = renderer->gpu_scene();
+  const GpuScene& gpu = renderer->context().gpu;
   const std::vector<SeenTriangle> drawn =
-      read_drawn(device, renderer->queue(), frame, gpu, *renderer->raster()).value();
+      read_drawn(device, renderer->queue(), frame, gpu, *renderer->surfaces().raster()).value();
   const std::vector<SeenTriangle> traced =
       trace_seen(device, renderer->queue(), frame, gpu).value();
   const auto library = rtapi::LoadShaderLibrary(kaamos_shaders_origin_probe()).value();
@@ -94,7 +94,8 @@ void probe(const rtapi::Device& device, const Scene& scene, Counts& counts) {
   const rtapi::Texture picture =
       frame.create_picture(device, "probed", rtapi::Format::kR32G32B32A32Float).value();
   PassViews views = frame.create_pass_views(device).value();
-  views.set_shader_resource(0, renderer->raster()->depth(), rtapi::Format::kR32Float).value();
+  views.set_shader_resource(0, renderer->surfaces().raster()->depth(), rtapi::Format::kR32Float)
+      .value();
   views.set_unordered_access(0, picture).value();
   const RayPass rays =
       RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
@@ -103,8 +104,8 @@ void probe(const rtapi::Device& device, const Scene& scene, Counts& counts) {
                                      glm::vec3(0.5, -0.2, -0.8), glm::vec3(0.1, 0.2, 1.0)}) {
     const ProbeConstants constants = {glm::normalize(direction), near_plane};
     const auto probed = [&](bool is_traced) {
-      renderer
-          ->execute([&](rtapi::CommandList& list) {
+      renderer->runner()
+          .execute([&](rtapi::CommandList& list) {
             if (is_traced) {
               rays.dispatch(list, frame, {.sample_count = 1}, frame.height());
             } else {

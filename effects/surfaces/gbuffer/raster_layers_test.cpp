@@ -80,7 +80,7 @@ class Pair {
   // Pixels flip along edges because vertices snap to the rasterizer's grid, and for no other
   // reason.
   void expect_same_triangles() const {
-    const PrimaryDifference d = compare_pictures(scene_, drawn->gpu_scene(),
+    const PrimaryDifference d = compare_pictures(scene_, drawn->context().gpu,
                                                  {seen_by_draws, seen_by_rays, camera_, kHeight});
     std::printf(
         "%s: %.3g of %llu pixels differ, about %.3g expected at %.1f pixels a triangle: %llu "
@@ -172,11 +172,12 @@ class Pair {
   }
 
   void see() {
-    seen_by_draws = read_drawn(drawn->device(), drawn->queue(), drawn->frame(), drawn->gpu_scene(),
-                               *drawn->raster())
+    seen_by_draws = read_drawn(drawn->device(), drawn->queue(), drawn->frame(),
+                               drawn->context().gpu, *drawn->surfaces().raster())
                         .value();
     seen_by_rays =
-        trace_seen(traced->device(), traced->queue(), traced->frame(), traced->gpu_scene()).value();
+        trace_seen(traced->device(), traced->queue(), traced->frame(), traced->context().gpu)
+            .value();
   }
 
   Scene scene_;
@@ -258,8 +259,8 @@ TEST_P(RasterGBufferTest, DrawsTheLevelOfDetailThatRaysHit) {
     moment.camera.camera_to_world = look_at({0.3, 1.2, i == 0 ? 5.0 : 1.5}, {0, 1, 0});
     pair.render(moment);
     pair.expect_same_triangles();
-    const SceneDraw& last = pair.drawn->raster()->draws().back();
-    triangles[i] = pair.drawn->gpu_scene().geometries[last.geometry].index_count / 3;
+    const SceneDraw& last = pair.drawn->surfaces().raster()->draws().back();
+    triangles[i] = pair.drawn->context().gpu.geometries[last.geometry].index_count / 3;
   }
   EXPECT_EQ(triangles[0], coarse.triangle_count());
   EXPECT_EQ(triangles[1], fine.triangle_count());

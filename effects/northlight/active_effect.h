@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// An effect of a frame: its settings, its pictures and its passes.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/engine/compute_pass.h"
+#include "effects/engine/effect.h"
+#include "effects/engine/effect_pass.h"
+#include "effects/engine/ray_effect.h"
+#include "effects/northlight/frame_context.h"
+#include "effects/northlight/light_stage.h"
+
+namespace kaamos::effects {
+
+/// What the passes of effects read besides the G-buffer.
+struct EffectInputs {
+  const LightStage& lights;      ///< lists and maps of local lights, the volume of indirect light
+  rtapi::Texture kept_radiance;  ///< of the frame before; null: no effect of the frame reads it
+  bool is_sorted = false;        ///< rays are sorted, where a pass has keys for them
+};
+
+/// An effect that a frame renders. Its passes point into it.
+class ActiveEffect {
+ public:
+  /// The row is one of the context's; both must stay.
+  ActiveEffect(FrameContext& context, const Effect& row);
+  ActiveEffect(const ActiveEffect&) = delete;
+  ActiveEffect& operator=(const ActiveEffect&) = delete;
+
+  /// Makes pictures and passes, unless it has none: main lighting. `inputs` must stay.
+  /// @errors KA3046 it needs local lights, which are not rendered; those of the device.
+  rtapi::Status create(const EffectInputs& inputs);
+  /// The host's work of a frame. [EffectPass::begin_frame]
+  /// @errors those of the device.
+  rtapi::Status begin_frame();
+  /// Makes passes for other settings than the frame's, where these need some; they stay.
+  /// @errors KA3046 settings.trace_only without Effect::trace; those of the device.
+  rtapi::Status prepare(const EffectSettings& settings);
+
+  /// Records its samples over the whole picture, by passes that prepare made for such settings.
+  /// `constants` say which; what the settings have is filled in.
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              PassConstants constants) const;
+  /// Records what adds it to the finished radiance, if it does so itself. [Effect::compose]
+  void record_compose(rtapi::CommandList& list, const EffectSettings& settings) const;
+  /// The frame's samples in portions: by rows where it is one pass of rays, which `sorter` may put
+  /// in order; null: in that of the pixels.
+  SampledWork work(const RaySorter* sorter) const;
+  /// Some of its views, for another frame with pictures like its own. Null views: it needs none.
+  /// @errors KA3040 too many; those of the device.
+  rtapi::Result<PassViews> create_views(const Frame& frame,
+                                        const std::vector<rtapi::Texture>& pictures) const;
+
+  /// What the registry says.
+  const Effect& row() const { return row_; }
+  /// As the frame renders it.
+  const EffectSettings& settings() const { return settings_; }
+  /// Of its passes in statistics.
+  const std::string& title() const { return title_; }
+  /// False: main lighting.
+  bool has_passes() const { return row_.pass || row_.make; }
+  /// Reads the radiance that all others make.
+  bool is_late() const { return row_.needs.radiance; }
+  /// Whether it has views of the pass.
+  bool has_views() const { return needs_views_; }
+  /// Whether it adds itself to the finished radiance.
+  bool is_composed() const { return compose_.has_value(); }
+  /// Its rays, as the frame traces them; null: it is more than one pass of them.
+  const RayEffect* rays() const {
+    return passes_.empty() ? nullptr : passes_.front()->pass->rays();
+  }
+  /// By signal.
+  const std::vector<rtapi::Texture>& pictures() const { return pictures_; }
+  /// By signal; null where it is no visibility.
+  const std::vector<rtapi::Texture>& sharpness() const { return sharpness_; }
+  /// Samples that the sums hold.
+  ///@{
+  std::uint32_t samples() const { return samples_; }
+  void set_samples(std::uint32_t samples) { samples_ = samples; }
+  ///@}
+  /// Bytes of what its passes as the frame has them write or alone read.
+  std::uint64_t bytes() const;
+
+ private:
+  // What was made from some settings. The first are the frame's.
+  struct Passes {
+    EffectSettings settings;
+    PassViews views;
+    std::unique_ptr<EffectPass> pass;
+  };
+
+  rtapi::Status create_pictures();
+  rtapi::Result<PassViews> create_views(const Frame& frame,
+                                        const std::vector<rtapi::Texture>& pictures,
+                                        const GpuVolume& volume) const;
+  rtapi::Status add_passes(const EffectSettings& settings);
+  rtapi::Result<std::unique_ptr<EffectPass>> make(const EffectScope& scope);
+  bool fits(const Passes& made, const EffectSettings& settings) const;
+  const Passes* find(const EffectSettings& settings) const;
+  PassConstants complete(PassConstants constants, const EffectSettings& settings) const;
+
+  FrameContext& context_;
+  const Effect& row_;
+  EffectSettings settings_;
+  const EffectInputs* inputs_ = nullptr;
+  std::string title_;
+  bool needs_views_ = false;
+  std::vector<std::unique_ptr<Passes>> passes_;
+  std::optional<ComputePass> compose_;
+  std::vector<rtapi::Texture> pictures_, sharpness_;
+  std::uint32_t samples_ = 0;
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What puts a frame together: the radiance of all effects, and antialiasing over frames.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/composition/composite/composite.h"
+#include "effects/composition/taa/taa.h"
+#include "effects/northlight/effect_stage.h"
+#include "effects/northlight/filter_stage.h"
+#include "effects/northlight/frame_context.h"
+#include "effects/northlight/light_stage.h"
+
+namespace kaamos::effects {
+
+/// The composition of a frame.
+class ComposeStage {
+ public:
+  /// All must stay.
+  ComposeStage(FrameContext& context, LightStage& lights, const EffectStage& effects,
+               const FilterStage& filters)
+      : context_(context), lights_(lights), effects_(effects), filters_(filters) {}
+  ComposeStage(const ComposeStage&) = delete;
+  ComposeStage& operator=(const ComposeStage&) = delete;
+
+  /// Makes the passes, of a whole frame or of the sums as they are.
+  /// @errors those of ComposePass, CompositePass and TemporalAntialiasing.
+  rtapi::Status create();
+  /// Histories begin anew at a cut.
+  void begin_frame();
+  /// Records what puts the frame together.
+  void record(rtapi::CommandList& list) const;
+  /// Executes that, and antialiasing.
+  /// @errors those of the device.
+  rtapi::Status run();
+  /// Records the radiance without reflections, which late effects look at.
+  void record_unreflected(rtapi::CommandList& list) const;
+  /// Executes that.
+  /// @errors those of the device.
+  rtapi::Status run_unreflected();
+  /// Executes the frame's radiance by these signals alone, as the composition adds them to what
+  /// surfaces emit; without glass. It is written over the frame's "radiance".
+  /// @errors those of the device; KA3046 a name that is no part of the composition.
+  rtapi::Status run_some(const std::vector<std::string>& signals);
+
+  /// Null without antialiasing over frames.
+  const TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
+  /// The finished picture.
+  const rtapi::Texture& result() const {
+    return taa_ ? taa_->result() : context_.frame.texture(kRadiance);
+  }
+
+ private:
+  rtapi::Status create_whole();
+  rtapi::Result<ComposePass> create_pass(const FrameParts& parts) const;
+  rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
+  std::uint64_t bytes() const;
+
+  FrameContext& context_;
+  LightStage& lights_;
+  const EffectStage& effects_;
+  const FilterStage& filters_;
+  std::optional<CompositePass> composite_;                        // of the sums as they are, or
+  std::optional<ComposePass> compose_;                            // of a whole frame
+  std::optional<ComposePass> compose_unreflected_;                // for late effects
+  std::map<std::vector<std::string>, ComposePass> compose_some_;  // by their signals
+  rtapi::Texture black_;  // stands for indirect light that is left out
+  std::optional<TemporalAntialiasing> taa_;
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "effects/northlight/gradient_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace kaamos::effects {
+
+rtapi::Status GradientStage::create(const std::vector<std::unique_ptr<ActiveEffect>>& effects) {
+  const FrameSettings& settings = context_.settings;
+  if (settings.denoise.method != DenoiseMethod::kAdaptiveSvgf || !settings.moving) return {};
+  auto created = TemporalGradients::create(context_.device, context_.frame, context_.gpu,
+                                           denoise_libraries(context_.libraries));
+  if (!created) return created.error();
+  gradients_ = std::move(*created);
+  for (const auto& effect : effects) {
+    if (!effect->row().repeats || effect->rays() == nullptr) continue;
+    if (effects_.size() == kMostGradients) break;
+    if (const auto s = add(*effect); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status GradientStage::add(const ActiveEffect& effect) {
+  const Frame& past = gradients_->past();
+  std::vector<rtapi::Texture> pictures;
+  for (std::size_t i = 0; i < effect.pictures().size(); ++i) {
+    const EffectSignal& signal = effect.row().signals[i];
+    if (signal.picture) {
+      pictures.push_back(past.texture(*signal.picture));
+      continue;
+    }
+    const auto picture = past.create_picture(context_.device, signal.name + " again",
+                                             effect.pictures()[i].GetDesc().Format);
+    if (!picture) return picture.error();
+    pictures.push_back(*picture);
+  }
+  Repeated repeated;
+  repeated.effect = &effect;
+  if (effect.has_views()) {
+    const auto views = effect.create_views(past, pictures);
+    if (!views) return views.error();
+    repeated.views = *views;
+  }
+  const auto channel =
+      gradients_->add(context_.device, context_.frame, effect.pictures()[0], pictures[0]);
+  if (!channel) return channel.error();
+  repeated.channel = *channel;
+  effects_.push_back(std::move(repeated));
+  return {};
+}
+
+const GradientStage::Repeated* GradientStage::find(const ActiveEffect& effect) const {
+  const auto found = std::find_if(effects_.begin(), effects_.end(),
+                                  [&](const Repeated& each) { return each.effect == &effect; });
+  return found == effects_.end() ? nullptr : &*found;
+}
+
+std::optional<std::uint32_t> GradientStage::channel(const ActiveEffect& effect) const {
+  const Repeated* repeated = find(effect);
+  return repeated == nullptr ? std::nullopt : std::optional(repeated->channel);
+}
+
+rtapi::Status GradientStage::begin() {
+  if (!gradients_) return {};
+  if (context_.moment.cut) gradients_->forget();
+  if (const auto s = gradients_->follow(context_.device, context_.frame); !s) return s;
+  // A pixel must have had rays for every effect.
+  std::uint32_t step = 1, offset = 0;
+  for (const Repeated& each : effects_) {
+    const EffectSettings& settings = each.effect->settings();
+    if (settings.pixel_step == 1) continue;
+    step = settings.pixel_step;
+    offset = pixel_offset(settings, past_index_);
+  }
+  return context_.runner.run_gradient("past samples", gradients_->bytes(), [&](auto& list) {
+    gradients_->record_samples(list, context_.frame, step, offset);
+  });
+}
+
+rtapi::Status GradientStage::repeat(const ActiveEffect& effect) {
+  const Repeated* repeated = find(effect);
+  if (repeated == nullptr) return {};
+  const EffectSettings& settings = effect.settings();
+  const PassConstants constants = {.first_sample = first_sample(settings, past_index_),
+                                   .sample_count = settings.samples,
+                                   .radius = settings.radius};
+  return context_.runner.run_gradient(effect.title() + " again", 0, [&](auto& list) {
+    if (!gradients_->has_past()) return;
+    gradients_->record_again(list, effect.rays()->pass(), constants,
+                             pass_arguments(repeated->views, settings));
+  });
+}
+
+rtapi::Status GradientStage::finish() {
+  if (!gradients_) return {};
+  past_index_ = context_.moment.index;
+  return context_.runner.run_gradient("temporal gradients", gradients_->bytes(), [&](auto& list) {
+    if (gradients_->has_past()) gradients_->record_changes(list, context_.frame);
+    gradients_->record_keep(list, context_.frame);
+  });
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "effects/northlight/light_stage.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+namespace kaamos::effects {
+
+rtapi::Result<Outcome> LightStage::create(const Needs& needs, const Progress& progress) {
+  has_main_ = needs.main;
+  leaves_out_strongest_ = needs.main && needs.strongest;
+  if (const auto s = create_lighting(); !s) return s.error();
+  return create_volume(progress);
+}
+
+rtapi::Status LightStage::create_lighting() {
+  const rtapi::Device& device = context_.device;
+  const Frame& frame = context_.frame;
+  const ShaderLibraries& libraries = context_.libraries;
+  const std::uint32_t lights = count_local_lights(context_.scene);
+  const auto lighting =
+      Lighting::create(device, frame, context_.gpu, libraries.at("light/lights/lighting"), lights);
+  if (!lighting) return lighting.error();
+  lighting_ = *lighting;
+  if (context_.settings.light_maps == LightMaps::kDrawn) {
+    const auto s = lighting_->draw_maps(device, frame, context_.scene, context_.gpu,
+                                        libraries.at("light/lights/light_map_draws"));
+    if (!s) return s;
+  }
+  lighting_->see(context_.moment.camera.position());
+  if (has_main_) {
+    const auto direct =
+        DirectLighting::create(device, frame, *lighting_, libraries.at("light/direct/direct"));
+    if (!direct) return direct.error();
+    direct_ = *direct;
+  }
+  list_left_out(lights);
+  // Baking reads the shadow maps.
+  const auto updated = context_.runner.execute(
+      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame); });
+  if (!updated) return updated.error();
+  return {};
+}
+
+void LightStage::list_left_out(std::uint32_t lights) {
+  if (!has_main_ && lights == 0) {
+    context_.left_out.push_back("local lights and contact shadows: the scene has no local light");
+  }
+  const FrameSettings& settings = context_.settings;
+  for (const Effect& effect : context_.effects) {
+    if (effect.needs.glass && settings.effects.count(effect.name) != 0 &&
+        !is_rendered(context_.scene, settings, context_.effects, effect.name) &&
+        !has_glass(context_.scene)) {
+      context_.left_out.push_back(effect.about + ": the scene has none");
+    }
+  }
+}
+
+bool LightStage::reads_volume() const {
+  const FrameSettings& settings = context_.settings;
+  return settings.whole_frame &&
+         std::any_of(context_.effects.begin(), context_.effects.end(), [&](const Effect& effect) {
+           return effect.needs.volume &&
+                  is_rendered(context_.scene, settings, context_.effects, effect.name);
+         });
+}
+
+rtapi::Result<Outcome> LightStage::create_volume(const Progress& progress) {
+  const VolumeSettings& wanted = context_.settings.volume;
+  IndirectVolume volume;
+  if (!reads_volume()) {
+    context_.left_out.push_back("the volume of indirect light: no effect reads it");
+  } else if (wanted.given) {
+    volume = *wanted.given;
+  } else if (!wanted.file.empty() && std::filesystem::exists(wanted.file)) {
+    auto loaded = load_volume(wanted.file);
+    if (!loaded.ok()) return loaded.error();
+    volume = std::move(loaded.value());
+  } else if (const auto baked = bake_volume(volume, progress); !is_done(baked)) {
+    return baked;
+  }
+  const glm::dvec3 origin = context_.moment.camera.position();
+  const auto uploaded = GpuVolume::create(context_.device, volume, origin);
+  if (!uploaded) return uploaded.error();
+  gpu_volume_ = *uploaded;
+  const auto none = GpuVolume::create(context_.device, {}, origin);
+  if (!none) return none.error();
+  no_volume_ = *none;
+  has_volume_ = reads_volume();
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> LightStage::bake_volume(IndirectVolume& volume, const Progress& progress) {
+  const VolumeSettings& wanted = context_.settings.volume;
+  auto laid_out = layout_volume(context_.scene, wanted.cell);
+  if (!laid_out.ok()) return laid_out.error();
+  volume = std::move(laid_out.value());
+  if (!wanted.cell && volume.cell != kVolumeCell) {
+    std::ostringstream text;
+    text << "cells of " << kVolumeCell << " m in the volume of indirect light: the scene is large, "
+         << volume.cells.size() << " cells of " << volume.cell << " m bake faster (--gi-cell "
+         << kVolumeCell << ")";
+    context_.left_out.push_back(text.str());
+  }
+  const BakeDesc desc = {wanted.samples, wanted.error, wanted.bounces,
+                         wanted.seed.value_or(context_.settings.seed), wanted.lights};
+  bake_.emplace();
+  const auto step = [&](double done) { return !progress || progress("indirect light", done); };
+  const auto baked = effects::bake_volume(
+      context_.device, context_.runner.queue(), context_.frame, context_.gpu, context_.scene,
+      *lighting_, context_.moment.camera.position(),
+      context_.libraries.at("indirect/indirect_diffuse/volume_bake"), desc, volume, &*bake_, step);
+  if (!is_done(baked) || wanted.file.empty()) return baked;
+  if (const auto saved = save_volume(wanted.file, volume); !saved.ok()) {
+    return saved.error();
+  }
+  return Outcome::kDone;
+}
+
+void LightStage::begin_frame() {
+  gpu_volume_.set_origin(context_.moment.camera.position());
+}
+
+void LightStage::record(rtapi::CommandList& list) {
+  lighting_->see(context_.moment.camera.position());
+  lighting_->update(list, context_.frame);
+  if (direct_) {
+    direct_->dispatch(list, context_.frame, leaves_out_strongest_, context_.settings.light_culling);
+  }
+}
+
+rtapi::Status LightStage::run() {
+  const std::uint64_t bytes = direct_ ? direct_->bytes() : lighting_->bytes();
+  return context_.runner.run("local lights", bytes, [&](auto& list) { record(list); });
+}
+
+void LightStage::record_strongest(rtapi::CommandList& list) const {
+  if (leaves_out_strongest_) {
+    direct_->add_strongest(list, context_.frame, context_.settings.contact);
+  }
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The lights of a frame: lists and shadow maps of local lights, main lighting, and the volume of
+/// indirect light.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "effects/indirect/indirect_diffuse/volume.h"
+#include "effects/light/direct/direct.h"
+#include "effects/light/lights/lighting.h"
+#include "effects/northlight/frame_context.h"
+
+namespace kaamos::effects {
+
+/// What a whole frame has for effects that shade; other frames have none of it.
+class LightStage {
+ public:
+  /// What effects ask of main lighting.
+  struct Needs {
+    bool main = false;       ///< a picture of all local lights
+    bool strongest = false;  ///< the strongest lights of each pixel are added later
+  };
+
+  /// The context must stay.
+  explicit LightStage(FrameContext& context) : context_(context) {}
+  LightStage(const LightStage&) = delete;
+  LightStage& operator=(const LightStage&) = delete;
+
+  /// Makes all of it, and bakes or reads the volume.
+  /// @errors KA3041 more than 4,096 local lights; KA3045 a volume file that cannot be read or
+  /// written; those of the device.
+  rtapi::Result<Outcome> create(const Needs& needs, const Progress& progress);
+  /// Follows the camera, before anything is recorded.
+  void begin_frame();
+  /// Records the lists, the maps and main lighting.
+  void record(rtapi::CommandList& list);
+  /// Executes that as a pass of the frame.
+  /// @errors those of the device.
+  rtapi::Status run();
+  /// Records the strongest lights, added with the visibility that was summed up last. Nothing where
+  /// main lighting has them already.
+  void record_strongest(rtapi::CommandList& list) const;
+  /// Sets that visibility. [DirectLighting::set_contact]
+  /// @errors those of PassViews::set_unordered_access.
+  rtapi::Status set_contact(const rtapi::Texture& contact) { return direct_->set_contact(contact); }
+
+  /// Lists and shadow maps of local lights. Null: no whole frame, or none before prepare.
+  const Lighting* lighting() const { return lighting_ ? &*lighting_ : nullptr; }
+  /// Null: no local lights.
+  const DirectLighting* main() const { return direct_ ? &*direct_ : nullptr; }
+  /// The light of all local lights. Precondition: main lighting is there.
+  const rtapi::Texture& picture() const {
+    return leaves_out_strongest_ ? direct_->total() : direct_->direct();
+  }
+  /// Whether an effect of this frame reads the volume of indirect light.
+  bool reads_volume() const;
+  /// Null: no effect of this frame reads it, or none before prepare.
+  const GpuVolume* volume() const { return has_volume_ ? &gpu_volume_ : nullptr; }
+  /// The volume, and one without any light.
+  ///@{
+  const GpuVolume& gpu_volume() const { return gpu_volume_; }
+  const GpuVolume& no_volume() const { return no_volume_; }
+  ///@}
+  /// What baking it took; empty if nothing was baked.
+  const std::optional<BakeStatistics>& bake() const { return bake_; }
+
+ private:
+  rtapi::Status create_lighting();
+  void list_left_out(std::uint32_t lights);
+  rtapi::Result<Outcome> create_volume(const Progress& progress);
+  rtapi::Result<Outcome> bake_volume(IndirectVolume& volume, const Progress& progress);
+
+  FrameContext& context_;
+  std::optional<Lighting> lighting_;
+  std::optional<DirectLighting> direct_;
+  bool has_main_ = false, leaves_out_strongest_ = false, has_volume_ = false;
+  GpuVolume gpu_volume_, no_volume_;
+  std::optional<BakeStatistics> bake_;
+};
+
+}  // namespace kaamos::effects
