@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/lower/atomics.h"
+
+#include "runtime/hlsl/check/lower/lowerer.h"
+#include "runtime/hlsl/ir/builtin_functions.h"
+
+namespace kaamos::hlsl {
+
+Value Atomics::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
+                           std::span<Value> arguments, SourceLocation location) {
+  size_t index = 0;
+  statement->atomic = rule.op;
+  // Floats are exchanged as their bits.
+  const bool is_float = is_floating(type->scalar);
+  const ir::Type* memory_type = is_float ? types_.scalar(Scalar::kUint32)->ir : type->ir;
+  const auto operand = [&](const Value& argument) {
+    const ir::Expr* value = lower_.conversions.convert(argument, type, argument.location);
+    return value && is_float ? build_.intrinsic(Intrinsic::asuint, memory_type, {value}) : value;
+  };
+  if (rule.has_compare) {
+    statement->compare = operand(arguments[index]);
+    if (!statement->compare) return error_value();
+    ++index;
+  }
+  statement->value = operand(arguments[index]);
+  if (!statement->value) return error_value();
+  ++index;
+  at(location);
+  if (index == arguments.size()) {
+    body_.emit(statement);
+    return rvalue(build_.int32(0), types_.void_type());
+  }
+  Value& original = arguments[index];
+  if (!lower_.bit_fields.require_whole_field(original, original.location,
+                                             "the original value of an atomic operation")) {
+    return error_value();
+  }
+  if (!lower_.places.require_place(original, original.location,
+                                   "the original value of an atomic operation")) {
+    return error_value();
+  }
+  size_t position = body_.block->size();
+  lower_.places.freeze(original, &position);
+  const ir::Variable* result = body_.empty_temporary(memory_type);
+  statement->result = result;
+  body_.emit(statement);
+  const ir::Expr* before = build_.read(result);
+  if (is_float) before = build_.intrinsic(Intrinsic::asfloat, type->ir, {before});
+  lower_.places.store(original, lower_.conversions.convert(rvalue(before, type), original.type,
+                                                           original.location, true));
+  return rvalue(build_.int32(0), types_.void_type());
+}
+
+Value Atomics::call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
+                                SourceLocation location) {
+  const size_t lowest = 2 + (rule.has_compare ? 1 : 0) + (rule.needs_result ? 1 : 0);
+  const size_t highest = 2 + (rule.has_compare ? 1 : 0) + (rule.has_result ? 1 : 0);
+  if (!lower_.intrinsics.check_count(rule.name, arguments.size(), lowest, highest, location))
+    return error_value();
+  Value target = arguments[0];
+  if (!lower_.bit_fields.require_whole_field(target, target.location,
+                                             "the target of an atomic operation") ||
+      !lower_.places.require_place(target, target.location, "the target of an atomic operation")) {
+    return error_value();
+  }
+  const Type* type = target.type;
+  const bool integer = type->is_scalar() && is_integer(type->scalar) &&
+                       scalar_bytes(type->scalar, ScalarStorage::kBuffer) >= 4;
+  const bool exchanges_float = type->is_scalar() &&
+                               plain_scalar(type->scalar) == Scalar::kFloat32 &&
+                               (rule.on_floats || rule.op == ir::AtomicOp::kExchange);
+  if (rule.on_floats ? !exchanges_float : !integer && !exchanges_float) {
+    report(CheckId::kAtomicType, target.location, {std::string(rule.name), to_string(type)});
+    return error_value();
+  }
+  if (exchanges_float && target.kind != ValueKind::kMemory) {
+    report(
+        CheckId::kUnsupported, target.location,
+        {"'" + std::string(rule.name) + "' on a float that is not in a structured or raw buffer"});
+    return error_value();
+  }
+  ir::Stmt* statement = build_.stmt(ir::StmtKind::kAtomic);
+  if (target.kind == ValueKind::kTyped && !target.whole) {
+    statement->target = ir::AtomicTarget::kTyped;
+    statement->operands = {target.expr, target.coordinates};
+  } else if (target.kind == ValueKind::kMemory) {
+    const ir::Expr* offset =
+        target.whole
+            ? build_.add(target.offset, lower_.places.component_bytes(target, target.components[0]))
+            : target.offset;
+    if (target.element) {
+      statement->target = ir::AtomicTarget::kElement;
+      statement->operands = {target.expr, target.element, offset};
+    } else {
+      statement->target = ir::AtomicTarget::kMemory;
+      statement->operands = {target.expr, offset};
+    }
+  } else {
+    const ir::Expr* root = target.kind == ValueKind::kExpr ? target.expr : nullptr;
+    while (root && root->kind != ir::ExprKind::kVariable) {
+      root = root->operands.empty() ? nullptr : root->operands[0];
+    }
+    if (!root || root->variable->storage != ir::Storage::kGroupShared) {
+      report(CheckId::kAtomicTarget, target.location, {std::string(rule.name)});
+      return error_value();
+    }
+    statement->target = ir::AtomicTarget::kPlace;
+    statement->place = target.expr;
+  }
+  return emit_atomic(rule, statement, type, std::span(arguments).subspan(1), location);
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Operators, those that structs define too.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "runtime/hlsl/check/lower/lower_part.h"
+
+namespace kaamos::hlsl {
+
+class Operators : LowerPart {
+ public:
+  using LowerPart::LowerPart;
+
+  Value lower_unary(const UnaryExpr* expr);
+  Value lower_binary(const BinaryExpr* expr);
+  Value lower_assign(const AssignExpr* expr);
+  Value lower_conditional(const ConditionalExpr* expr);
+  Value binary_value(BinaryOp op, const Value& left, const Value& right, SourceLocation location);
+  // The common type of two operands of one numeric shape; reports an error and returns null if
+  // there is none.
+  const Type* common_type(const Type* a, const Type* b, SourceLocation location, bool& truncates);
+  std::optional<Value> overloaded_operator(std::string_view name, const Value& left,
+                                           std::vector<Value> arguments, SourceLocation location);
+
+ private:
+  Value lower_increment(const UnaryExpr* expr, const Value& operand);
+  Value lower_logical(const BinaryExpr* expr);
+};
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/lower/packed_numbers.h"
+
+#include <array>
+
+#include "runtime/hlsl/check/lower/lowerer.h"
+
+namespace kaamos::hlsl {
+
+bool PackedNumbers::is_packed_intrinsic(std::string_view name) {
+  return name == "AddUint64" || name == "dot2add" || name == "dot4add_u8packed" ||
+         name == "dot4add_i8packed";
+}
+
+Value PackedNumbers::call_packed(std::string_view name, std::vector<Value>& arguments,
+                                 SourceLocation location) {
+  const bool is_sum = name == "AddUint64";
+  if (!lower_.intrinsics.check_count(name, arguments.size(), is_sum ? 2 : 3, is_sum ? 2 : 3,
+                                     location)) {
+    return error_value();
+  }
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const Type* type = arguments[i].type;
+    if (type && (type->is_numeric() || type->is_enum())) continue;
+    report(CheckId::kIntrinsicArgument, arguments[i].location,
+           {std::to_string(i + 1), std::string(name), "a number or a vector",
+            type ? to_string(type) : "a resource"});
+    return error_value();
+  }
+  return is_sum              ? add_uint64(arguments, location)
+         : name == "dot2add" ? dot_of_halves(arguments, location)
+                             : dot_of_bytes(name, arguments, location);
+}
+
+// Each pair of components is the low and the high half of a number.
+Value PackedNumbers::add_uint64(std::vector<Value>& arguments, SourceLocation location) {
+  const Type* given = arguments[0].type;
+  if (!given->is_vector() || (given->columns != 2 && given->columns != 4)) {
+    report(CheckId::kIntrinsicArgument, arguments[0].location,
+           {"1", "AddUint64", "uint2 or uint4", to_string(given)});
+    return error_value();
+  }
+  const Type* type = types_.vector(Scalar::kUint32, given->columns);
+  std::array<const ir::Expr*, 2> operands;
+  for (size_t i = 0; i < 2; ++i) {
+    const ir::Expr* operand = lower_.conversions.convert(arguments[i], type, arguments[i].location);
+    if (!operand) return error_value();
+    operands[i] = build_.read(body_.temporary(operand));
+  }
+  at(location);
+  std::vector<const ir::Expr*> parts;
+  for (uint8_t low = 0; low < given->columns; low = static_cast<uint8_t>(low + 2)) {
+    const auto half = [&](size_t operand, uint8_t component) {
+      return build_.swizzle(operands[operand], {component});
+    };
+    const uint8_t high = static_cast<uint8_t>(low + 1);
+    const ir::Expr* sum =
+        build_.read(body_.temporary(build_.binary(ir::BinaryOp::kAdd, half(0, low), half(1, low))));
+    const ir::Expr* carry =
+        build_.convert(build_.binary(ir::BinaryOp::kLess, sum, half(0, low)), Scalar::kUint32);
+    parts.push_back(sum);
+    parts.push_back(build_.binary(ir::BinaryOp::kAdd,
+                                  build_.binary(ir::BinaryOp::kAdd, half(0, high), half(1, high)),
+                                  carry));
+  }
+  return rvalue(build_.construct(type->ir, std::move(parts)), type);
+}
+
+// a.x * b.x + a.y * b.y + c in float; the products are exact.
+Value PackedNumbers::dot_of_halves(std::vector<Value>& arguments, SourceLocation location) {
+  if (!names_.options().native_16bit) {
+    report(CheckId::kNeeds16Bit, location, {"dot2add"});
+    return error_value();
+  }
+  const Type* half2 = types_.vector(Scalar::kFloat16, 2);
+  const Type* result = types_.scalar(Scalar::kFloat32);
+  std::array<const ir::Expr*, 2> operands;
+  for (size_t i = 0; i < 2; ++i) {
+    const ir::Expr* operand =
+        lower_.conversions.convert(arguments[i], half2, arguments[i].location);
+    if (!operand) return error_value();
+    operands[i] = build_.read(body_.temporary(build_.convert(operand, Scalar::kFloat32)));
+  }
+  const ir::Expr* sum = lower_.conversions.convert(arguments[2], result, arguments[2].location);
+  if (!sum) return error_value();
+  at(location);
+  const auto product = [&](uint8_t component) {
+    return build_.binary(ir::BinaryOp::kMultiply, build_.swizzle(operands[0], {component}),
+                         build_.swizzle(operands[1], {component}));
+  };
+  const ir::Expr* dot = build_.binary(ir::BinaryOp::kAdd, product(0), product(1));
+  return rvalue(build_.binary(ir::BinaryOp::kAdd, dot, sum), result);
+}
+
+// The sum of four products of bytes, and the accumulator.
+Value PackedNumbers::dot_of_bytes(std::string_view name, std::vector<Value>& arguments,
+                                  SourceLocation location) {
+  const bool is_signed = name == "dot4add_i8packed";
+  const Type* packed = types_.scalar(Scalar::kUint32);
+  const Type* result = types_.scalar(is_signed ? Scalar::kInt32 : Scalar::kUint32);
+  std::array<const ir::Expr*, 2> operands;
+  for (size_t i = 0; i < 2; ++i) {
+    const ir::Expr* operand =
+        lower_.conversions.convert(arguments[i], packed, arguments[i].location);
+    if (!operand) return error_value();
+    operands[i] = build_.read(body_.temporary(build_.convert(operand, result->ir->scalar)));
+  }
+  const ir::Expr* sum = lower_.conversions.convert(arguments[2], result, arguments[2].location);
+  if (!sum) return error_value();
+  at(location);
+  const auto number = [&](uint64_t value) {
+    return is_signed ? build_.int32(static_cast<int64_t>(value)) : build_.uint32(value);
+  };
+  // An arithmetic shift to the right extends the sign.
+  const auto byte = [&](size_t operand, uint64_t i) {
+    const ir::Expr* top =
+        build_.binary(ir::BinaryOp::kShiftLeft, operands[operand], number(24 - 8 * i));
+    return build_.binary(ir::BinaryOp::kShiftRight, top, number(24));
+  };
+  for (uint64_t i = 0; i < 4; ++i) {
+    sum = build_.binary(ir::BinaryOp::kAdd, sum,
+                        build_.binary(ir::BinaryOp::kMultiply, byte(0, i), byte(1, i)));
+  }
+  return rvalue(sum, result);
+}
+
+}  // namespace kaamos::hlsl

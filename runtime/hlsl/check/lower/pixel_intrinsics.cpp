@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/lower/pixel_intrinsics.h"
+
+#include <utility>
+
+#include "runtime/hlsl/check/lower/lowerer.h"
+#include "runtime/hlsl/ir/builtin_types.h"
+
+namespace kaamos::hlsl {
+
+using shader::WaveOp;
+
+const ir::Expr* PixelIntrinsics::quad_value(WaveOp op, const ir::Expr* operand) {
+  ir::Expr* node = build_.expr(ir::ExprKind::kQuad, operand->type, {operand});
+  node->wave = op;
+  if (body_.function) body_.function->quads.push_back(node);
+  return node;
+}
+
+Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Value>& arguments,
+                                           SourceLocation location) {
+  if (!lower_.intrinsics.check_count(name, arguments.size(), 1, 1, location)) return error_value();
+  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  const Type* type = arguments[0].type;
+  if (!type || !type->is_numeric()) {
+    report(CheckId::kIntrinsicArgument, arguments[0].location,
+           {"1", std::string(name), "a number, a vector or a matrix",
+            type ? to_string(type) : "a resource"});
+    return error_value();
+  }
+  type = types_.settled(type);
+  if (!is_floating(type->scalar) || type->scalar == Scalar::kFloat64) {
+    type = types_.with_scalar(type, Scalar::kFloat32);
+  }
+  const ir::Expr* operand = lower_.conversions.convert(arguments[0], type, arguments[0].location);
+  if (!operand) return error_value();
+  at(location);
+  operand = body_.repeatable(operand);
+  std::vector<const ir::Expr*> rows;  // of a matrix
+  for (uint8_t row = 0; row < type->rows; ++row) {
+    std::vector<uint8_t> components;
+    for (uint8_t column = 0; column < type->columns; ++column) {
+      components.push_back(static_cast<uint8_t>(row * 4 + column));
+    }
+    rows.push_back(build_.matrix_swizzle(operand, components));
+  }
+  if (rows.empty()) rows.push_back(operand);
+  if (name == "clip") {
+    const ir::Expr* negative = nullptr;
+    for (const ir::Expr* row : rows) {
+      const ir::Expr* less = build_.binary(ir::BinaryOp::kLess, row, build_.zero(row->type));
+      const ir::Type* flag = build_.scalar_type(Scalar::kBool);
+      const ir::Expr* any = build_.intrinsic(Intrinsic::any, flag, {less});
+      negative = negative ? build_.binary(ir::BinaryOp::kBitOr, negative, any) : any;
+    }
+    ir::Stmt* condition = build_.stmt(ir::StmtKind::kIf);
+    condition->value = negative;
+    condition->body.push_back(build_.stmt(ir::StmtKind::kDiscard));
+    body_.emit(condition);
+    return rvalue(build_.int32(0), types_.void_type());
+  }
+  const bool across = name.starts_with("ddx");
+  const WaveOp op = name.ends_with("_fine") ? (across ? WaveOp::kDdxFine : WaveOp::kDdyFine)
+                                            : (across ? WaveOp::kDdxCoarse : WaveOp::kDdyCoarse);
+  for (const ir::Expr*& row : rows) {
+    if (name != "fwidth") {
+      row = quad_value(op, row);
+      continue;
+    }
+    const auto length = [&](WaveOp which) {
+      return build_.intrinsic(Intrinsic::abs, row->type, {quad_value(which, row)});
+    };
+    row = build_.binary(ir::BinaryOp::kAdd, length(WaveOp::kDdxCoarse), length(WaveOp::kDdyCoarse));
+  }
+  return rvalue(type->is_matrix() ? build_.construct(type->ir, rows) : rows[0], type);
+}
+
+void PixelIntrinsics::use_implicit_level(std::string_view name, ir::Expr* sample,
+                                         SourceLocation location) {
+  sample->implicit_level = true;
+  if (!body_.function) return;
+  body_.function->stage_uses.push_back({location.raw, name, ir::kStagePixel, true});
+  body_.function->implicit_levels.push_back(sample);
+}
+
+Value PixelIntrinsics::call_level_of_detail(const Value& object, bool clamped,
+                                            std::vector<Value>& arguments,
+                                            SourceLocation location) {
+  const std::string_view name =
+      clamped ? "CalculateLevelOfDetail" : "CalculateLevelOfDetailUnclamped";
+  if (!lower_.intrinsics.check_count(name, arguments.size(), 2, 2, location)) return error_value();
+  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  const ResourceTraits& traits = traits_of(object.type->resource);
+  const uint32_t size = traits.coordinates - (traits.is_array ? 1u : 0u);
+  const ir::Expr* resource = lower_.places.load(object);
+  const bool compares = arguments[0].type && arguments[0].type->is_resource() &&
+                        arguments[0].type->resource == ir::ResourceKind::kSamplerComparison;
+  const auto kind = compares ? ir::ResourceKind::kSamplerComparison : ir::ResourceKind::kSampler;
+  const ir::Expr* sampler = lower_.conversions.convert(arguments[0], types_.resource(kind, nullptr),
+                                                       arguments[0].location);
+  const ir::Expr* coordinates =
+      lower_.resources.to_vector(arguments[1], Scalar::kFloat32, size, arguments[1].location);
+  if (!resource || !sampler || !coordinates) return error_value();
+  at(location);
+  if (traits.is_array) {
+    std::vector<const ir::Expr*> parts = {coordinates,
+                                          build_.zero(build_.scalar_type(Scalar::kFloat32))};
+    coordinates =
+        build_.construct(build_.vector_type(Scalar::kFloat32, size + 1), std::move(parts));
+  }
+  const Type* type = types_.scalar(Scalar::kFloat32);
+  ir::Expr* level = build_.expr(ir::ExprKind::kSample, type->ir, {resource, sampler, coordinates});
+  level->sample = ir::SampleKind::kLevelOfDetail;
+  level->implicit_level = true;
+  if (!clamped) return rvalue(level, type);
+  const ir::Expr* sizes =
+      build_.expr(ir::ExprKind::kDimensions, build_.vector_type(Scalar::kUint32, 4),
+                  {resource, build_.uint32(0)});
+  const ir::Expr* mips = build_.convert(build_.swizzle(sizes, {3}), Scalar::kFloat32);
+  const ir::Expr* last = build_.binary(ir::BinaryOp::kSubtract, mips,
+                                       build_.convert(build_.uint32(1), Scalar::kFloat32));
+  const ir::Expr* lowest = build_.zero(type->ir);
+  return rvalue(build_.intrinsic(Intrinsic::clamp, type->ir, {level, lowest, last}), type);
+}
+
+}  // namespace kaamos::hlsl

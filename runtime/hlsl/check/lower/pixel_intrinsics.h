@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// What needs the quad of a pixel shader: derivatives, implicit levels of detail; and clip. What is
+// made of them here stays an expression until it is known which stages reach it.
+// [builder/finish/pixel_functions.h]
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "runtime/hlsl/check/lower/lower_part.h"
+
+namespace kaamos::hlsl {
+
+class PixelIntrinsics : LowerPart {
+ public:
+  using LowerPart::LowerPart;
+
+  Value call_pixel_function(std::string_view name, std::vector<Value>& arguments,
+                            SourceLocation location);
+  Value call_level_of_detail(const Value& object, bool clamped, std::vector<Value>& arguments,
+                             SourceLocation location);
+  void use_implicit_level(std::string_view name, ir::Expr* sample, SourceLocation location);
+
+ private:
+  const ir::Expr* quad_value(shader::WaveOp op, const ir::Expr* operand);
+};
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Intrinsics that only ray tracing shaders have. [DXR: Ray tracing HLSL intrinsics]
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "runtime/hlsl/check/lower/lower_part.h"
+#include "runtime/hlsl/ir/builtin_functions.h"
+
+namespace kaamos::hlsl {
+
+class RayIntrinsics : LowerPart {
+ public:
+  using LowerPart::LowerPart;
+
+  Value call_system_value(const SystemValueRule& rule, SourceLocation location);
+  Value call_trace_ray(std::vector<Value>& arguments, SourceLocation location);
+  Value call_call_shader(std::vector<Value>& arguments, SourceLocation location);
+  Value call_report_hit(std::vector<Value>& arguments, SourceLocation location);
+
+ private:
+  const ir::Variable* pass_by_reference(const Value& value, std::string_view what,
+                                        SourceLocation location, bool& copied);
+  void emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
+                  SourceLocation location);
+};
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/names/declarations.h"
+
+#include <algorithm>
+
+#include "runtime/hlsl/check/names/name_parts.h"
+#include "runtime/hlsl/ir/builtin_functions.h"
+
+namespace kaamos::hlsl {
+
+void Declarations::declare_builtins() {
+  const auto make = [&](std::string_view name,
+                        std::initializer_list<std::pair<std::string_view, const Type*>> fields) {
+    StructInfo* info = parts_.structs.make_struct(nullptr, program_.global, std::string(name));
+    for (const auto& [field_name, type] : fields) {
+      FieldInfo& field = info->fields.emplace_back();
+      field.name = field_name;
+      field.type = type;
+      field.index = static_cast<uint32_t>(info->ir->fields.size());
+      ir::Field& ir_field = info->ir->fields.emplace_back();
+      ir_field.name = field_name;
+      ir_field.type = type->ir;
+      Symbol* symbol = scopes_.add_symbol(info->scope, SymbolKind::kField, field_name, {});
+      symbol->field = field.index;
+    }
+    info->complete = true;
+    Symbol* symbol = scopes_.add_symbol(program_.global, SymbolKind::kType, name, {});
+    symbol->type = info->type;
+    symbol->scope = info->scope;
+    return info;
+  };
+  const Type* scalar = types_.scalar(Scalar::kFloat32);
+  const Type* vector = types_.vector(Scalar::kFloat32, 3);
+  program_.ray_desc = make(
+      "RayDesc", {{"Origin", vector}, {"TMin", scalar}, {"Direction", vector}, {"TMax", scalar}});
+  bench_.module.ray_desc = program_.ray_desc->ir;
+  make("BuiltInTriangleIntersectionAttributes",
+       {{"barycentrics", types_.vector(Scalar::kFloat32, 2)}});
+  const Type* flags = types_.scalar(Scalar::kUint32);
+  for (size_t i = 0; i < kBuiltinConstantCount; ++i) {
+    Symbol* symbol =
+        scopes_.add_symbol(program_.global, SymbolKind::kConstant, kBuiltinConstants[i].name, {});
+    symbol->type = flags;
+    symbol->value = build_.uint32(kBuiltinConstants[i].value);
+  }
+  for (const std::string_view name :
+       {"RAY_FLAG", "RAYQUERY_FLAG", "CANDIDATE_TYPE", "COMMITTED_STATUS"}) {
+    scopes_.add_symbol(program_.global, SymbolKind::kType, name, {})->type = flags;
+  }
+}
+
+void Declarations::declare_all(std::span<const Decl* const> declarations, Scope* scope) {
+  for (const Decl* declaration : declarations) declare(declaration, scope);
+}
+
+void Declarations::declare(const Decl* declaration, Scope* scope) {
+  if (bench_.depth > 100) return;
+  ++bench_.depth;
+  switch (declaration->kind) {
+    case DeclKind::kVariable:
+      parts_.variables.declare_variable(static_cast<const VariableDecl*>(declaration), scope);
+      break;
+    case DeclKind::kFunction:
+      parts_.functions.declare_function(static_cast<const FunctionDecl*>(declaration), scope,
+                                        nullptr);
+      break;
+    case DeclKind::kStruct:
+      parts_.structs.declare_struct(static_cast<const StructDecl*>(declaration), scope);
+      break;
+    case DeclKind::kEnum:
+      parts_.enums.declare_enum(static_cast<const EnumDecl*>(declaration), scope);
+      break;
+    case DeclKind::kBuffer:
+      parts_.bindings.declare_buffer(static_cast<const BufferDecl*>(declaration), scope);
+      break;
+    case DeclKind::kNamespace:
+      declare_namespace(static_cast<const NamespaceDecl*>(declaration), scope);
+      break;
+    case DeclKind::kTypeAlias:
+      declare_alias(static_cast<const TypeAliasDecl*>(declaration), scope);
+      break;
+    case DeclKind::kUsingNamespace: {
+      const auto* decl = static_cast<const UsingNamespaceDecl*>(declaration);
+      // `dx` exists before Shader Model 6.9, where it is empty.
+      const bool is_dx = decl->target->is_simple() && decl->target->last().identifier == "dx";
+      Symbol* symbol = parts_.resolver.resolve_name(*decl->target, scope, is_dx);
+      if (symbol && symbol->kind != SymbolKind::kNamespace) {
+        report(CheckId::kNotANamespace, decl->location, {Scopes::spell(*decl->target)});
+      } else if (symbol) {
+        scope->used.push_back(symbol->scope);
+      }
+      break;
+    }
+    case DeclKind::kUsing: {
+      const auto* decl = static_cast<const UsingDecl*>(declaration);
+      declare_using(*decl->target, scope, decl->location);
+      break;
+    }
+    case DeclKind::kSubobject:
+      parts_.on_subobject(static_cast<const SubobjectDecl*>(declaration));
+      break;
+    case DeclKind::kParameter:
+      break;
+  }
+  --bench_.depth;
+}
+
+void Declarations::declare_namespace(const NamespaceDecl* decl, Scope* scope) {
+  Symbol* symbol = decl->name.empty() ? nullptr : scopes_.find_local(scope, decl->name);
+  if (symbol && symbol->kind != SymbolKind::kNamespace) {
+    report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
+    return;
+  }
+  if (!symbol) {
+    Scope* inner = scopes_.make_scope(ScopeKind::kNamespace, scope, decl->name);
+    if (decl->name.empty()) {
+      scope->used.push_back(inner);
+      declare_all(decl->declarations, inner);
+      return;
+    }
+    symbol = scopes_.add_symbol(scope, SymbolKind::kNamespace, decl->name, decl->location);
+    symbol->scope = inner;
+  }
+  declare_all(decl->declarations, symbol->scope);
+}
+
+void Declarations::declare_alias(const TypeAliasDecl* decl, Scope* scope) {
+  if (decl->is_template) {
+    Symbol* symbol =
+        scopes_.add_symbol(scope, SymbolKind::kAliasTemplate, decl->name, decl->location);
+    symbol->alias = decl;
+    symbol->scope = scope;
+    return;
+  }
+  const Type* type = parts_.resolver.resolve_type(decl->type, scope);
+  if (Symbol* before = scopes_.find_local(scope, decl->name)) {
+    const bool same = before->kind == SymbolKind::kType && same_type(before->type, type);
+    if (same || type->is_error()) return;
+    // Redeclaring the same type is fine: `typedef struct S { .. } S;`, or an injected name.
+    report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
+    return;
+  }
+  Symbol* symbol = scopes_.add_symbol(scope, SymbolKind::kType, decl->name, decl->location);
+  symbol->type = type;
+}
+
+void Declarations::declare_using(const QualifiedName& name, Scope* scope, SourceLocation location) {
+  Symbol* symbol = parts_.resolver.resolve_name(name, scope, false);
+  if (!symbol) return;
+  const std::string_view last = name.last().identifier;
+  Symbol* before = scopes_.find_local(scope, last);
+  if (before && before->kind == SymbolKind::kFunctions && symbol->kind == SymbolKind::kFunctions) {
+    before->functions.insert(before->functions.end(), symbol->functions.begin(),
+                             symbol->functions.end());
+    return;
+  }
+  if (before && before != symbol) {
+    report(CheckId::kRedefinition, location, {std::string(last)});
+    return;
+  }
+  scope->symbols[last] = symbol;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// What a declaration of any kind adds to a scope; what is built in.
+#pragma once
+
+#include <span>
+
+#include "runtime/hlsl/check/names/names_part.h"
+
+namespace kaamos::hlsl {
+
+class Declarations : NamesPart {
+ public:
+  using NamesPart::NamesPart;
+
+  void declare_builtins();
+  void declare_all(std::span<const Decl* const> declarations, Scope* scope);
+  void declare(const Decl* declaration, Scope* scope);
+
+ private:
+  void declare_namespace(const NamespaceDecl* decl, Scope* scope);
+  void declare_alias(const TypeAliasDecl* decl, Scope* scope);
+  void declare_using(const QualifiedName& name, Scope* scope, SourceLocation location);
+};
+
+}  // namespace kaamos::hlsl

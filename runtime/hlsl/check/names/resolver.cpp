@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/names/resolver.h"
+
+#include "runtime/hlsl/builder/constants.h"
+#include "runtime/hlsl/check/names/name_parts.h"
+#include "runtime/hlsl/ir/builtin_types.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+constexpr int64_t kMaxArrayElements = 1 << 24;
+constexpr int64_t kAllRayFlags = 0x3FF;
+
+}  // namespace
+
+bool is_const_type(const TypeSyntax* syntax) {
+  for (; syntax; syntax = syntax->element) {
+    if (syntax->modifiers & kModConst) return true;
+  }
+  return false;
+}
+
+Scalar Resolver::scalar_of(ScalarKind kind, SourceLocation location) {
+  const bool native = program_.options->native_16bit;
+  const auto native_only = [&](Scalar scalar, std::string_view name) {
+    if (!native) report(CheckId::kNeeds16Bit, location, {std::string(name)});
+    return scalar;
+  };
+  switch (kind) {
+    case ScalarKind::kBool:
+      return Scalar::kBool;
+    case ScalarKind::kInt:
+      return Scalar::kInt32;
+    case ScalarKind::kUint:
+      return Scalar::kUint32;
+    case ScalarKind::kHalf:
+      return native ? Scalar::kFloat16 : Scalar::kHalf;
+    case ScalarKind::kMin10Float:
+      return native ? Scalar::kFloat16 : Scalar::kMin10Float;
+    case ScalarKind::kMin16Float:
+      return native ? Scalar::kFloat16 : Scalar::kMin16Float;
+    case ScalarKind::kFloat:
+      return Scalar::kFloat32;
+    case ScalarKind::kDouble:
+      return Scalar::kFloat64;
+    case ScalarKind::kInt16:
+      return native_only(Scalar::kInt16, "int16_t");
+    case ScalarKind::kUint16:
+      return native_only(Scalar::kUint16, "uint16_t");
+    case ScalarKind::kFloat16:
+      return native_only(Scalar::kFloat16, "float16_t");
+    case ScalarKind::kInt64:
+      return Scalar::kInt64;
+    case ScalarKind::kUint64:
+      return Scalar::kUint64;
+    case ScalarKind::kMin12Int:
+      return native ? Scalar::kInt16 : Scalar::kMin12Int;
+    case ScalarKind::kMin16Int:
+      return native ? Scalar::kInt16 : Scalar::kMin16Int;
+    case ScalarKind::kMin16Uint:
+      return native ? Scalar::kUint16 : Scalar::kMin16Uint;
+  }
+  return Scalar::kInt32;
+}
+
+const Type* Resolver::apply_storage(const Type* type, Modifiers modifiers) {
+  const bool row = (modifiers & kModRowMajor) != 0;
+  const bool column = (modifiers & kModColumnMajor) != 0;
+  if (!row && !column) return type;
+  if (type->is_matrix()) {
+    return types_.matrix(type->scalar, type->rows, type->columns, row);
+  }
+  if (type->is_array()) {
+    return types_.array(apply_storage(type->element, modifiers), type->count);
+  }
+  return type;
+}
+
+const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
+  if (!syntax) return types_.error();
+  switch (syntax->kind) {
+    case TypeSyntaxKind::kError:
+      return types_.error();
+    case TypeSyntaxKind::kVoid:
+      return types_.void_type();
+    case TypeSyntaxKind::kNumeric: {
+      const Scalar scalar = scalar_of(syntax->scalar, syntax->location);
+      const bool row_major =
+          syntax->modifiers & kModRowMajor
+              ? true
+              : program_.options->row_major && !(syntax->modifiers & kModColumnMajor);
+      if (syntax->rows == 0 && syntax->columns == 1) return types_.single(scalar);
+      return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
+    }
+    case TypeSyntaxKind::kNamed:
+      return apply_storage(resolve_named(syntax, scope), syntax->modifiers);
+    case TypeSyntaxKind::kDefinition: {
+      if (!syntax->definition) return types_.error();
+      const auto found = program_.declared_types.find(syntax->definition);
+      if (found != program_.declared_types.end()) return found->second;
+      parts_.declarations.declare(syntax->definition, scope);
+      const auto again = program_.declared_types.find(syntax->definition);
+      return again == program_.declared_types.end() ? types_.error() : again->second;
+    }
+    case TypeSyntaxKind::kArray:
+      return resolve_array(syntax, scope);
+    case TypeSyntaxKind::kAuto:
+      report(CheckId::kAutoWithoutValue, syntax->location, {"what is declared"});
+      return types_.error();
+  }
+  return types_.error();
+}
+
+const Type* Resolver::resolve_variable_type(const VariableDecl* decl, Scope* scope) {
+  if (decl->type->kind != TypeSyntaxKind::kAuto) return resolve_type(decl->type, scope);
+  Value value;
+  if (decl->initializer) {
+    value = parts_.evaluator.value_of(decl->initializer, scope);
+    if (value.failed()) return types_.error();
+  }
+  if (!value.type || value.type->is_void() || value.type->is_query()) {
+    report(CheckId::kAutoWithoutValue, decl->type->location, {std::string(decl->name)});
+    return types_.error();
+  }
+  return types_.settled(value.type);
+}
+
+const Type* Resolver::resolve_array(const TypeSyntax* syntax, Scope* scope) {
+  if (bench_.depth > 200) return types_.error();
+  ++bench_.depth;
+  const Type* element = resolve_type(syntax->element, scope);
+  --bench_.depth;
+  element = apply_storage(element, syntax->modifiers);
+  if (element->is_error()) return element;
+  if (element->is_void()) {
+    report(CheckId::kVoidVariable, syntax->location, {"an array of void"});
+    return types_.error();
+  }
+  if (element->is_array() && element->count == 0) {
+    report(CheckId::kInnerUnbounded, syntax->location);
+    return types_.error();
+  }
+  if (!syntax->array_size) return types_.array(element, 0);
+  const auto size =
+      parts_.evaluator.constant_integer(syntax->array_size, scope, "the size of an array");
+  if (!size) return types_.error();
+  const int64_t inner = static_cast<int64_t>(flat_component_count(element));
+  if (*size < 1 || *size > kMaxArrayElements || *size * inner > kMaxArrayElements) {
+    report(CheckId::kArraySize, syntax->array_size->location,
+           {std::to_string(*size), std::to_string(kMaxArrayElements)});
+    return types_.error();
+  }
+  return types_.array(element, static_cast<uint32_t>(*size));
+}
+
+const Type* Resolver::resolve_named(const TypeSyntax* syntax, Scope* scope) {
+  const QualifiedName& name = *syntax->name;
+  Symbol* symbol = resolve_name(name, scope, true);
+  if (!symbol) {
+    if (name.is_simple()) {
+      if (const Type* type = resolve_builtin(name.last(), syntax->location, scope)) return type;
+      const std::string_view reason = unsupported_type(name.last().identifier);
+      if (!reason.empty()) {
+        report(CheckId::kUnsupported, syntax->location,
+               {"'" + std::string(name.last().identifier) + "' (" + std::string(reason) + ")"});
+        return types_.error();
+      }
+    }
+    resolve_name(name, scope, false);
+    return types_.error();
+  }
+  if (symbol->hidden) symbol = symbol->hidden;
+  switch (symbol->kind) {
+    case SymbolKind::kType:
+      if (StructTemplate* own = parts_.templates.template_of(symbol, name.last())) {
+        StructInfo* info =
+            parts_.templates.instantiate_struct(own, name.last(), syntax->location, scope);
+        return info ? info->type : types_.error();
+      }
+      if (name.last().has_template_arguments) {
+        report(CheckId::kNotATemplate, syntax->location, {Scopes::spell(name)});
+        return types_.error();
+      }
+      return symbol->type;
+    case SymbolKind::kStructTemplate: {
+      StructInfo* info = parts_.templates.instantiate_struct(symbol->struct_template, name.last(),
+                                                             syntax->location, scope);
+      return info ? info->type : types_.error();
+    }
+    case SymbolKind::kAliasTemplate:
+      return parts_.templates.instantiate_alias(symbol->alias, symbol->scope, name.last(), scope);
+    default:
+      report(CheckId::kNotAType, syntax->location, {Scopes::spell(name)});
+      return types_.error();
+  }
+}
+
+const Type* Resolver::type_argument(const TemplateArgument& argument, Scope* scope) {
+  if (argument.type) return resolve_type(argument.type, scope);
+  // The parser takes a name that it does not know as a type to be a value.
+  if (const auto* name = as<NameExpr>(argument.value)) {
+    Symbol* symbol = resolve_name(*name->name, scope, true);
+    if (symbol && symbol->kind == SymbolKind::kType) return symbol->type;
+  }
+  report(CheckId::kTypeArgument, argument.location);
+  return types_.error();
+}
+
+std::optional<int64_t> Resolver::value_argument(const TemplateArgument& argument, Scope* scope,
+                                                const Type** type) {
+  if (argument.value)
+    return parts_.evaluator.constant_integer(argument.value, scope, "a template argument", type);
+  if (argument.type && argument.type->kind == TypeSyntaxKind::kNamed) {
+    Symbol* symbol = resolve_name(*argument.type->name, scope, true);
+    if (symbol && symbol->kind == SymbolKind::kConstant && symbol->value) {
+      const auto value = evaluate(symbol->value);
+      if (type) *type = symbol->type;
+      if (value) return static_cast<int64_t>((*value)[0]);
+    }
+  }
+  report(CheckId::kValueArgument, argument.location);
+  return std::nullopt;
+}
+
+const Type* Resolver::resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const bool is_vector = part.identifier == "vector";
+  if (is_vector || part.identifier == "matrix") {
+    Scalar scalar = Scalar::kFloat32;
+    int64_t sizes[2] = {4, 4};
+    if (!arguments.empty()) {
+      const Type* element = type_argument(arguments[0], scope);
+      if (element->is_error()) return element;
+      if (!element->is_scalar()) {
+        report(CheckId::kVectorElement, arguments[0].location, {to_string(element)});
+        return types_.error();
+      }
+      scalar = element->scalar;
+    }
+    const size_t dimensions = is_vector ? 1 : 2;
+    if (arguments.size() > dimensions + 1) {
+      report(CheckId::kTemplateCount, location,
+             {std::string(part.identifier), std::to_string(dimensions + 1),
+              std::to_string(arguments.size())});
+      return types_.error();
+    }
+    for (size_t i = 1; i < arguments.size(); ++i) {
+      const auto size = value_argument(arguments[i], scope);
+      if (!size) return types_.error();
+      if (*size < 1 || *size > 4) {
+        report(CheckId::kVectorSize, arguments[i].location, {std::to_string(*size)});
+        return types_.error();
+      }
+      sizes[i - 1] = *size;
+    }
+    if (is_vector && sizes[0] == 1) return types_.single(scalar);
+    if (is_vector) return types_.vector(scalar, static_cast<uint32_t>(sizes[0]));
+    return types_.matrix(scalar, static_cast<uint32_t>(sizes[0]), static_cast<uint32_t>(sizes[1]),
+                         program_.options->row_major);
+  }
+  if (part.identifier == "string") return types_.string();
+  const ResourceTraits* traits = find_resource(part.identifier);
+  return traits ? resolve_resource(*traits, part, scope) : nullptr;
+}
+
+const Type* Resolver::resolve_resource(const ResourceTraits& traits, const NamePart& part,
+                                       Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const std::string name(part.identifier);
+  program_.facts.names_ordered_views = program_.facts.names_ordered_views || is_ordered_view(name);
+  if (traits.kind == ir::ResourceKind::kRayQuery) return resolve_ray_query(part, scope);
+  if (traits.element == ElementRule::kNone) {
+    if (!arguments.empty()) report(CheckId::kNotATemplate, part.location, {name});
+    return types_.resource(traits.kind, nullptr);
+  }
+  if (arguments.empty()) {
+    if (traits.element == ElementRule::kTexel) {
+      return types_.resource(traits.kind, types_.vector(Scalar::kFloat32, 4), false);
+    }
+    report(CheckId::kMissingElement, part.location, {name});
+    return types_.error();
+  }
+  const Type* element = type_argument(arguments[0], scope);
+  if (element->is_error()) return element;
+  const size_t most = is_multisampled(traits.kind) ? 2 : 1;
+  if (arguments.size() > most) {
+    report(CheckId::kTemplateCount, part.location,
+           {name, std::to_string(most), std::to_string(arguments.size())});
+    return types_.error();
+  }
+  // The number of samples, which nothing depends on.
+  if (arguments.size() == 2 && !value_argument(arguments[1], scope)) return types_.error();
+  const bool texel = traits.element != ElementRule::kStruct;
+  const bool fits = texel ? (element->is_scalar() || element->is_vector())
+                    : traits.kind == ir::ResourceKind::kConstantBuffer
+                        ? element->is_struct()
+                        : (element->is_numeric() || element->is_struct() || element->is_enum() ||
+                           element->is_array());
+  if (!fits || contains_resource(element)) {
+    report(CheckId::kElementType, arguments[0].location,
+           {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});
+    return types_.error();
+  }
+  if (texel && has_paired_texel(element) && element->components() > 2) {
+    report(CheckId::kElementType, arguments[0].location,
+           {name, "at most 128 bits", to_string(element)});
+    return types_.error();
+  }
+  return types_.resource(traits.kind, element);
+}
+
+const Type* Resolver::resolve_ray_query(const NamePart& part, Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const std::string name(part.identifier);
+  if (arguments.empty() || arguments.size() > 2) {
+    report(CheckId::kTemplateCount, part.location,
+           {name, "1 or 2", std::to_string(arguments.size())});
+    return types_.error();
+  }
+  const auto flags = value_argument(arguments[0], scope);
+  if (!flags) return types_.error();
+  if (*flags < 0 || *flags > kAllRayFlags) {
+    report(CheckId::kRayQueryFlags, arguments[0].location, {std::to_string(*flags)});
+    return types_.error();
+  }
+  // [DXR: RAYQUERY_FLAG]
+  if (arguments.size() == 2) {
+    const auto query_flags = value_argument(arguments[1], scope);
+    if (!query_flags) return types_.error();
+    if (*query_flags == 1) {
+      report(CheckId::kNeedsShaderModel, arguments[1].location,
+             {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", "6.9"});
+      return types_.error();
+    }
+    if (*query_flags != 0) {
+      report(CheckId::kRayQuerySecondFlags, arguments[1].location, {std::to_string(*query_flags)});
+      return types_.error();
+    }
+  }
+  return types_.ray_query(static_cast<uint32_t>(*flags));
+}
+
+// The scope that is named before a `::`.
+Scope* Resolver::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope) {
+  switch (symbol->kind) {
+    case SymbolKind::kNamespace:
+      return symbol->scope;
+    case SymbolKind::kType:
+      if (StructTemplate* own = parts_.templates.template_of(symbol, part)) {
+        StructInfo* info = parts_.templates.instantiate_struct(own, part, part.location, scope);
+        return info ? info->scope : nullptr;
+      }
+      if (symbol->scope) return symbol->scope;
+      return symbol->type->is_struct() ? symbol->type->structure->scope : nullptr;
+    case SymbolKind::kStructTemplate: {
+      StructInfo* info =
+          parts_.templates.instantiate_struct(symbol->struct_template, part, part.location, scope);
+      return info ? info->scope : nullptr;
+    }
+    default:
+      return symbol->hidden ? scope_of_part(part, symbol->hidden, scope) : nullptr;
+  }
+}
+
+Symbol* Resolver::resolve_name(const QualifiedName& name, Scope* scope, bool quiet) {
+  Scope* const global = program_.unit_scopes[scope->unit];
+  Scope* in = name.is_global ? global : nullptr;
+  Symbol* symbol = nullptr;
+  for (const NamePart& part : name.parts) {
+    symbol = in ? scopes_.find_in_scope(in, part.identifier, in->kind != ScopeKind::kStruct)
+                : scopes_.find(scope, part.identifier);
+    if (!symbol) {
+      if (!quiet && !in && part.identifier == "dx" && name.parts.size() > 1) {
+        report(CheckId::kNeedsShaderModel, name.parts[0].location, {Scopes::spell(name), "6.9"});
+      } else if (!quiet) {
+        const std::string where = in && in != global ? " in '" + in->name + "'" : "";
+        scopes_.report_unknown(CheckId::kUndeclared, part.location,
+                               {std::string(part.identifier), where}, part.identifier,
+                               in ? in : scope, in == nullptr);
+      }
+      return nullptr;
+    }
+    if (&part == &name.parts.back()) break;
+    in = scope_of_part(part, symbol, scope);
+    if (!in) {
+      if (!quiet) report(CheckId::kNotAScope, part.location, {std::string(part.identifier)});
+      return nullptr;
+    }
+  }
+  return symbol;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// What names and types mean, as they are written at a place in the source.
+#pragma once
+
+#include <optional>
+
+#include "runtime/hlsl/check/names/names_part.h"
+#include "runtime/hlsl/ir/builtin_types.h"
+
+namespace kaamos::hlsl {
+
+class Resolver : NamesPart {
+ public:
+  using NamesPart::NamesPart;
+
+  // Reports what is missing, unless `quiet`.
+  Symbol* resolve_name(const QualifiedName& name, Scope* scope, bool quiet);
+  Scope* scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope);
+  const Type* resolve_type(const TypeSyntax* syntax, Scope* scope);
+  // The type of a variable; `auto` takes that of the initialiser.
+  const Type* resolve_variable_type(const VariableDecl* decl, Scope* scope);
+  const Type* type_argument(const TemplateArgument& argument, Scope* scope);
+  std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope,
+                                        const Type** type = nullptr);
+
+ private:
+  const Type* resolve_named(const TypeSyntax* syntax, Scope* scope);
+  const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);
+  const Type* resolve_ray_query(const NamePart& part, Scope* scope);
+  const Type* resolve_resource(const ResourceTraits& traits, const NamePart& part, Scope* scope);
+  const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
+  const Type* apply_storage(const Type* type, Modifiers modifiers);
+  Scalar scalar_of(ScalarKind kind, SourceLocation location);
+};
+
+}  // namespace kaamos::hlsl

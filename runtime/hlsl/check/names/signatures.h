@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+//
+// Signatures of functions, compared and in words.
+#pragma once
+
+#include <string>
+
+#include "runtime/hlsl/check/names/symbols.h"
+
+namespace kaamos::hlsl {
+
+// Whether the types and directions agree.
+bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other);
+// As in messages: "float f(inout Payload)".
+std::string describe(const FunctionInfo& function);
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/stages/graphics_stages.h"
+
+#include <algorithm>
+
+#include "runtime/hlsl/check/lower/lowerer.h"
+#include "runtime/hlsl/check/names/attributes.h"
+#include "runtime/hlsl/check/names/signatures.h"
+#include "runtime/hlsl/check/stages/system_values.h"
+#include "runtime/hlsl/ir/builtin_functions.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+using shader::ColumnType;
+using shader::Interpolation;
+using shader::SystemValue;
+
+constexpr uint32_t kMostVectors = 32;
+constexpr uint32_t kMostTargets = 8;
+constexpr Modifiers kInterpolationModifiers =
+    kModNoInterpolation | kModLinear | kModCentroid | kModNoPerspective | kModSample | kModCenter;
+
+bool is_generated(SystemValue value) {
+  return value == SystemValue::kPrimitiveId || value == SystemValue::kIsFrontFace ||
+         value == SystemValue::kBarycentrics;
+}
+
+// How many vectors of four components the elements fill: each goes to the first one of its kind
+// that has room.
+uint32_t count_vectors(const std::vector<ir::SignatureElement>& elements, bool shares) {
+  struct Vector {
+    const ir::SignatureElement* first;
+    uint32_t used;
+  };
+  std::vector<Vector> vectors;
+  for (const ir::SignatureElement& element : elements) {
+    if (is_generated(element.system_value)) continue;
+    const auto fits = [&](const Vector& vector) {
+      const bool mixes = element.system_value == vector.first->system_value ||
+                         (element.system_value == SystemValue::kClipDistance &&
+                          vector.first->system_value == SystemValue::kCullDistance) ||
+                         (element.system_value == SystemValue::kCullDistance &&
+                          vector.first->system_value == SystemValue::kClipDistance);
+      return shares && mixes && vector.used + element.components <= 4 &&
+             element.interpolation == vector.first->interpolation;
+    };
+    const auto found = std::find_if(vectors.begin(), vectors.end(), fits);
+    if (found == vectors.end()) {
+      vectors.push_back({&element, element.components});
+    } else {
+      found->used += element.components;
+    }
+  }
+  return static_cast<uint32_t>(vectors.size());
+}
+
+// Builds one of the two signatures of an entry point.
+class GraphicsSignature : StagePart {
+ public:
+  // A semantic that covers several elements gives them numbers that go up.
+  struct Name {
+    const Semantic* semantic = nullptr;
+    uint32_t next = 0;
+  };
+  // Where a value stands in the source.
+  struct Source {
+    SourceLocation location;
+    std::string_view name;
+    Modifiers modifiers = 0;
+  };
+
+  GraphicsSignature(Program& program, Lowerer& lowerer, const ir::EntryPoint& entry, bool is_output,
+                    ir::Function& wrapper)
+      : StagePart(program, lowerer),
+        entry_(entry),
+        is_output_(is_output),
+        wrapper_(wrapper),
+        point_(entry.stage == ir::kStageVertex
+                   ? (is_output ? SignaturePoint::kVertexOut : SignaturePoint::kVertexIn)
+                   : (is_output ? SignaturePoint::kPixelOut : SignaturePoint::kPixelIn)) {}
+
+  std::vector<ir::SignatureElement> elements;
+  bool failed = false;
+
+  // An input's value, made of parameters of the wrapper; null after an error.
+  const ir::Expr* read(const Type* type, Name& name, const Source& source) {
+    return walk(type, name, source, nullptr);
+  }
+  // Assigns the value to parameters of the wrapper.
+  void write(const Type* type, Name& name, const Source& source, const ir::Expr* value) {
+    walk(type, name, source, value);
+  }
+
+  void check_limits(SourceLocation location) {
+    std::vector<ir::SignatureElement> distances;
+    uint32_t floats = 0;
+    for (const ir::SignatureElement& element : elements) {
+      if (element.system_value == SystemValue::kClipDistance ||
+          element.system_value == SystemValue::kCullDistance) {
+        distances.push_back(element);
+        floats += element.components;
+      }
+    }
+    const uint32_t rows = count_vectors(distances, true);
+    if (floats > 8 || rows > 2) {
+      fail(CheckId::kClipDistances, location,
+           {shader(), std::to_string(floats), std::to_string(rows)});
+    }
+    if (point_ == SignaturePoint::kPixelOut) return;
+    const uint32_t vectors = count_vectors(elements, point_ != SignaturePoint::kVertexIn);
+    if (vectors > kMostVectors) {
+      fail(CheckId::kSignatureVectors, location,
+           {is_output_ ? "outputs" : "inputs", shader(), std::to_string(vectors),
+            std::to_string(kMostVectors)});
+    }
+  }
+
+ private:
+  std::string shader() const {
+    return std::string(stage_name(entry_.stage)) + " shader '" + entry_.name + "'";
+  }
+  void fail(CheckId id, SourceLocation location, std::initializer_list<std::string> arguments) {
+    report(id, location, arguments);
+    failed = true;
+  }
+
+  const ir::Expr* walk(const Type* type, Name& name, const Source& source, const ir::Expr* value) {
+    if (failed) return nullptr;
+    if (type->is_struct()) return walk_struct(type, name, source, value);
+    if (!name.semantic) {
+      fail(CheckId::kGraphicsSemantic, source.location,
+           {std::string(source.name), std::string(stage_name(entry_.stage)), entry_.name});
+      return nullptr;
+    }
+    if (type->is_array() && type->count != 0) return walk_array(type, name, source, value);
+    const bool fits = type->is_numeric() && !has_paired_texel(type);
+    if (!fits) {
+      fail(CheckId::kSignatureType, source.location,
+           {std::string(source.name), to_string(type), shader()});
+      return nullptr;
+    }
+    return type->is_matrix() ? walk_matrix(type, name, source, value)
+                             : walk_vector(type, name, source, value);
+  }
+
+  const ir::Expr* walk_struct(const Type* type, Name& outer, const Source& source,
+                              const ir::Expr* value) {
+    const StructInfo& info = *type->structure;
+    std::vector<const ir::Expr*> parts;
+    if (info.base) {
+      parts.push_back(
+          walk(info.base->type, outer, source, value ? build_.field(value, 0) : nullptr));
+    }
+    for (const FieldInfo& field : info.fields) {
+      if (!field.decl || field.type->is_error() || field.unit) {
+        fail(CheckId::kSignatureType, source.location,
+             {std::string(source.name), to_string(type), shader()});
+        return nullptr;
+      }
+      const Modifiers own = field.decl->modifiers & kInterpolationModifiers;
+      Name inner = {field.decl->annotations.semantic, 0};
+      if (inner.semantic) inner.next = inner.semantic->index;
+      const Source place = {field.decl->location, field.name,
+                            own ? own : source.modifiers & kInterpolationModifiers};
+      parts.push_back(walk(field.type, outer.semantic ? outer : inner, place,
+                           value ? build_.field(value, field.index) : nullptr));
+    }
+    if (failed || value) return nullptr;
+    return build_.construct(type->ir, std::move(parts));
+  }
+
+  const ir::Expr* walk_array(const Type* type, Name& name, const Source& source,
+                             const ir::Expr* value) {
+    std::vector<const ir::Expr*> parts;
+    for (uint32_t i = 0; i < type->count && !failed; ++i) {
+      if (elements.size() > 4 * kMostVectors) break;  // reported by check_limits()
+      const ir::Expr* part = value ? build_.element(value, build_.uint32(i)) : nullptr;
+      parts.push_back(walk(type->element, name, source, part));
+    }
+    if (failed || value) return nullptr;
+    parts.resize(type->count, build_.zero(type->element->ir));
+    return build_.construct(type->ir, std::move(parts));
+  }
+
+  // A matrix that is not row_major is passed by columns, as DXC does.
+  const ir::Expr* walk_matrix(const Type* type, Name& name, const Source& source,
+                              const ir::Expr* value) {
+    const uint8_t lines = type->row_major ? type->rows : type->columns;
+    const uint8_t size = type->row_major ? type->columns : type->rows;
+    const Type* line_type = types_.vector(type->scalar, size);
+    std::vector<const ir::Expr*> components(size_t{type->rows} * type->columns);
+    for (uint8_t line = 0; line < lines && !failed; ++line) {
+      std::vector<uint8_t> places;
+      for (uint8_t i = 0; i < size; ++i) {
+        places.push_back(static_cast<uint8_t>(type->row_major ? line * 4 + i : i * 4 + line));
+      }
+      const ir::Expr* part = walk_vector(line_type, name, source,
+                                         value ? build_.matrix_swizzle(value, places) : nullptr);
+      for (uint8_t i = 0; i < size && part; ++i) {
+        const size_t at = size_t{places[i]} / 4 * type->columns + places[i] % 4;
+        components[at] = size == 1 ? part : build_.swizzle(part, {i});
+      }
+    }
+    if (failed || value) return nullptr;
+    return build_.construct(type->ir, std::move(components));
+  }
+
+  const ir::Expr* walk_vector(const Type* type, Name& name, const Source& source,
+                              const ir::Expr* value) {
+    ir::SignatureElement element;
+    element.semantic = std::string(name.semantic->base);
+    element.semantic_index = name.next++;
+    element.location = locate(source.location);
+    if (!describe(element, type, *name.semantic, source)) return nullptr;
+    const Scalar scalar = element.type == ColumnType::kFloat ? Scalar::kFloat32
+                          : element.type == ColumnType::kInt ? Scalar::kInt32
+                                                             : Scalar::kUint32;
+    const Type* own = types_.numeric(scalar, 0, type->components());
+    at(source.location);
+    ir::Variable* variable =
+        build_.variable(std::string(source.name), own->ir, ir::Storage::kParameter);
+    variable->mode = is_output_ ? ir::ParameterMode::kOut : ir::ParameterMode::kIn;
+    wrapper_.parameters.push_back(variable);
+    if (!elements.empty()) {
+      element.first_column = elements.back().first_column + elements.back().components;
+    }
+    elements.push_back(std::move(element));
+    if (!value) return build_.convert(build_.read(variable), plain_scalar(type->scalar));
+    ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
+    statement->place = build_.read(variable);
+    statement->value = build_.convert(value, plain_scalar(scalar));
+    lower_.body.emit(statement);
+    return nullptr;
+  }
+
+  bool describe(ir::SignatureElement& element, const Type* type, const Semantic& semantic,
+                const Source& source) {
+    const SemanticRule rule = find_semantic(semantic.base, point_);
+    if (rule.meaning == SemanticMeaning::kNotOffered) {
+      fail(CheckId::kSemanticNotOffered, semantic.location, {std::string(semantic.text), shader()});
+      return false;
+    }
+    if (rule.meaning == SemanticMeaning::kNotThere) {
+      if (point_ == SignaturePoint::kPixelOut) {
+        fail(CheckId::kPixelOutput, semantic.location, {std::string(semantic.text), entry_.name});
+      } else {
+        fail(CheckId::kSemanticNotThere, semantic.location,
+             {std::string(semantic.text), is_output_ ? "an output" : "an input", shader()});
+      }
+      return false;
+    }
+    std::string_view wanted;
+    if (!fits_system_value(rule.value, type, wanted)) {
+      fail(CheckId::kSystemValueType, source.location,
+           {std::string(semantic.text), std::string(wanted), to_string(type)});
+      return false;
+    }
+    if (rule.value == SystemValue::kTarget && element.semantic_index >= kMostTargets) {
+      fail(CheckId::kTargetNumber, semantic.location,
+           {std::to_string(element.semantic_index), std::to_string(kMostTargets)});
+      return false;
+    }
+    for (const ir::SignatureElement& other : elements) {
+      if (other.semantic_index == element.semantic_index &&
+          same_letters(other.semantic, element.semantic)) {
+        fail(CheckId::kSemanticTwice, source.location,
+             {is_output_ ? "outputs" : "inputs", shader(),
+              element.semantic + std::to_string(element.semantic_index)});
+        return false;
+      }
+    }
+    element.system_value = rule.value;
+    element.components = static_cast<uint8_t>(type->components());
+    element.type = is_floating(type->scalar)         ? ColumnType::kFloat
+                   : is_signed_integer(type->scalar) ? ColumnType::kInt
+                                                     : ColumnType::kUint;
+    return interpolate(element, type, source);
+  }
+
+  bool interpolate(ir::SignatureElement& element, const Type* type, const Source& source) {
+    element.interpolation = Interpolation::kLinear;
+    if (point_ == SignaturePoint::kVertexIn || point_ == SignaturePoint::kPixelOut) return true;
+    const Modifiers modifiers = source.modifiers & kInterpolationModifiers;
+    if (modifiers & kModNoInterpolation) {
+      element.interpolation = Interpolation::kNoInterpolation;
+    } else if (modifiers & kModNoPerspective) {
+      element.interpolation = Interpolation::kNoPerspective;
+    }
+    if (element.type == ColumnType::kFloat) return true;
+    const bool varies = modifiers != 0 && !(modifiers & kModNoInterpolation);
+    if (varies && point_ == SignaturePoint::kPixelIn) {
+      fail(CheckId::kInterpolatedInteger, source.location,
+           {std::string(source.name), to_string(type), shader()});
+      return false;
+    }
+    element.interpolation = Interpolation::kNoInterpolation;
+    return true;
+  }
+
+  const ir::EntryPoint& entry_;
+  const bool is_output_;
+  ir::Function& wrapper_;
+  const SignaturePoint point_;
+};
+
+}  // namespace
+
+bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryPoint& entry) {
+  if (!function->ir) return false;
+  const SourceLocation location = function->definition->location;
+  ir::Function* wrapper = make_wrapper(bench_.module, build_, *function->ir);
+  // The export keeps the name that DXC gives it.
+  std::string& mangled = function->ir->mangled;
+  if (mangled.ends_with("#body")) mangled.resize(mangled.size() - 5);
+  wrapper->mangled = mangled;
+  mangled += "#body";
+  BodyScope body(lower_, nullptr, &wrapper->body, function->scope);
+  at(location);
+  GraphicsSignature inputs(program_, lower_, entry, false, *wrapper);
+  GraphicsSignature outputs(program_, lower_, entry, true, *wrapper);
+  const auto name_of_value = [](const Semantic* semantic) {
+    return GraphicsSignature::Name{semantic, semantic ? semantic->index : 0};
+  };
+
+  ir::Stmt* call = build_.stmt(ir::StmtKind::kCall);
+  call->function = function->ir;
+  struct Output {
+    const Type* type;
+    GraphicsSignature::Name name;
+    GraphicsSignature::Source source;
+    const ir::Variable* variable;
+  };
+  std::vector<Output> results;
+  if (!function->result->is_void()) {
+    const Semantic* semantic = function->definition->annotations.semantic;
+    if (!semantic) semantic = function->decl->annotations.semantic;
+    ir::Variable* result = lower_.body.empty_temporary(function->result->ir);
+    call->result = result;
+    results.push_back({function->result, name_of_value(semantic), {location, "result"}, result});
+  }
+  for (const ParameterInfo& parameter : function->parameters) {
+    if (!parameter.decl) continue;
+    const Modifiers modifiers = parameter.decl->modifiers;
+    const GraphicsSignature::Source source = {parameter.decl->location, parameter.name, modifiers};
+    const Semantic* semantic = parameter.decl->annotations.semantic;
+    if (modifiers & kModUniform) {
+      report(CheckId::kUnsupported, source.location,
+             {"'" + std::string(parameter.name) + "' (a uniform parameter of an entry point)"});
+      return false;
+    }
+    const ir::Expr* value = nullptr;
+    if (parameter.is_in) {
+      GraphicsSignature::Name name = name_of_value(semantic);
+      value = inputs.read(parameter.type, name, source);
+    }
+    if (parameter.is_out) {
+      ir::Variable* variable = lower_.body.empty_temporary(parameter.type->ir);
+      if (value) lower_.body.assign(variable, value);
+      value = build_.read(variable);
+      results.push_back({parameter.type, name_of_value(semantic), source, variable});
+    }
+    call->arguments.push_back(value);
+  }
+  if (!inputs.failed) inputs.check_limits(location);
+  const bool is_pixel = entry.stage == ir::kStagePixel;
+  const ir::Type* flag = build_.scalar_type(Scalar::kBool);
+  const auto flag_parameter = [&](const char* name, ir::ParameterMode mode) {
+    ir::Variable* variable = build_.variable(name, flag, ir::Storage::kParameter);
+    variable->mode = mode;
+    return variable;
+  };
+  ir::Variable* is_live = is_pixel ? flag_parameter("is_live", ir::ParameterMode::kIn) : nullptr;
+  if (is_pixel) lower_.body.assign(live_variable(), build_.read(is_live));
+  lower_.body.emit(call);
+  for (Output& output : results) {
+    outputs.write(output.type, output.name, output.source, build_.read(output.variable));
+  }
+  if (!outputs.failed) outputs.check_limits(location);
+  entry.parameters.assign(inputs.elements.size(), ir::EntryParameter::kInput);
+  entry.parameters.resize(entry.parameters.size() + outputs.elements.size(),
+                          ir::EntryParameter::kOutput);
+  if (is_pixel) {
+    wrapper->parameters.push_back(is_live);
+    ir::Variable* stays = flag_parameter("stays_live", ir::ParameterMode::kOut);
+    wrapper->parameters.push_back(stays);
+    lower_.body.assign(stays, build_.read(live_variable()));
+    entry.parameters.push_back(ir::EntryParameter::kIsLive);
+    entry.parameters.push_back(ir::EntryParameter::kStaysLive);
+  }
+  entry.inputs = std::move(inputs.elements);
+  entry.outputs = std::move(outputs.elements);
+  if (inputs.failed || outputs.failed) return false;
+  if (find_attribute(*function, "earlydepthstencil")) {
+    entry.graphics_flags |= shader::kGraphicsEarlyDepthStencil;
+  }
+  program_.facts.wrappers.push_back({wrapper, function, entry.stage});
+  entry.function = wrapper;
+  return true;
+}
+
+const ir::Variable* GraphicsStages::live_variable() {
+  if (!program_.facts.live) {
+    program_.facts.live =
+        build_.variable("live", build_.scalar_type(Scalar::kBool), ir::Storage::kStaticGlobal);
+  }
+  return program_.facts.live;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// The inputs and outputs of vertex and pixel shaders. Parameters, fields of structs, elements of
+// arrays and rows of matrices are taken apart into scalars and vectors of 32-bit numbers: an entry
+// point is generated that has one parameter for each, and calls the function of the source.
+#pragma once
+
+#include "runtime/hlsl/check/stages/stage_part.h"
+
+namespace kaamos::hlsl {
+
+class GraphicsStages : StagePart {
+ public:
+  using StagePart::StagePart;
+
+  bool check_graphics_signature(FunctionInfo* function, ir::EntryPoint& entry);
+
+ private:
+  // The static global that says whether a pixel may still write.
+  const ir::Variable* live_variable();
+};
+
+}  // namespace kaamos::hlsl

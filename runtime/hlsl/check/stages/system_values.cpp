@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/stages/system_values.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace kaamos::hlsl {
+namespace {
+
+using shader::SystemValue;
+
+struct Row {
+  std::string_view name;
+  SystemValue value;
+  // For each SignaturePoint: '.' not there, 'a' arbitrary, 's' system value, 'n' not offered.
+  std::string_view points;
+};
+
+constexpr Row kRows[] = {
+    {"SV_Position", SystemValue::kPosition, "ass."},
+    {"SV_VertexID", SystemValue::kVertexId, "s..."},
+    {"SV_InstanceID", SystemValue::kInstanceId, "saa."},
+    {"SV_PrimitiveID", SystemValue::kPrimitiveId, "..s."},
+    {"SV_IsFrontFace", SystemValue::kIsFrontFace, "..s."},
+    {"SV_Barycentrics", SystemValue::kBarycentrics, "..s."},
+    {"SV_ClipDistance", SystemValue::kClipDistance, "ass."},
+    {"SV_CullDistance", SystemValue::kCullDistance, "ass."},
+    {"SV_RenderTargetArrayIndex", SystemValue::kRenderTargetArrayIndex, "ass."},
+    {"SV_ViewportArrayIndex", SystemValue::kViewportArrayIndex, "ass."},
+    {"SV_Target", SystemValue::kTarget, "...s"},
+    {"SV_Depth", SystemValue::kDepth, "...s"},
+    {"SV_DepthGreaterEqual", SystemValue::kNone, "...n"},
+    {"SV_DepthLessEqual", SystemValue::kNone, "...n"},
+    {"SV_Coverage", SystemValue::kNone, "..nn"},
+    {"SV_StencilRef", SystemValue::kNone, "...n"},
+    {"SV_SampleIndex", SystemValue::kNone, "..n."},
+    {"SV_InnerCoverage", SystemValue::kNone, "..n."},
+    {"SV_ViewID", SystemValue::kNone, "n.n."},
+    {"SV_ShadingRate", SystemValue::kNone, ".nn."},
+    {"SV_CullPrimitive", SystemValue::kNone, "..n."},
+    {"SV_StartVertexLocation", SystemValue::kNone, "n..."},
+    {"SV_StartInstanceLocation", SystemValue::kNone, "n..."},
+};
+
+}  // namespace
+
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) ==
+           std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+SemanticRule find_semantic(std::string_view base, SignaturePoint point) {
+  for (const Row& row : kRows) {
+    if (!same_letters(row.name, base)) continue;
+    switch (row.points[static_cast<size_t>(point)]) {
+      case 'a':
+        return {SemanticMeaning::kArbitrary, SystemValue::kNone};
+      case 's':
+        return {SemanticMeaning::kSystemValue, row.value};
+      case 'n':
+        return {SemanticMeaning::kNotOffered, SystemValue::kNone};
+      default:
+        return {SemanticMeaning::kNotThere, SystemValue::kNone};
+    }
+  }
+  const bool is_system = base.size() > 3 && same_letters(base.substr(0, 3), "SV_");
+  if (is_system || point == SignaturePoint::kPixelOut) {
+    return {SemanticMeaning::kNotThere, SystemValue::kNone};
+  }
+  return {};
+}
+
+bool fits_system_value(SystemValue value, const Type* type, std::string_view& wanted) {
+  const bool number = type->is_numeric() && !type->is_matrix();
+  const uint32_t count = type->components();
+  const bool real = number && is_floating(type->scalar);
+  const bool whole = number && is_integer(type->scalar);
+  switch (value) {
+    case SystemValue::kNone:
+      return true;
+    case SystemValue::kPosition:
+      wanted = "float4";
+      return real && count == 4;
+    case SystemValue::kBarycentrics:
+      wanted = "float3";
+      return real && count == 3;
+    case SystemValue::kIsFrontFace:
+      wanted = "bool or uint";
+      return number && count == 1 && !is_floating(type->scalar);
+    case SystemValue::kClipDistance:
+    case SystemValue::kCullDistance:
+      wanted = "float or a vector of floats";
+      return real;
+    case SystemValue::kTarget:
+      wanted = "a number or a vector";
+      return number;
+    case SystemValue::kDepth:
+      wanted = "float";
+      return real && count == 1;
+    default:
+      wanted = "uint";
+      return whole && count == 1;
+  }
+}
+
+}  // namespace kaamos::hlsl
