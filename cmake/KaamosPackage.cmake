@@ -8,15 +8,18 @@ set(KAAMOS_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/kaamos")
 # Headers below these folders are included by their path relative to the folder.
 set(KAAMOS_PACKAGE_INCLUDE_DIRS "${CMAKE_INSTALL_INCLUDEDIR}" "${CMAKE_INSTALL_INCLUDEDIR}/kaamos")
 
+define_property(TARGET PROPERTY KAAMOS_NOT_INSTALLED BRIEF_DOCS "The library serves programs of this tree alone")
+
 # kaamos_collect_libraries(variable folder...): collects every library target in these folders and
-# below.
+# below, unless it is KAAMOS_NOT_INSTALLED.
 function(kaamos_collect_libraries result)
   set(libraries)
   foreach(folder IN LISTS ARGN)
     get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
     foreach(target IN LISTS targets)
       get_target_property(type ${target} TYPE)
-      if(type MATCHES "^(STATIC|SHARED|INTERFACE|OBJECT)_LIBRARY$")
+      get_target_property(stays ${target} KAAMOS_NOT_INSTALLED)
+      if(NOT stays AND type MATCHES "^(STATIC|SHARED|INTERFACE|OBJECT)_LIBRARY$")
         list(APPEND libraries ${target})
       endif()
     endforeach()
@@ -126,7 +129,7 @@ function(kaamos_install_headers)
   endforeach()
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
     FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
-    ${internal})
+    PATTERN "effects/measure" EXCLUDE ${internal})
 endfunction()
 
 function(kaamos_install_package)

@@ -2,7 +2,7 @@
 // --view: pictures of what the renderer's last frame is made from.
 #pragma once
 
-#include "frame_result.h"
+#include "effects/measure/run/frame_result.h"
 #include "options.h"
 
 namespace northlight {

@@ -6,10 +6,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <utility>
 
-#include "claims.h"
 #include "effects/assets/built_in/built_in.h"
 #include "effects/assets/gltf/gltf_load.h"
 #include "effects/assets/gltf/gltf_write.h"
@@ -17,18 +17,19 @@
 #include "effects/assets/scene/material_override.h"
 #include "effects/assets/scene/pieces.h"
 #include "effects/assets/scene/staging.h"
-#include "frame_result.h"
+#include "effects/measure/claims/claims.h"
+#include "effects/measure/claims/left_out.h"
+#include "effects/measure/comparison/reference.h"
+#include "effects/measure/comparison/split.h"
+#include "effects/measure/curves/measure.h"
+#include "effects/measure/run/frame_result.h"
+#include "effects/measure/study/study.h"
+#include "effects/measure/truth/path_reference.h"
 #include "inspect.h"
-#include "left_out.h"
 #include "look.h"
-#include "measure.h"
 #include "options.h"
 #include "output.h"
-#include "path_reference.h"
-#include "reference.h"
 #include "sequence.h"
-#include "split.h"
-#include "study/study.h"
 #include "watch.h"
 
 namespace {
@@ -36,6 +37,7 @@ namespace {
 using namespace northlight;
 using kaamos::effects::FrameRenderer;
 using kaamos::effects::Scene;
+using northlight::Options;  // not that of what is measured
 
 constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells report it
 
@@ -46,6 +48,12 @@ void on_interrupt(int) {
 
 void say_error(const std::string& text) {
   std::fprintf(stderr, "northlight: %s\n", text.c_str());
+}
+
+// At once, also into a pipe.
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
 }
 
 bool load_scene(const Options& options, Scene& scene) {
@@ -175,7 +183,9 @@ int render_reference(const Options& options, const Scene& scene, const Ranks& ra
   const auto show = [&](const std::string& what, double done) {
     return ranks.is_first() ? show_progress(what, done) : !stop_requested.load();
   };
-  const auto done = render_path_reference(options, scene, ranks, show, say_error);
+  std::string said;
+  const auto done = render_path_reference(options, scene, ranks, show, said);
+  print(said);
   if (!done) return report(done.error());
   return *done == Outcome::kDone ? 0 : kInterrupted;
 }
@@ -189,7 +199,7 @@ int render_once(FrameRenderer& renderer, const Options& options) {
     if (const auto s = add_views(options, renderer, frame); !s) return report(s.error());
   }
   if (is_done(done) && options.reference > 0) {
-    done = add_reference(options, renderer.context().scene, show_progress, say_error, frame);
+    done = add_reference(options, renderer.context().scene, show_progress, frame);
   }
   return is_done(done) ? write_frame(renderer, options, frame, seen) : report(done, options);
 }
@@ -216,11 +226,17 @@ int render_frames(FrameRenderer& renderer, Scene& scene, const Options& options)
   return 1;
 }
 
-int print_left_out(const Options& options, const Scene& scene) {
-  std::string table;
-  const auto done = measure_left_out(options, scene, show_progress, table);
-  if (is_done(done)) std::fputs(table.c_str(), stdout);
-  return report(done, options);
+using Measuring = std::function<rtapi::Result<Outcome>(const kaamos::measure::Options& options,
+                                                       const Scene& scene, const Progress& progress,
+                                                       std::string& said)>;
+
+// What the options measure instead of rendering a frame; null: nothing.
+Measuring find_measuring(const Options& options) {
+  if (!options.measure.empty()) return run_measure;
+  if (options.study) return run_study;
+  if (options.claims) return run_claims;
+  if (!options.split.empty()) return run_split;
+  return options.measure_left_out ? measure_left_out : Measuring();
 }
 
 // Runs until Ctrl-C: shows errors in shaders and waits for the next change.
@@ -249,8 +265,9 @@ int watch(FrameRenderer& renderer, const Options& options) {
 
 int main(int argc, char** argv) {
   int exit_code = 0;
-  const auto options = parse_options(argc, argv, exit_code);
+  auto options = parse_options(argc, argv, exit_code);
   if (!options) return exit_code;
+  options->say = say_error;
   if (options->list_devices) {
     std::fputs(list_devices().c_str(), stdout);
     return 0;
@@ -276,15 +293,12 @@ int main(int argc, char** argv) {
     const Ranks ranks;
     return render_reference(*options, scene, ranks);
   }
-  if (!options->measure.empty()) {
-    return report(run_measure(*options, scene, show_progress), *options);
+  if (const Measuring measure = find_measuring(*options)) {
+    std::string said;
+    const auto done = measure(*options, scene, show_progress, said);
+    print(said);
+    return report(done, *options);
   }
-  if (options->study) return report(run_study(*options, scene, show_progress), *options);
-  if (options->claims) return report(run_claims(*options, scene, show_progress), *options);
-  if (!options->split.empty()) {
-    return report(run_split(*options, scene, show_progress, say_error), *options);
-  }
-  if (options->measure_left_out) return print_left_out(*options, scene);
   const auto renderer = create_renderer(*options, scene, say_error);
   if (!renderer) return report(renderer.error());
   if (const auto s = check_views(*options, **renderer); !s) return report(s.error());

@@ -15,12 +15,12 @@
 #include "effects/assets/built_in/camera_paths.h"
 #include "effects/glass/transparent/transparent.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/measure/comparison/split.h"
 #include "effects/reflections/traced/reflections.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "options_conflict.h"
 #include "options_measure.h"
 #include "options_views.h"
-#include "split.h"
 
 namespace northlight {
 
@@ -277,17 +277,6 @@ void apply(const Words& words, Options& options) {
 }
 
 }  // namespace
-
-void choose(Options& options, const std::vector<std::string>& effects) {
-  FrameSettings& frame = options.frame;
-  frame.effects = choose_effects(effects);
-  for (auto& [name, settings] : frame.effects) {
-    const bool named = settings.named;
-    settings = options.effects.at(name);
-    settings.named = named;
-  }
-  frame.whole_frame = need_whole_frame(frame.effects);
-}
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;

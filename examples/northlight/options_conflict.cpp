@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "study/family_study.h"
+#include "effects/measure/study/family_study.h"
 
 namespace northlight {
 

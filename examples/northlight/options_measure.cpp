@@ -3,9 +3,10 @@
 
 #include <tuple>
 
-#include "committed_truth.h"
-#include "measure.h"
-#include "study/plans.h"
+#include "effects/measure/curves/measure.h"
+#include "effects/measure/study/plans.h"
+#include "effects/measure/truth/committed_truth.h"
+#include "watch.h"
 
 namespace northlight {
 
@@ -98,10 +99,13 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& op
       options.scene = "glass-stack";
     }
   }
+  if (const auto folder = find_effects_folder(); !folder.empty()) {
+    options.committed = (folder.parent_path() / "tests/numerics/path_traced").string();
+  }
   if (!words.study.empty()) {
     options.scene = words.study;
     if (app.count("--size") == 0) {
-      const auto committed = committed_size(options.scene);
+      const auto committed = committed_size(options);
       std::tie(frame.width, frame.height) = committed.value_or(std::pair(160u, 90u));
     }
     if (app.count("--repeats") == 0) options.repeats = options.quick ? 2 : 5;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "sequence.h"
-#include "failure.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "effects/assets/built_in/camera_paths.h"
 #include "effects/assets/built_in/light_forest.h"
+#include "effects/measure/run/camera_choice.h"
+#include "effects/measure/run/failure.h"
 #include "look.h"
 
 namespace northlight {
@@ -179,12 +179,6 @@ std::string describe_flicker(const std::vector<FlickerLine>& lines) {
 }
 
 }  // namespace
-
-kaamos::effects::Result<CameraPath> choose_path(const Options& options, const Scene& scene) {
-  auto built_in = make_camera_path(scene, options.camera_path);
-  if (built_in.ok() || !std::filesystem::exists(options.camera_path)) return built_in;
-  return load_camera_path(options.camera_path);
-}
 
 rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
                                        const Options& options, const Progress& progress,

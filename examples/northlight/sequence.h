@@ -11,7 +11,7 @@
 #include "effects/assets/image/flicker.h"
 #include "effects/assets/scene/camera_path.h"
 #include "effects/geometry/structures/structures.h"
-#include "frame_result.h"
+#include "effects/measure/run/frame_result.h"
 #include "output.h"
 
 namespace northlight {
@@ -36,10 +36,6 @@ struct SequenceResult {
   std::vector<FlickerLine> flicker;
   FrameResult last;  // with its layers
 };
-
-// The path of --camera-path: a built-in one or a file's.
-kaamos::effects::Result<kaamos::effects::CameraPath> choose_path(
-    const Options& options, const kaamos::effects::Scene& scene);
 
 // Renders options.frames frames and adds frame_0000.png ... to `files` without publishing them.
 // `scene` is the renderer's; lights that move (light_forest.h) move in it. Errors: those of the

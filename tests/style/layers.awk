@@ -62,8 +62,7 @@ function check_source(file,    line, number, target, from, to, pair) {
     if (to == "") continue
     if (!allowed(from, to, "include")) print file ":" number ": " from " must not include " to
     pair = folder_of(file) SUBSEP folder_of(target)
-    # An example is a program, whose folders are parts of one thing.
-    if (from !~ /^examples/ && folder_of(file) != folder_of(target) && !(pair in arrow)) {
+    if (folder_of(file) != folder_of(target) && !(pair in arrow)) {
       arrow[pair] = file ":" number
       node[folder_of(file)]; node[folder_of(target)]
       reaches[pair]

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "effects/measure/run/effect_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include "effects/engine/picture.h"
+
+namespace kaamos::measure {
+
+using namespace kaamos::effects;
+
+namespace {
+
+constexpr std::uint32_t kBackgroundSamples = 16;
+constexpr std::uint32_t kMostDenoiserViews = 2048;  // many denoisers side by side
+
+double cpu_ms(std::uint32_t threads) {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  const double ms = static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+  return ms / std::max(threads > 0 ? threads : std::thread::hardware_concurrency(), 1u);
+}
+
+FloatImage first_channels(const FloatImage& image, std::uint32_t channels) {
+  FloatImage out(image.width, image.height, channels);
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    out.values[i] = image.values[i / channels * image.channels + i % channels];
+  }
+  return out;
+}
+
+}  // namespace
+
+// Everything that the volume depends on, including the program's own timestamp, since its shaders
+// are part of it.
+std::string volume_key(const Options& options) {
+  std::error_code ignored;
+  const VolumeSettings& volume = options.frame.volume;
+  std::string text = fmt::format("{} {} {} {} {} {}", options.scene, volume.cell.value_or(0),
+                                 volume.samples, volume.error, volume.lights, options.frame.seed);
+  for (const std::string& material : options.materials) text += " " + material;
+  for (const std::string& file : {options.scene, std::string("/proc/self/exe")}) {
+    const auto time = std::filesystem::last_write_time(file, ignored);
+    if (!ignored) text += fmt::format(" {}", time.time_since_epoch().count());
+  }
+  std::uint64_t hash = 0xCBF29CE484222325u;  // FNV-1a
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  return fmt::format("{:016x}", hash);
+}
+
+Setting setting_of(const std::string& effect, std::uint32_t samples) {
+  Setting out{.effect = effect, .settings = find_effect(northlight_effects(), effect)->defaults};
+  out.settings.samples = samples;
+  return out;
+}
+
+rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& scene,
+                                          const std::vector<std::string>& effects,
+                                          const std::string& cache, const Progress& progress,
+                                          const Say& message, std::unique_ptr<EffectRuns>& out) {
+  out = std::make_unique<EffectRuns>();
+  Options own = options;
+  choose(own, effects);
+  for (auto& [name, settings] : own.frame.effects) {
+    settings.pixel_step = 1;
+    settings.keep = find_effect(northlight_effects(), name)->needs.glass;
+  }
+  own.frame.denoise = default_denoise(DenoiseMethod::kNone);
+  own.frame.order = RayOrder::kPixels;
+  own.frame.max_pass_views = kMostDenoiserViews;
+  if (own.frame.volume.file.empty()) {
+    own.frame.volume.file = cache + "/volume-" + volume_key(options) + ".bin";
+  }
+  auto renderer = create_renderer(own, scene, message);
+  if (!renderer) return renderer.error();
+  out->renderer_ = std::move(*renderer);
+  out->ao_radius_ = options.effects.at("ao").radius;
+  if (options.cpu_clock) {
+    out->renderer_->runner().set_clock([threads = options.threads] { return cpu_ms(threads); });
+  }
+  if (const auto s = out->renderer_->prepare(progress); !is_done(s)) return s;
+  for (const Effect& effect : northlight_effects()) {
+    if (!effect.needs.glass || !out->renderer_->effects().renders(effect.name)) continue;
+    if (const auto s = out->create_background(); !s) return s.error();
+  }
+  return Outcome::kDone;
+}
+
+rtapi::Status EffectRuns::create_background() {
+  const auto composite =
+      CompositePass::create(renderer_->device(), renderer_->frame(),
+                            renderer_->context().libraries.at("composition/composite/composite"));
+  if (!composite) return composite.error();
+  background_ = *composite;
+  for (const char* effect : {"ao", "sun"}) {
+    if (!renderer_->effects().renders(effect)) continue;
+    Setting setting = setting_of(effect, kBackgroundSamples);
+    setting.settings.radius = ao_radius_;
+    const auto ran = run(setting);
+    if (!ran) return ran.error();
+  }
+  return {};
+}
+
+rtapi::Status EffectRuns::draw_background() {
+  const auto drawn = renderer_->runner().execute([&](rtapi::CommandList& list) {
+    background_->dispatch(
+        list, renderer_->frame(),
+        {kBackgroundSamples, renderer_->effects().renders("sun") ? kBackgroundSamples : 0});
+  });
+  if (!drawn) return drawn.error();
+  return {};
+}
+
+rtapi::Result<FloatImage> EffectRuns::read_background() {
+  if (background_) {
+    if (const auto drawn = draw_background(); !drawn) return drawn.error();
+  }
+  return renderer_->read("radiance");
+}
+
+bool EffectRuns::is_glass(const Setting& setting) const {
+  return find_effect(renderer_->context().effects, setting.effect)->needs.glass;
+}
+
+rtapi::Result<RunStatistics> EffectRuns::run(const Setting& setting) {
+  if (is_glass(setting)) {
+    if (!background_) return renderer_->run(setting.effect, setting.settings);
+    if (const auto drawn = draw_background(); !drawn) return drawn.error();
+  }
+  const auto ran = renderer_->run(setting.effect, setting.settings, setting.first_sample);
+  if (!ran || setting.times_ao == 0) return ran;
+  EffectSettings occlusion;
+  occlusion.samples = setting.times_ao;
+  occlusion.radius = ao_radius_;
+  const auto more = renderer_->run("ao", occlusion);
+  if (!more) return more;
+  return RunStatistics{ran->ms + more->ms, ran->rays + more->rays};
+}
+
+rtapi::Result<Outcome> EffectRuns::accumulate(const Setting& setting, const Progress& progress) {
+  return renderer_->accumulate(setting.effect, setting.settings, progress);
+}
+
+rtapi::Texture EffectRuns::sum(const Setting& setting) const {
+  const Effect* effect = find_effect(renderer_->context().effects, setting.effect);
+  return renderer_->effects().sum(effect->signals.front().name);
+}
+
+rtapi::Result<FloatImage> EffectRuns::read_lit() {
+  const auto added = renderer_->runner().execute([&](rtapi::CommandList& list) {
+    renderer_->filters().record_rest(list);
+    renderer_->lights().record_strongest(list);
+  });
+  if (!added) return added.error();
+  const auto image = renderer_->read("local_lights");
+  if (!image) return image.error();
+  return first_channels(*image, 3);
+}
+
+rtapi::Result<FloatImage> EffectRuns::read(const Setting& setting) {
+  if (setting.lit) return read_lit();
+  const EffectSignal& signal =
+      find_effect(renderer_->context().effects, setting.effect)->signals.front();
+  const auto image = renderer_->read(is_glass(setting) ? "radiance" : signal.name);
+  if (!image) return image.error();
+  FloatImage out = first_channels(*image, signal.channels);
+  if (setting.times_ao == 0) return out;
+  const auto open = renderer_->read("ao");
+  if (!open) return open.error();
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    out.values[i] *= open->values[i / signal.channels];
+  }
+  return out;
+}
+
+rtapi::Result<std::vector<std::uint8_t>> EffectRuns::mask(bool glass) {
+  const auto image =
+      renderer_->read(glass ? renderer_->effects().sum("glass") : renderer_->frame().texture(kIds));
+  if (!image) return image.error();
+  std::vector<std::uint8_t> out(std::size_t{image->width} * image->height);
+  for (std::size_t pixel = 0; pixel < out.size(); ++pixel) {
+    const float value = image->values[pixel * image->channels + (glass ? 3 : 0)];
+    out[pixel] = value > 0 ? 1 : 0;
+  }
+  return out;
+}
+
+}  // namespace kaamos::measure

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Single effects, run again and again with any settings and seeds: what measuring needs.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/measure/run/frame_result.h"
+#include "effects/measure/run/options.h"
+#include "effects/northlight/frame_renderer.h"
+
+namespace kaamos::measure {
+
+// One effect and all that can be chosen of it.
+struct Setting {
+  std::string effect = "ao";
+  effects::EffectSettings settings = {};
+  std::uint32_t first_sample = 0;  // of each pixel's sequence
+  bool lit = false;                // contact: what is read is the radiance of the local lights
+  std::uint32_t times_ao = 0;      // multiplied with ambient occlusion of so many rays; 0: not
+
+  // Changes the effect's constants.
+  template <class T, class Change>
+  void change(Change change_constants) {
+    T constants = settings.get_constants<T>();
+    change_constants(constants);
+    settings.set_constants(constants);
+  }
+};
+
+// That effect with `samples` rays a pixel, all else as its row of the registry has it.
+Setting setting_of(const std::string& effect, std::uint32_t samples = 1);
+
+// Names a volume of indirect light by all that it depends on.
+std::string volume_key(const Options& options);
+
+class EffectRuns {
+ public:
+  // Whatever runs must be among `effects`. `cache`: a folder for the volume of indirect light.
+  // `scene` must stay.
+  static rtapi::Result<Outcome> create(const Options& options, const effects::Scene& scene,
+                                       const std::vector<std::string>& effects,
+                                       const std::string& cache, const Progress& progress,
+                                       const Say& message, std::unique_ptr<EffectRuns>& out);
+
+  // All samples in one dispatch; sums begin anew. Glass is drawn over what lies behind it.
+  rtapi::Result<effects::RunStatistics> run(const Setting& setting);
+  // The same for many samples, so that it can be stopped.
+  rtapi::Result<Outcome> accumulate(const Setting& setting, const Progress& progress);
+  // The mean of the samples of the last run, without channels that say something else. `lit`
+  // shadows: the radiance of the local lights. Glass: the frame's radiance behind and with it.
+  rtapi::Result<effects::FloatImage> read(const Setting& setting);
+  // What glass stands in front of.
+  rtapi::Result<effects::FloatImage> read_background();
+  // The picture to which a run adds.
+  rtapi::Texture sum(const Setting& setting) const;
+  rtapi::Status set_seed(std::uint32_t seed) { return renderer_->set_seed(seed); }
+
+  // Pixels that show a surface, or glass where `glass` is set (after a run of it).
+  rtapi::Result<std::vector<std::uint8_t>> mask(bool glass);
+
+  effects::FrameRenderer& renderer() { return *renderer_; }
+
+ private:
+  bool is_glass(const Setting& setting) const;
+  rtapi::Status create_background();
+  rtapi::Status draw_background();
+  rtapi::Result<effects::FloatImage> read_lit();
+
+  std::unique_ptr<effects::FrameRenderer> renderer_;
+  float ao_radius_ = 0;
+  std::optional<effects::CompositePass> background_;  // what glass is seen before
+};
+
+}  // namespace kaamos::measure

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "effects/measure/run/frame_result.h"
+
+#include <utility>
+
+namespace kaamos::measure {
+
+using namespace kaamos::effects;
+
+rtapi::Result<rtapi::Device> create_device(const Options& options, const Say& message) {
+  rtapi::DeviceDesc desc;
+  desc.Backend = options.backend;
+  desc.Threads = options.threads;
+  if (options.precision == "fast") desc.Precision = rtapi::TraversalPrecision::kFast;
+  if (options.precision == "exact") desc.Precision = rtapi::TraversalPrecision::kExact;
+  desc.CollectStatistics = true;
+  desc.Checked = options.checked;
+  desc.OnMessage = [message](const rtapi::Message& m) { message(m.Text); };
+  return rtapi::CreateDevice(desc);
+}
+
+rtapi::Result<std::unique_ptr<FrameRenderer>> create_renderer(const Options& options,
+                                                              const Scene& scene,
+                                                              const Say& message) {
+  const auto device = create_device(options, message);
+  if (!device) return device.error();
+  return FrameRenderer::create(*device, scene, options.frame);
+}
+
+rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer) {
+  FrameResult out;
+  for (const std::string& name : renderer.layers()) {
+    auto image = renderer.read(name);
+    if (!image) return image.error();
+    (name == "radiance" ? out.radiance : out.layers[name]) = std::move(*image);
+  }
+  if (renderer.context().set_up) out.passes.push_back(*renderer.context().set_up);
+  out.passes.insert(out.passes.end(), renderer.runner().passes().begin(),
+                    renderer.runner().passes().end());
+  out.left_out = renderer.context().left_out;
+  if (renderer.surfaces().raster() != nullptr) {
+    const auto primary = renderer.surfaces().compare();
+    if (!primary) return primary.error();
+    out.primary = *primary;
+  }
+  return out;
+}
+
+rtapi::Result<Outcome> render_frame(FrameRenderer& renderer, const Progress& progress,
+                                    FrameResult& result) {
+  if (const auto s = renderer.render(progress); !is_done(s)) return s;
+  auto frame = read_frame(renderer);
+  if (!frame) return frame.error();
+  result = std::move(*frame);
+  return Outcome::kDone;
+}
+
+}  // namespace kaamos::measure

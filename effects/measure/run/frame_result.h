@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// A renderer as the command line wants it, and what of its frame goes into files and tables.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/measure/run/options.h"
+#include "effects/northlight/frame_renderer.h"
+
+namespace kaamos::measure {
+
+using effects::is_done;
+using effects::Outcome;
+using effects::Progress;
+
+// One of --view.
+struct ViewResult {
+  std::string name;
+  std::vector<std::string> channels;  // of `numbers`
+  effects::FloatImage numbers;
+  effects::ByteImage picture;
+  std::string legend;  // what its colours stand for
+};
+
+struct FrameResult {
+  std::map<std::string, effects::FloatImage> layers;  // "ao", "normal", ...
+  effects::FloatImage radiance;                       // RGBA, linear
+  std::vector<effects::PassStatistics> passes;
+  std::vector<std::string> left_out;                  // effects and parts left out, and why
+  std::optional<effects::PrimaryComparison> primary;  // of surfaces that were drawn
+  std::vector<ViewResult> views;                      // of --view
+};
+
+rtapi::Result<rtapi::Device> create_device(const Options& options, const Say& message);
+// On a device of its own. `scene` must stay as it is.
+rtapi::Result<std::unique_ptr<effects::FrameRenderer>> create_renderer(const Options& options,
+                                                                       const effects::Scene& scene,
+                                                                       const Say& message);
+
+// All of the last frame.
+rtapi::Result<FrameResult> read_frame(effects::FrameRenderer& renderer);
+// Renders a frame and reads it.
+rtapi::Result<Outcome> render_frame(effects::FrameRenderer& renderer, const Progress& progress,
+                                    FrameResult& result);
+
+}  // namespace kaamos::measure

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "effects/measure/study/family_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "effects/assets/image/png.h"
+#include "effects/measure/run/failure.h"
+#include "effects/measure/study/files.h"
+#include "effects/measure/study/motion.h"
+
+namespace kaamos::measure {
+
+using namespace kaamos::effects;
+
+namespace {
+
+constexpr std::uint32_t kVulkanPart = 4;  // of the width and height
+constexpr float kShownDifference = 4;
+
+// Of floats from 0 to 1; what the mask leaves out is grey.
+ByteImage as_bytes(const FloatImage& image, const std::vector<std::uint8_t>& mask) {
+  ByteImage out{image.width, image.height, 3, std::vector<std::uint8_t>(image.values.size())};
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    const float value = mask[i / 3] != 0 ? std::clamp(image.values[i], 0.0f, 1.0f) : 0.5f;
+    out.values[i] = static_cast<std::uint8_t>(std::lround(value * 255));
+  }
+  return out;
+}
+
+FloatImage difference(const FloatImage& a, const FloatImage& b) {
+  FloatImage out(a.width, a.height, 3);
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    out.values[i] = kShownDifference * std::abs(a.values[i] - b.values[i]);
+  }
+  return out;
+}
+
+class PartStudy {
+ public:
+  PartStudy(const StudyPart& part, const Options& options, const Scene& scene)
+      : part_(part),
+        options_(options_of(part, options)),
+        scene_(scene),
+        folder_(options.out + "/study") {
+    if (!part.family.effect.empty()) plan_ = study_plan(part.family, options_, options.quick);
+  }
+
+  rtapi::Result<Outcome> run(const Progress& progress, std::vector<StudyResult>& results) {
+    const std::string file = folder_ + "/" + part_.name() + ".json";
+    const auto kept = parse_results(read_text(file));
+    if (kept && !kept->empty() && kept->front().key == key()) {
+      results.insert(results.end(), kept->begin(), kept->end());
+      return Outcome::kDone;
+    }
+    std::vector<StudyResult> found;
+    const auto done = measure(progress, found);
+    if (!is_done(done)) return done;
+    for (StudyResult& result : found) result.key = key();
+    if (const auto s = write_text(file, to_json(found)); !s) return s.error();
+    results.insert(results.end(), found.begin(), found.end());
+    return Outcome::kDone;
+  }
+
+ private:
+  // Vulkan runs a sixteenth of the pixels, as for the claims; what moves a quarter, with half of
+  // the truth's samples.
+  static Options options_of(const StudyPart& part, const Options& options) {
+    Options out = options;
+    out.backend = part.backend;
+    const auto shrink = [&](std::uint32_t by) {
+      out.frame.width = std::max(options.frame.width / by, 1u);
+      out.frame.height = std::max(options.frame.height / by, 1u);
+    };
+    if (part.is_smaller) shrink(kVulkanPart);
+    if (!part.moves || part.family.effect.empty()) return out;
+    if (!part.is_smaller) shrink(2);
+    out.measure_truth = std::max(options.measure_truth / 2, 2u);
+    return out;
+  }
+
+  std::string key() const {
+    std::string text = fmt::format(
+        "{} {}x{} {} {} {} {} {} {} {}", volume_key(options_), options_.frame.width,
+        options_.frame.height, options_.backend, options_.repeats, options_.measure_reference,
+        options_.measure_truth, options_.cpu_clock, options_.camera_path, options_.seeds);
+    for (const MeasuredSetting& each : plan_.settings) text += "|" + each.group + "/" + each.label;
+    return text;
+  }
+
+  StudyResult begin_result(const std::string& name, const std::string& title) const {
+    StudyResult out;
+    out.family = name;
+    out.title = title;
+    if (part_.moves) out.title += ", in motion";
+    if (part_.is_smaller) out.title += ", " + part_.backend;
+    return out;
+  }
+
+  rtapi::Result<Outcome> measure(const Progress& progress, std::vector<StudyResult>& results) {
+    if (part_.family.effect.empty()) return measure_filters(progress, results);
+    results.push_back(begin_result(part_.name(), part_.family.title));
+    StudyResult& result = results.back();
+    if (part_.family.effect == "sun" && !scene_.sun) {
+      result.skipped = "the scene has no sun";
+      return Outcome::kDone;
+    }
+    if (part_.family.effect == "contact" && scene_.lights.empty()) {
+      result.skipped = "the scene has no local light";
+      return Outcome::kDone;
+    }
+    if (part_.moves && options_.measure_truth == 0) {
+      result.skipped = "--measure-truth 0 leaves nothing to compare moving pictures with";
+      return Outcome::kDone;
+    }
+    result.rows.assign(plan_.settings.size(), {});
+    MeasuredTable table;
+    const LookAt look_at = [&](std::size_t setting, const FloatImage& image, const Target& target,
+                               const Target* truth) {
+      return keep_pictures(setting, image, truth != nullptr ? *truth : target, result);
+    };
+    const auto done = part_.moves ? run_motion(plan_, options_, scene_, progress, table, look_at)
+                                  : run_plan(plan_, options_, scene_, progress, table, look_at);
+    if (!is_done(done)) return done;
+    result.subtitle = table.subtitle;
+    result.signal = plan_.signal;
+    result.about = table.about;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const MeasuredRow& measured = table.rows[i];
+      fill(measured, result.rows[i]);
+      result.rows[i].technique = measured.group;
+      result.rows[i].label = measured.label;
+      result.truth = measured.truth ? std::string("path-traced truth")
+                                    : fmt::format("the ray traced effect with {} samples a pixel",
+                                                  options_.measure_reference);
+      result.truth_error = measured.truth ? measured.truth_rmse : measured.reference_rmse;
+    }
+    return Outcome::kDone;
+  }
+
+  // Of --measure svgf, the last frames at rest and along the path: a result for each signal.
+  rtapi::Result<Outcome> measure_filters(const Progress& progress,
+                                         std::vector<StudyResult>& results) {
+    Options own = options_;
+    std::vector<std::string> effects = {"gi", "reflections"};
+    if (scene_.sun) effects.insert(effects.begin(), "sun");
+    choose(own, effects);
+    if (own.camera_path.empty()) own.camera_path = "dolly";
+    struct Seen {
+      std::size_t row;
+      FloatImage image;
+      Target target;
+    };
+    std::vector<Seen> seen;
+    MeasuredTable table;
+    const auto done = measure_denoisers(
+        own, scene_, progress, table,
+        [&](std::size_t row, const FloatImage& image, const Target& target, const Target*) {
+          seen.push_back({row, image, target});
+          return rtapi::Status();
+        });
+    if (!is_done(done)) return done;
+    for (const Seen& each : seen) {
+      const MeasuredRow& measured = table.rows[each.row];
+      // "SIGNAL, still, frame 8": the first frames have no history yet.
+      const std::string place = measured.group.substr(measured.reference.size());
+      const bool moves = place.find("still") == std::string::npos;
+      if (place.ends_with("frame 1") || (moves && options_.quick)) continue;
+      const std::string name = part_.name() + "-" + measured.reference + (moves ? "-motion" : "");
+      if (results.empty() || results.back().family != name) {
+        results.push_back(begin_result(name, part_.family.title + " of " + measured.reference));
+        StudyResult& result = results.back();
+        if (moves) result.title += ", in motion";
+        result.subtitle = table.subtitle;
+        result.signal = measured.reference;
+        result.truth = fmt::format("mean of {} samples a pixel", options_.measure_reference);
+        result.truth_error = measured.reference_rmse;
+        result.about = {
+            "Milliseconds are those of the whole frame's rays and of the filters of "
+            "all signals, in the eighth frame"};
+      }
+      StudyResult& result = results.back();
+      StudyRow& row = result.rows.emplace_back();
+      fill(measured, row);
+      const std::size_t comma = measured.label.find(", ");
+      row.technique = comma == std::string::npos ? measured.label
+                                                 : measured.label.substr(0, comma) + " by passes";
+      row.label =
+          comma == std::string::npos ? "as it is by default" : measured.label.substr(comma + 2);
+      const auto kept = keep_pictures(result.rows.size() - 1, each.image, each.target, result);
+      if (!kept) return kept.error();
+    }
+    return Outcome::kDone;
+  }
+
+  static void fill(const MeasuredRow& measured, StudyRow& row) {
+    const Errors::Summary& errors = measured.truth ? *measured.truth : measured.errors;
+    row.ms = measured.ms;
+    row.traced = measured.traced;
+    row.error = errors.rmse;
+    row.flip = errors.flip;
+    row.ssim = errors.ssim;
+    row.energy = errors.energy_ratio;
+    row.flicker = measured.flicker;
+  }
+
+  rtapi::Status keep_pictures(std::size_t setting, const FloatImage& image, const Target& wanted,
+                              StudyResult& result) const {
+    const FloatImage seen = as_seen(image, wanted.exposure);
+    const FloatImage right = as_seen(wanted.image, wanted.exposure);
+    StudyRow& row = result.rows[setting];
+    row.picture = fmt::format("{}-{}.png", result.family, setting);
+    row.difference = fmt::format("{}-{}-difference.png", result.family, setting);
+    result.truth_picture = result.family + "-truth.png";
+    const std::tuple<std::string, FloatImage> pictures[] = {
+        {row.picture, seen},
+        {row.difference, difference(seen, right)},
+        {result.truth_picture, right}};
+    for (const auto& [name, picture] : pictures) {
+      const auto written = write_png(folder_ + "/" + name, as_bytes(picture, wanted.mask));
+      if (!written.ok()) return written.error();
+    }
+    return {};
+  }
+
+  const StudyPart& part_;
+  Options options_;
+  const Scene& scene_;
+  std::string folder_;
+  MeasurePlan plan_;
+};
+
+}  // namespace
+
+std::string StudyPart::name() const {
+  return family.name + (moves ? "-motion" : "") + (is_smaller ? "-" + backend : "");
+}
+
+std::vector<StudyPart> study_parts(const StudyFamily& family, const Options& options) {
+  std::vector<StudyPart> out;
+  const bool both = options.backend == kBothBackends;
+  for (const bool is_second : {false, true}) {
+    if (is_second && !both) continue;
+    const std::string backend = is_second ? "vulkan" : both ? "embree" : options.backend;
+    for (const bool moves : {false, true}) {
+      // Denoisers are measured at rest and in motion at once; --quick stays still, and what has no
+      // path-traced truth has none in motion.
+      const bool stays = family.effect.empty() || family.effect == "contact";
+      if (moves && (options.quick || stays)) continue;
+      out.push_back({family, backend, moves, is_second});
+    }
+  }
+  return out;
+}
+
+rtapi::Result<Outcome> study_part(const StudyPart& part, const Options& options, const Scene& scene,
+                                  const Progress& progress, std::vector<StudyResult>& results) {
+  return PartStudy(part, options, scene).run(progress, results);
+}
+
+}  // namespace kaamos::measure

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The families of techniques that --study compares, and what it measures of each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "effects/measure/curves/measure.h"
+
+namespace kaamos::measure {
+
+struct StudyFamily {
+  std::string name;    // "shadows": of files, and in --families
+  std::string title;   // "Shadows of the sun"
+  std::string effect;  // the ray traced one, to which the others are alternatives; empty: denoisers
+};
+
+const std::vector<StudyFamily>& study_families();
+// Of --families: those, and "claims".
+std::vector<std::string> study_family_names();
+
+// Every technique of the family, from fast to accurate. `quick`: three settings of each at most.
+MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool quick);
+
+// What the technique of a plan's group cannot show; empty: nothing but noise.
+std::string what_it_misses(const std::string& group);
+
+}  // namespace kaamos::measure

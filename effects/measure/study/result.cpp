@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "effects/measure/study/result.h"
+
+#include <nlohmann/json.hpp>
+
+namespace kaamos::measure {
+
+using namespace kaamos::effects;
+using nlohmann::ordered_json;
+
+std::vector<Trade> StudyResult::trades() const {
+  std::vector<Trade> out;
+  for (const StudyRow& row : rows) out.push_back({row.ms, row.error});
+  return out;
+}
+
+namespace {
+
+ordered_json as_json(const StudyResult& result) {
+  ordered_json rows = ordered_json::array();
+  for (const StudyRow& row : result.rows) {
+    rows.push_back({{"technique", row.technique},
+                    {"setting", row.label},
+                    {"ms", row.ms},
+                    {"rays", row.traced},
+                    {"rmse", row.error},
+                    {"flip", row.flip},
+                    {"ssim", row.ssim},
+                    {"energy", row.energy},
+                    {"flicker", row.flicker},
+                    {"picture", row.picture},
+                    {"difference", row.difference}});
+  }
+  return {{"family", result.family},
+          {"title", result.title},
+          {"key", result.key},
+          {"subtitle", result.subtitle},
+          {"signal", result.signal},
+          {"truth", result.truth},
+          {"truth_picture", result.truth_picture},
+          {"truth_rmse", result.truth_error},
+          {"about", result.about},
+          {"skipped", result.skipped},
+          {"rows", rows}};
+}
+
+StudyResult as_result(const ordered_json& in) {
+  StudyResult out;
+  in.at("family").get_to(out.family);
+  in.at("title").get_to(out.title);
+  in.at("key").get_to(out.key);
+  in.at("subtitle").get_to(out.subtitle);
+  in.at("signal").get_to(out.signal);
+  in.at("truth").get_to(out.truth);
+  in.at("truth_picture").get_to(out.truth_picture);
+  in.at("truth_rmse").get_to(out.truth_error);
+  in.at("about").get_to(out.about);
+  in.at("skipped").get_to(out.skipped);
+  for (const ordered_json& each : in.at("rows")) {
+    StudyRow row;
+    each.at("technique").get_to(row.technique);
+    each.at("setting").get_to(row.label);
+    each.at("ms").get_to(row.ms);
+    each.at("rays").get_to(row.traced);
+    each.at("rmse").get_to(row.error);
+    each.at("flip").get_to(row.flip);
+    each.at("ssim").get_to(row.ssim);
+    each.at("energy").get_to(row.energy);
+    each.at("flicker").get_to(row.flicker);
+    each.at("picture").get_to(row.picture);
+    each.at("difference").get_to(row.difference);
+    out.rows.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string to_json(const std::vector<StudyResult>& results) {
+  ordered_json out = ordered_json::array();
+  for (const StudyResult& result : results) out.push_back(as_json(result));
+  return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::vector<StudyResult>> parse_results(const std::string& text) {
+  const ordered_json in = ordered_json::parse(text, nullptr, false);
+  if (in.is_discarded()) return std::nullopt;
+  try {
+    std::vector<StudyResult> out;
+    for (const ordered_json& each : in) out.push_back(as_result(each));
+    return out;
+  } catch (const ordered_json::exception&) {  // another version's
+    return std::nullopt;
+  }
+}
+
+Table as_csv(const std::vector<StudyResult>& results) {
+  Table out;
+  out.columns = {"family", "technique", "setting", "ms",      "rays",    "rmse",
+                 "flip",   "ssim",      "energy",  "flicker", "on_front"};
+  for (const StudyResult& result : results) {
+    std::vector<bool> is_on_front(result.rows.size());
+    for (const std::size_t i : pareto_front(result.trades())) is_on_front[i] = true;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+      const StudyRow& row = result.rows[i];
+      out.rows.push_back({result.family, row.technique, row.label, csv_number(row.ms),
+                          csv_number(row.traced), csv_number(row.error), csv_number(row.flip),
+                          csv_number(row.ssim), csv_number(row.energy),
+                          row.flicker < 0 ? "" : csv_number(row.flicker),
+                          is_on_front[i] ? "1" : "0"});
+    }
+  }
+  return out;
+}
+
+Plot as_plot(const StudyResult& result) {
+  Plot plot{.title = result.title,
+            .subtitle = result.subtitle,
+            .x_label = "time (ms)",
+            .y_label = "root mean square error of the " + result.signal};
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const StudyRow& row = result.rows[i];
+    if (plot.series.empty() || plot.series.back().name != row.technique) {
+      plot.series.push_back({row.technique, {}, true});
+    }
+    plot.series.back().points.push_back({row.ms, row.error, row.label, std::to_string(i)});
+  }
+  if (result.truth_error > 0) plot.levels.push_back({"the truth's own error", result.truth_error});
+  return plot;
+}
+
+}  // namespace kaamos::measure

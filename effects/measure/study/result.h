@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What --study found out about a family: kept in files, so that an interrupted study goes on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/assets/image/csv.h"
+#include "effects/assets/image/pareto.h"
+#include "effects/assets/image/plot.h"
+
+namespace kaamos::measure {
+
+// A setting of a technique.
+struct StudyRow {
+  std::string technique, label;
+  double ms = 0;      // median
+  double traced = 0;  // rays per pixel
+  double error = 0;   // RMSE against the truth
+  double flip = 0, ssim = 0, energy = 0;
+  double flicker = -1;     // mean change from frame to frame beyond motion; negative: not measured
+  std::string picture;     // PNG files beside the report
+  std::string difference;  // 4 times its absolute difference from the truth
+};
+
+struct StudyResult {
+  std::string family, title;  // "shadows-motion", "Shadows of the sun, in motion"
+  std::string key;            // of all that it depends on
+  std::string subtitle;       // scene, size, backend, repeats
+  std::string signal;         // what is compared
+  std::string truth;          // what it is compared with
+  std::string truth_picture;  // a PNG file
+  double truth_error = 0;     // the truth's own standard error
+  std::vector<std::string> about;
+  std::vector<StudyRow> rows;
+  std::string skipped;  // why there is nothing; empty: there is
+
+  std::vector<effects::Trade> trades() const;
+};
+
+std::string to_json(const std::vector<StudyResult>& results);
+// Nothing where the text is no list of results.
+std::optional<std::vector<StudyResult>> parse_results(const std::string& text);
+
+effects::Table as_csv(const std::vector<StudyResult>& results);
+// Time against error; marks have the row's number as their key.
+effects::Plot as_plot(const StudyResult& result);
+
+}  // namespace kaamos::measure
