@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "output.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
