@@ -132,6 +132,8 @@ std::string ArgumentParser::apply(std::string_view name, const std::string& valu
     if (value != "external" && value != "internal") return "it must be external or internal";
   } else if (name == "-Zpr" || name == "-Zpc") {
     options.RowMajorMatrices = name == "-Zpr";
+  } else if (name == "-flegacy-resource-reservation") {
+    options.ReserveUnusedRegisters = true;
   } else if (name == "-enable-16bit-types") {
     options.Native16BitTypes = true;
   } else if (name == "-enable-payload-qualifiers") {

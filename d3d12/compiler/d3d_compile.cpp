@@ -113,6 +113,8 @@ HRESULT compile(std::string source, const char* name, const D3D_SHADER_MACRO* de
   arguments.options.Target = parsed->options.Target;
   arguments.options.EntryPoint = parsed->options.EntryPoint;
   arguments.options.RowMajorMatrices = parsed->options.RowMajorMatrices;
+  // As FXC does for the models before 5.1, which are what it compiles most.
+  arguments.options.ReserveUnusedRegisters = true;
   arguments.options.Debug = parsed->options.Debug;
   arguments.absolute_paths = parsed->absolute_paths;
   arguments.warnings_as_errors = parsed->warnings_as_errors;

@@ -107,8 +107,9 @@ std::vector<std::byte> write_source(const ShaderSource& source) {
   out.add(options.AutoBindingSpace.value_or(0));
   out.add(options.HlslVersion);
   out.add(number_of(options.PayloadQualifiers));
-  for (const bool flag : {options.RowMajorMatrices, options.Native16BitTypes,
-                          options.ExternalLinkage, options.Strict, options.Debug}) {
+  for (const bool flag :
+       {options.RowMajorMatrices, options.Native16BitTypes, options.ExternalLinkage, options.Strict,
+        options.Debug, options.ReserveUnusedRegisters}) {
     out.add(uint32_t{flag});
   }
   out.add(static_cast<uint32_t>(source.files.size()));
@@ -146,7 +147,7 @@ rtapi::Result<ShaderSource> read_source(std::span<const std::byte> part) {
   options.HlslVersion = in.text();
   if (const uint32_t given = in.number()) options.PayloadQualifiers = given == 2;
   for (bool* flag : {&options.RowMajorMatrices, &options.Native16BitTypes, &options.ExternalLinkage,
-                     &options.Strict, &options.Debug}) {
+                     &options.Strict, &options.Debug, &options.ReserveUnusedRegisters}) {
     *flag = in.number() != 0;
   }
   for (uint32_t left = in.number(); left > 0 && in.ok(); --left) {

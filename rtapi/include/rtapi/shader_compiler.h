@@ -45,8 +45,11 @@ struct ShaderCompileOptions {
   std::optional<uint32_t> AutoBindingSpace = {};  ///< -auto-binding-space
   std::string HlslVersion = "2021";               ///< -HV: "2018", or else 2021
   bool RowMajorMatrices = false;                  ///< -Zpr
-  bool Native16BitTypes = false;                  ///< -enable-16bit-types
-  bool ExternalLinkage = false;                   ///< -default-linkage external
+  /// -flegacy-resource-reservation: resources that nothing reads keep their registers, as in shader
+  /// model 5.0.
+  bool ReserveUnusedRegisters = false;
+  bool Native16BitTypes = false;  ///< -enable-16bit-types
+  bool ExternalLinkage = false;   ///< -default-linkage external
   /// -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
   /// [DXR: Availability]
   std::optional<bool> PayloadQualifiers = {};

@@ -34,6 +34,7 @@ hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
   out.automatic_space = options.AutoBindingSpace.value_or(0);
   out.hlsl_version = options.HlslVersion == "2018" ? 2018 : 2021;
   out.row_major = options.RowMajorMatrices;
+  out.reserve_unused = options.ReserveUnusedRegisters;
   out.payload_qualifiers = options.PayloadQualifiers;
   out.native_16bit = options.Native16BitTypes;
   out.external_linkage = options.ExternalLinkage;

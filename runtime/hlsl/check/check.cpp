@@ -36,6 +36,7 @@ class Checker final : Names {
   std::unique_ptr<ir::Module> run(const TranslationUnit& unit) {
     parts_.declarations.declare_builtins();
     parts_.declarations.declare_all(unit.declarations, program_.global);
+    parts_.bindings.place_globals();
     check_initialisers();
     entry_points_.find_entry_points();
     if (program_.options->target.starts_with("lib")) entry_points_.add_library_functions();
@@ -63,6 +64,7 @@ class Checker final : Names {
       program_.enter_unit(unit);
       lower_.body.scope = program_.global;
       parts_.declarations.declare_all(link.units[unit].tree->declarations, program_.global);
+      parts_.bindings.place_globals();
     }
     parts_.bindings.assign_known_registers();
     program_.enter_unit(0);

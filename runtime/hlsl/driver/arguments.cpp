@@ -103,6 +103,7 @@ const std::vector<Option>& options() {
          return true;
        },
        ""},
+      {"-flegacy-resource-reservation", false, flag(&Arguments::reserve_unused), ""},
       {"-Zpr", false, flag(&Arguments::row_major), ""},
       {"-Zpc", false,
        [](Arguments& a, const std::string&) {
@@ -225,6 +226,8 @@ As in DXC:
   -exports A;B=C            what the library exports, and under which name
   -default-linkage external every non-static function is an export
   -auto-binding-space N     space of resources without a register
+  -flegacy-resource-reservation
+                            resources that nothing reads keep their registers, as before 5.1
   -enable-payload-qualifiers, -disable-payload-qualifiers
                             payload access qualifiers take effect (default from lib_6_7 on)
   -enable-16bit-types       half, int16_t and uint16_t are 16 bits wide

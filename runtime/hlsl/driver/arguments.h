@@ -24,6 +24,7 @@ struct Arguments {
   uint32_t hlsl_version = 2021;
   bool native_16bit = false;
   bool row_major = false;
+  bool reserve_unused = false;
   std::optional<bool> payload_qualifiers;
   bool strict = false;
   bool warnings_as_errors = false;

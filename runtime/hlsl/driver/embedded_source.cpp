@@ -78,7 +78,8 @@ std::string embed_source(const FrontendOptions& options, const SourceManager& so
   out.add(std::string_view(options.exports));
   for (const uint32_t number :
        {uint32_t{options.external_linkage}, options.automatic_space, options.hlsl_version,
-        uint32_t{options.native_16bit}, uint32_t{options.row_major}, uint32_t{options.strict}}) {
+        uint32_t{options.native_16bit}, uint32_t{options.row_major}, uint32_t{options.strict},
+        uint32_t{options.reserve_unused}}) {
     out.add(number);
   }
   out.add(options.payload_qualifiers ? 1u + (*options.payload_qualifiers ? 1u : 0u) : 0u);
@@ -110,6 +111,7 @@ std::optional<EmbeddedSource> read_embedded_source(std::string_view text) {
   options.native_16bit = in.number() != 0;
   options.row_major = in.number() != 0;
   options.strict = in.number() != 0;
+  options.reserve_unused = in.number() != 0;
   if (const uint32_t given = in.number()) options.payload_qualifiers = given == 2;
   for (uint32_t left = in.number(); left > 0 && in.ok(); --left) {
     std::string path = normalize_path(in.text());

@@ -50,6 +50,7 @@ TEST(EmbeddedSource, ATextGivenInsteadOfAFile) {
       "p.x = value(); }";
   options.target = "lib_6_3";
   options.row_major = true;
+  options.reserve_unused = true;
   const auto module = compile(options, files);
   ASSERT_NE(module, nullptr);
   auto read = read_embedded_source(module->source);
@@ -57,6 +58,7 @@ TEST(EmbeddedSource, ATextGivenInsteadOfAFile) {
   EXPECT_EQ(read->options.text, options.text);
   EXPECT_EQ(read->options.target, "lib_6_3");
   EXPECT_TRUE(read->options.row_major);
+  EXPECT_TRUE(read->options.reserve_unused);
 }
 
 TEST(EmbeddedSource, DamagedTextsAreRefused) {

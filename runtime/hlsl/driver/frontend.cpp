@@ -107,6 +107,7 @@ std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, Sourc
   check_options.exports = *exports;
   check_options.external_linkage = options.external_linkage;
   check_options.automatic_space = options.automatic_space;
+  check_options.reserve_unused = options.reserve_unused;
   check_options.native_16bit = options.native_16bit;
   check_options.row_major = options.row_major;
   check_options.hlsl_version = options.hlsl_version;

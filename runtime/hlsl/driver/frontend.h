@@ -29,6 +29,7 @@ struct FrontendOptions {
   bool external_linkage = false;     // [-default-linkage external]; lib_6_x always has it
   uint32_t automatic_space = 0;      // [-auto-binding-space]
   uint32_t hlsl_version = 2021;      // [-HV]
+  bool reserve_unused = false;       // [-flegacy-resource-reservation]
   bool native_16bit = false;         // [-enable-16bit-types]
   bool row_major = false;            // [-Zpr]; false is [-Zpc]
   // -enable-payload-qualifiers, -disable-payload-qualifiers; if empty, on from lib_6_7 up.

@@ -37,6 +37,7 @@ struct ModuleFacts {
   // shaders.
   ir::Variable* live = nullptr;
   bool names_ordered_views = false;
+  bool reserve_unused = false;  // registers of bindings that nothing reads are not given to others
 };
 
 // What is wrong with a module as a whole. The front end has the words for it.

@@ -16,12 +16,15 @@ uint64_t end_of(const BindingFacts& binding) {
 }
 
 // First fit among the registers of the binding's class and space, in the order of declaration;
-// unbounded arrays come after all others. [DXC: resource allocation]
+// unbounded arrays come after all others. Registers of what nothing reads are free, unless the
+// source was written for a model before 5.1. [DXC: resource allocation,
+// -flegacy-resource-reservation]
 void assign_automatic(const ModuleFacts& facts, BindingFacts* binding, FinishReport& report) {
   if (!binding->has_space) binding->space = binding->automatic_space;
   std::vector<const BindingFacts*> taken;
   for (const BindingFacts* other : facts.bindings) {
-    const bool same = other->reachable && other->has_register && other->unit == binding->unit &&
+    const bool same = (other->reachable || facts.reserve_unused) && other->has_register &&
+                      other->unit == binding->unit &&
                       other->register_class == binding->register_class &&
                       other->space == binding->space;
     if (same) taken.push_back(other);

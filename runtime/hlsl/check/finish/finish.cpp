@@ -79,6 +79,7 @@ void Finish::run() {
     if (variable.kind == VariableKind::kGlobal) program_.facts.globals.push_back(&variable);
   }
   for (BindingInfo& binding : program_.bindings) program_.facts.bindings.push_back(&binding);
+  program_.facts.reserve_unused = program_.options->reserve_unused;
   Reports reports(messages_);
   finish_module(bench_.module, build_, program_.facts, reports);
 }

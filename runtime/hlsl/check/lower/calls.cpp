@@ -69,8 +69,14 @@ Value Calls::lower_call(const CallExpr* expr) {
   at(expr->location);
   if (symbol && symbol->kind == SymbolKind::kFunctions) {
     const bool is_builtin = name.is_simple() && is_builtin_function(name.last().identifier);
+    ConversionCost cost = 0;
     FunctionInfo* function = lower_.overloads.resolve_overload(
-        symbol->functions, name.last(), arguments, expr->location, is_builtin);
+        symbol->functions, name.last(), arguments, expr->location, is_builtin, &cost);
+    // The built-in functions of the name are candidates too; between equals the source's own wins.
+    if (function && is_builtin) {
+      const auto built_in = lower_.intrinsics.cost_of_builtin(name.last().identifier, arguments);
+      if (built_in && *built_in < cost) function = nullptr;
+    }
     if (function) {
       // A method of this object; a static one needs no object.
       if (function->owner && !function->is_static) {

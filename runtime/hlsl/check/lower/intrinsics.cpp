@@ -16,7 +16,55 @@ bool is_number(const Value& value) {
                         (value.type->is_enum() && !value.type->enumeration->is_class));
 }
 
+// Arguments from here on have a type of their own; the others get one in common.
+size_t joined_arguments(const IntrinsicRule& rule) {
+  return rule.shape == IntrinsicShape::kRefract ? 2 : rule.count;
+}
+
+bool takes_floats_only(IntrinsicShape shape) {
+  using S = IntrinsicShape;
+  return shape == S::kFloat || shape == S::kTest || shape == S::kLength || shape == S::kDistance ||
+         shape == S::kVector || shape == S::kRefract || shape == S::kCross ||
+         shape == S::kDeterminant || shape == S::kDst || shape == S::kLit ||
+         shape == S::kFloatToHalf;
+}
+
+// How many arguments a function of numbers takes that has no IntrinsicRule; 0: it is none.
+size_t other_arguments(std::string_view name) {
+  if (name == "mul" || name == "and" || name == "or" || name == "modf" || name == "frexp") return 2;
+  if (name == "select" || name == "sincos") return 3;
+  return 0;
+}
+
 }  // namespace
+
+std::optional<ConversionCost> Intrinsics::cost_of_builtin(std::string_view name,
+                                                          const std::vector<Value>& arguments) {
+  if (!std::all_of(arguments.begin(), arguments.end(), is_number)) return std::nullopt;
+  if (const size_t count = other_arguments(name); count != 0) {
+    return arguments.size() == count ? std::optional<ConversionCost>(0) : std::nullopt;
+  }
+  const IntrinsicRule* rule = find_intrinsic(name);
+  if (!rule || arguments.size() != rule->count || rule->count == 0) return std::nullopt;
+  const Type* type = arguments[0].type;
+  for (size_t i = 1; type && i < joined_arguments(*rule); ++i) {
+    bool truncates = false;
+    type = lower_.operators.find_common_type(type, arguments[i].type, truncates);
+  }
+  if (!type) return std::nullopt;
+  if (takes_floats_only(rule->shape) && (type->is_enum() || !is_floating(type->scalar))) {
+    type = type->is_enum() ? types_.scalar(Scalar::kFloat32)
+                           : types_.with_scalar(type, Scalar::kFloat32);
+  }
+  ConversionCost cost = 0;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const Type* to = i < joined_arguments(*rule) ? type : types_.scalar(type->scalar);
+    const ConversionRank rank = lower_.conversions.rank(arguments[i], to);
+    if (!rank.possible) return std::nullopt;
+    cost += rank.cost;
+  }
+  return cost;
+}
 
 bool Intrinsics::check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
                              SourceLocation location) {
@@ -131,8 +179,7 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
       return error_value();
     }
   }
-  // All arguments get the same shape and scalar, except for refract's last one.
-  const size_t joined = shape == S::kRefract ? 2 : arguments.size();
+  const size_t joined = joined_arguments(rule);
   const Type* type =
       arguments[0].type->is_enum() ? types_.scalar(Scalar::kInt32) : arguments[0].type;
   for (size_t i = 1; i < joined; ++i) {
@@ -147,11 +194,7 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
     type = next;
   }
   const bool matrix_operation = shape == S::kTranspose || shape == S::kDeterminant;
-  const bool floating_only = shape == S::kFloat || shape == S::kTest || shape == S::kLength ||
-                             shape == S::kDistance || shape == S::kVector || shape == S::kRefract ||
-                             shape == S::kCross || shape == S::kDeterminant || shape == S::kDst ||
-                             shape == S::kLit || shape == S::kFloatToHalf;
-  if (floating_only && (!is_floating(type->scalar) || is_literal(type->scalar))) {
+  if (takes_floats_only(shape) && (!is_floating(type->scalar) || is_literal(type->scalar))) {
     type = types_.with_scalar(type, Scalar::kFloat32);
   }
   if (is_literal(type->scalar)) {

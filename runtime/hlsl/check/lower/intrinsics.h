@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/hlsl/check/lower/lower_part.h"
+#include "runtime/hlsl/check/names/conversion_costs.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 
 namespace kaamos::hlsl {
@@ -18,6 +19,10 @@ class Intrinsics : LowerPart {
  public:
   using LowerPart::LowerPart;
 
+  // What the conversions of a call's arguments cost where the function takes numbers; none if it
+  // takes others, or these arguments do not fit.
+  std::optional<ConversionCost> cost_of_builtin(std::string_view name,
+                                                const std::vector<Value>& arguments);
   std::optional<Value> call_builtin(const NamePart& part, std::vector<Value>& arguments,
                                     SourceLocation location);
   Value call_select(std::vector<Value>& arguments, SourceLocation location);

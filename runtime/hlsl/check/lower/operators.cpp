@@ -71,14 +71,9 @@ bool is_comparison(BinaryOp op) {
 
 }  // namespace
 
-const Type* Operators::common_type(const Type* a, const Type* b, SourceLocation location,
-                                   bool& truncates) {
+const Type* Operators::find_common_type(const Type* a, const Type* b, bool& truncates) {
   truncates = false;
-  if (a->is_enum() && b->is_enum()) {
-    if (same_type(a, b)) return a;
-    report(CheckId::kNoCommonType, location, {to_string(a), to_string(b)});
-    return nullptr;
-  }
+  if (a->is_enum() && b->is_enum()) return same_type(a, b) ? a : nullptr;
   const Scalar scalar = a->is_enum()   ? beside_enum(b->scalar)
                         : b->is_enum() ? beside_enum(a->scalar)
                                        : combined_scalar(a->scalar, b->scalar);
@@ -100,8 +95,14 @@ const Type* Operators::common_type(const Type* a, const Type* b, SourceLocation 
   } else if (a->components() == b->components()) {
     return types_.with_scalar(a->is_vector() ? a : b, scalar);
   }
-  report(CheckId::kNoCommonType, location, {to_string(a), to_string(b)});
   return nullptr;
+}
+
+const Type* Operators::common_type(const Type* a, const Type* b, SourceLocation location,
+                                   bool& truncates) {
+  const Type* type = find_common_type(a, b, truncates);
+  if (!type) report(CheckId::kNoCommonType, location, {to_string(a), to_string(b)});
+  return type;
 }
 
 std::optional<Value> Operators::overloaded_operator(std::string_view name, const Value& left,

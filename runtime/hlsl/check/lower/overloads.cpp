@@ -53,7 +53,8 @@ bool Overloads::is_viable(FunctionInfo* function, const std::vector<Value>& argu
 
 FunctionInfo* Overloads::resolve_overload(const std::vector<FunctionInfo*>& candidates,
                                           const NamePart& part, const std::vector<Value>& arguments,
-                                          SourceLocation location, bool quiet) {
+                                          SourceLocation location, bool quiet,
+                                          ConversionCost* lowest) {
   struct Viable {
     FunctionInfo* function;
     ConversionCost cost;
@@ -89,7 +90,10 @@ FunctionInfo* Overloads::resolve_overload(const std::vector<FunctionInfo*>& cand
     });
     if (!beaten) best.push_back(&one);
   }
-  if (best.size() == 1) return best[0]->function;
+  if (best.size() == 1) {
+    if (lowest) *lowest = best[0]->cost;
+    return best[0]->function;
+  }
   if (quiet) return nullptr;
   const std::string name(part.identifier);
   std::vector<std::pair<SourceLocation, std::string>> notes;

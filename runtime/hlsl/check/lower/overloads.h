@@ -13,9 +13,10 @@ class Overloads : LowerPart {
  public:
   using LowerPart::LowerPart;
 
+  // `cost`, if not null, becomes what the function's conversions cost.
   FunctionInfo* resolve_overload(const std::vector<FunctionInfo*>& candidates, const NamePart& part,
                                  const std::vector<Value>& arguments, SourceLocation location,
-                                 bool quiet);
+                                 bool quiet, ConversionCost* cost = nullptr);
 
  private:
   bool is_viable(FunctionInfo* function, const std::vector<Value>& arguments, ConversionCost& cost);

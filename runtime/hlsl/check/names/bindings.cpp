@@ -8,6 +8,13 @@
 #include "runtime/hlsl/ir/builtin_types.h"
 
 namespace kaamos::hlsl {
+namespace {
+
+constexpr uint32_t kRowBytes = 16;
+constexpr uint32_t kMaxBufferBytes = 65536;
+
+}  // namespace
+
 void Bindings::apply_register(BindingInfo* binding, const Annotations& annotations) {
   for (const RegisterBinding& written : annotations.registers) {
     if (written.register_class != 0 &&
@@ -178,6 +185,49 @@ void Bindings::open_globals_buffer(SourceLocation location) {
   globals_buffer_->resource = globals_buffer_->type->ir;
 }
 
+// The byte offset of register(cN), which works as packoffset does; -1 without one.
+int64_t Bindings::constant_register(const VariableDecl* decl, const Type* type) {
+  for (const RegisterBinding& written : decl->annotations.registers) {
+    if (written.register_class != 'c') continue;
+    const uint64_t bytes = uint64_t{written.number} * kRowBytes;
+    if (bytes + layout_of(type, ir::Layout::kConstantBuffer).size <= kMaxBufferBytes) {
+      return static_cast<int64_t>(bytes);
+    }
+    report(CheckId::kPackOffset, written.location, {std::string(decl->name), to_string(type)});
+  }
+  return -1;
+}
+
+void Bindings::note_split_globals(size_t first_variable, size_t first_field) {
+  for (size_t i = first_variable; i < program_.variables.size(); ++i) {
+    VariableInfo& part = program_.variables[i];
+    if (part.kind != VariableKind::kBufferMember || part.binding != globals_buffer_) continue;
+    globals_.push_back({&part, first_field++, part.offset % kRowBytes == 0});
+  }
+}
+
+void Bindings::place_globals() {
+  const auto is_written = [](const GlobalMember& member) { return member.written >= 0; };
+  if (std::none_of(globals_.begin(), globals_.end(), is_written)) return;
+  uint32_t end = 0;
+  for (const bool written : {true, false}) {
+    for (const GlobalMember& member : globals_) {
+      if (is_written(member) != written) continue;
+      VariableInfo& variable = *member.variable;
+      if (member.begins_row) end = (end + kRowBytes - 1) / kRowBytes * kRowBytes;
+      variable.offset = written ? static_cast<uint32_t>(member.written)
+                                : place_member(variable.type, end, ir::Layout::kConstantBuffer);
+      globals_struct_->fields[member.field].packoffset = static_cast<int32_t>(variable.offset);
+      const LayoutSize size = layout_of(variable.type, ir::Layout::kConstantBuffer);
+      end = std::max(end, variable.offset + size.size);
+    }
+  }
+  globals_buffer_->size_bytes = end;
+  if (end > kMaxBufferBytes) {
+    report(CheckId::kBufferSize, {globals_buffer_->place}, {"$Globals", std::to_string(end)});
+  }
+}
+
 // A global that is neither static nor a resource is a member of the constant buffer $Globals.
 void Bindings::declare_uniform(const VariableDecl* decl, const Type* type, Scope* scope) {
   if (type->is_array() && type->count == 0) {
@@ -189,10 +239,14 @@ void Bindings::declare_uniform(const VariableDecl* decl, const Type* type, Scope
     report(CheckId::kUniformInitialiser, decl->location, {std::string(decl->name)});
   }
   if (contains_resource(type)) {
-    return parts_.split_structs.declare_split(decl, type, scope, globals_buffer_, globals_struct_,
-                                              &globals_offset_);
+    const size_t variables = program_.variables.size();
+    const size_t fields = globals_struct_->fields.size();
+    parts_.split_structs.declare_split(decl, type, scope, globals_buffer_, globals_struct_,
+                                       &globals_offset_);
+    return note_split_globals(variables, fields);
   }
   VariableInfo* info = &program_.variables.emplace_back();
+  globals_.push_back({info, globals_struct_->fields.size(), false, constant_register(decl, type)});
   info->kind = VariableKind::kBufferMember;
   info->name = decl->name;
   info->type = type;

@@ -25,8 +25,11 @@ struct CheckOptions {
   // If true, every non-static function with a body is exported. [-default-linkage external]
   bool external_linkage = false;
   uint32_t automatic_space = 0;  // for bindings without a register [-auto-binding-space]
-  bool native_16bit = false;     // [-enable-16bit-types]
-  bool row_major = false;        // [-Zpr]
+  // Resources that nothing reads keep the registers that the source gives them, as before shader
+  // model 5.1. [-flegacy-resource-reservation]
+  bool reserve_unused = false;
+  bool native_16bit = false;  // [-enable-16bit-types]
+  bool row_major = false;     // [-Zpr]
   // Before HLSL 2021, logical operators and ?: work on vectors and always evaluate both sides.
   // [-HV]
   uint32_t hlsl_version = 2021;

@@ -244,13 +244,15 @@ float k_atan2(float y, float x) {
   if (isnan(x) || isnan(y)) return uintBitsToFloat(0x7FC00000u);
   float ax = abs(k_flushed(x)), ay = abs(k_flushed(y));
   bool left = floatBitsToUint(x) > 0x7FFFFFFFu;
+  // Zeros of x have no sign, and those of y have none where x is negative. [DXC: TranslateAtan2]
+  bool unsigned_zero = ay == 0.0 && (left || ax == 0.0);
   precise float r;
-  if (ay == 0.0) {
-    r = left ? 3.14159274 : 0.0;
-  } else if (isinf(ax) && isinf(ay)) {
+  if (isinf(ax) && isinf(ay)) {
     r = left ? 2.35619450 : 0.785398185;
   } else if (isinf(ay) || ax == 0.0) {
     r = 1.57079637;
+  } else if (ay == 0.0) {
+    r = left ? 3.14159274 : 0.0;
   } else {
     // Divides so that the quotient is at most 1 and nothing overflows.
     precise float near = k_atan(min(ax, ay) / max(ax, ay));
@@ -260,7 +262,7 @@ float k_atan2(float y, float x) {
       r = left ? 3.14159274 - (near + 8.74227766e-8) : near;
     }
   }
-  return floatBitsToUint(y) > 0x7FFFFFFFu ? -r : r;
+  return floatBitsToUint(y) > 0x7FFFFFFFu && !unsigned_zero ? -r : r;
 }
 
 // Half of e^a, which overflows later than e^a does.

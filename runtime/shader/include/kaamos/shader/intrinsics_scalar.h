@@ -146,12 +146,18 @@ struct Clamp {
   }
 };
 
+// Zeros as in DXC's expansion: those of x have no sign, and neither have those of y where x is
+// negative, so atan2(0, 0) is pi / 2 and atan2(-0, -1) is pi. Two infinities have an angle here;
+// the expansion gives NaN. [DXC: TranslateAtan2]
 struct Atan2 {
   KAAMOS_HALF_THROUGH_FLOAT_2
   KAAMOS_INLINE static float apply(float y, float x) {
-    return __builtin_atan2f(flushed(y), flushed(x));
+    const float a = flushed(y), b = flushed(x);
+    return __builtin_atan2f(a == 0 && b <= 0 ? (b < 0 ? 0.0f : 1.0f) : a, b == 0 ? 0.0f : b);
   }
-  KAAMOS_INLINE static double apply(double y, double x) { return __builtin_atan2(y, x); }
+  KAAMOS_INLINE static double apply(double y, double x) {
+    return __builtin_atan2(y == 0 && x <= 0 ? (x < 0 ? 0.0 : 1.0) : y, x == 0 ? 0.0 : x);
+  }
 };
 
 // exp2(y * log2(x)) in HLSL: NaN for negative x, whatever y is.
