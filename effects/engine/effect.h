@@ -21,11 +21,11 @@
 
 namespace kaamos::effects {
 
-/// How one effect is rendered. A row has the defaults.
+/// The settings with which one effect is rendered. A row has the defaults.
 struct EffectSettings {
   std::uint32_t samples = 1;     ///< per pixel, at least 1
   std::uint32_t pixel_step = 1;  ///< 2: only one pixel of each 2 x 2 is traced
-  /// Which pixel that is takes turns: four frames of a sequence trace all of them.
+  /// The traced pixel takes turns: four frames of a sequence trace all of them.
   bool rotates = false;
   float radius = 0;  ///< PassConstants::radius, metres
   /// b0 of space3, as the effect's header declares them.
@@ -77,14 +77,14 @@ struct EffectSignal {
   std::optional<FrameTexture> sharpness_picture = {};
   std::uint32_t sharpness_output = 0;
   ///@}
-  /// What the composition takes it for; null: nothing.
+  /// The part of the frame that the composition takes it for; null: none.
   const rtapi::Texture* FrameParts::*part = nullptr;
 };
 
 /// Materials that are at least so rough, and no metals, show no mirror images.
 inline constexpr float kMatteRoughness = 0.8f;
 
-/// What an effect reads besides the G-buffer, and what the scene must have for it.
+/// The inputs of an effect besides the G-buffer, and the things that the scene must have for it.
 struct EffectNeeds {
   bool sun = false;           ///< the scene has a sun
   bool local_lights = false;  ///< the scene has local lights
@@ -149,7 +149,7 @@ struct Effect {
 
 /// Null: there is none of that name.
 const Effect* find_effect(const std::vector<Effect>& effects, const std::string& name);
-/// Whether it writes pictures that other frames do not have.
+/// Returns whether the effect writes pictures that other frames do not have.
 bool has_own_pictures(const Effect& effect);
 /// "ao, sun, ...".
 std::string effect_names(const std::vector<Effect>& effects);

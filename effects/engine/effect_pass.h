@@ -14,8 +14,8 @@
 
 namespace kaamos::effects {
 
-/// What an effect is made from. All of it but `settings` stays for the pass's life, and may be
-/// kept by reference.
+/// Everything that an effect is made from. All of it but `settings` stays for the pass's life, and
+/// may be kept by reference.
 struct EffectScope {
   const rtapi::Device& device;  ///< makes pipelines, pictures and buffers
   rtapi::CommandQueue& queue;   ///< for what is uploaded once

@@ -66,7 +66,7 @@ struct PassConstants {
   std::uint32_t pixel_offset = 0;  ///< which of the 2 x 2: bit 0 to the right, bit 1 below
 };
 
-/// How many pixels of a side of `size` pixels get rays: every `constants.pixel_step`-th.
+/// The number of pixels of a side of `size` pixels that get rays: every `constants.pixel_step`-th.
 ///@{
 std::uint32_t traced_columns(const PassConstants& constants, std::uint32_t size);
 std::uint32_t traced_rows(const PassConstants& constants, std::uint32_t size);
@@ -102,7 +102,7 @@ enum FrameRootParameter : std::uint32_t {
   kRootGeometries,  ///< table: space4, vertices and indices of every geometry
 };
 
-/// What a frame looks like besides the scene.
+/// The properties of a frame besides the scene.
 struct FrameDesc {
   std::uint32_t width = 1280;  ///< pixels
   std::uint32_t height = 720;  ///< pixels
@@ -115,11 +115,11 @@ struct FrameDesc {
   /// Texels along the side of the sun's map in the atlas of shadow maps, which covers the scene as
   /// it is at time 0; 0: none, at most kMaxSunMap.
   std::uint32_t sun_map = 0;
-  /// How many passes of a frame's life may have views of their own.
+  /// At most so many passes of a frame's life may have views of their own.
   std::uint32_t max_pass_views = 256;
 };
 
-/// What a frame of a sequence has that the first does not.
+/// The data that a frame of a sequence has and the first one does not.
 struct FrameTime {
   std::uint32_t index = 0;          ///< in its sequence, from 0
   Camera previous_camera;           ///< of the frame before

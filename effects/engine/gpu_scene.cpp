@@ -66,7 +66,7 @@ rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
   return result;
 }
 
-// Which meshes have glass in some instance.
+// Returns, by mesh, whether it has glass in some instance.
 std::vector<bool> glass_meshes(const Scene& scene) {
   std::vector<bool> glass(scene.meshes.size());
   for (const Instance& instance : scene.instances) {

@@ -53,7 +53,8 @@ struct GpuGeometry {
   }
 };
 
-/// Where an instance was one frame ago; t4 of the frame, mirrored in effects/shaders/frame.hlsli.
+/// The place of an instance one frame ago; t4 of the frame, mirrored in
+/// effects/shaders/frame.hlsli.
 struct PreviousInstance {
   glm::mat3x4 object_to_world{0.0f};  ///< then, relative to the camera of then
   std::uint32_t flags = 0;            ///< PreviousInstanceFlags; 0: nothing moved
@@ -67,7 +68,7 @@ enum PreviousInstanceFlags : std::uint32_t {
   kPreviousDeformed = 2,  ///< its shape did: vertices hold their previous positions
 };
 
-/// What making a scene took.
+/// The time and memory that making a scene took, and its triangles.
 struct GpuSceneStatistics {
   double bottom_level_ms = 0;             ///< builds of all bottom levels
   double top_level_ms = 0;                ///< build of the top level

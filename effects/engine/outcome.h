@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How work that may be stopped ended. Being stopped is no error: nothing failed, somebody asked
-/// for it.
+/// The outcome of work that may be stopped. Being stopped is no error: nothing failed, somebody
+/// asked for it.
 #pragma once
 
 #include <rtapi/result.h>
@@ -11,7 +11,7 @@
 
 namespace kaamos::effects {
 
-/// How work ended that a callback may stop.
+/// The outcome of work that a callback may stop.
 enum class Outcome : std::uint8_t {
   kDone,     ///< complete
   kStopped,  ///< the caller's callback asked for it; results are incomplete

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a pass reads and writes besides the frame's own pictures: registers t0.. and u0.. of
-/// space3, and constants in b0 of space3. With these an effect brings its own pictures and buffers,
-/// and no other effect's shaders depend on them.
+/// Views of what a pass reads and writes besides the frame's own pictures: registers t0.. and u0..
+/// of space3, and constants in b0 of space3. With these an effect brings its own pictures and
+/// buffers, and no other effect's shaders depend on them.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -32,7 +32,7 @@ class PassViews {
   PassViews(rtapi::Device device, rtapi::DescriptorHeap heap, std::uint32_t first)
       : device_(std::move(device)), heap_(std::move(heap)), first_(first) {}
 
-  /// Whether there is a block.
+  /// True if there is a block.
   explicit operator bool() const { return static_cast<bool>(heap_); }
 
   /// Register t, 0 to 15: the whole texture. It must outlive the dispatches. `format`: of a

@@ -32,7 +32,7 @@ class RayEffect : public EffectPass {
   /// Records `row_count` rows from constants.first_row on.
   void record_rows(rtapi::CommandList& list, const EffectSettings& settings,
                    const PassConstants& constants, std::uint32_t row_count) const;
-  /// Whether record_keys records anything.
+  /// Returns whether record_keys records anything.
   bool has_keys() const { return keys_.has_value(); }
   /// Records what writes the keys of its rays, for a RaySorter.
   void record_keys(rtapi::CommandList& list, const EffectSettings& settings,

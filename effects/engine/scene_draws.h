@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a rasterizer draws of a scene: a draw for each geometry of each instance that rays of
-/// a mask can hit.
+/// The draws of a scene for a rasterizer: one for each geometry of each instance that rays of a
+/// mask can hit.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What drawing a scene takes besides the targets: the list of draws with the buffers that shaders
-/// read of it, and a pair of pipelines for opaque and for alpha-tested geometry.
+/// This file holds what drawing a scene takes besides the targets: the list of draws with the
+/// buffers that shaders read of it, and a pair of pipelines for opaque and for alpha-tested
+/// geometry.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -35,7 +36,7 @@ class SceneDrawList {
   void see_instances(std::uint32_t mask);
   /// The same with draws of one's own, at most as many as a frame of the scene has.
   void set(std::vector<SceneDraw> draws);
-  /// What is drawn.
+  /// The draws in the list.
   const std::vector<SceneDraw>& draws() const { return draws_; }
   /// The geometry of a draw.
   const GpuGeometry& geometry(std::size_t draw) const {
@@ -58,7 +59,8 @@ class SceneDrawList {
 /// A pipeline that draws opaque geometry, and one that draws what has holes.
 class ScenePipeline {
  public:
-  /// How both draw: triangles from both sides, as rays hit both, with a depth test.
+  /// The description of both pipelines. They draw triangles from both sides, as rays hit both, with
+  /// a depth test.
   struct Desc {
     rtapi::ShaderLibrary library;             ///< where the shaders are
     std::string vertex_shader;                ///< takes POSITION and TEXCOORD

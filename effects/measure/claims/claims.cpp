@@ -212,9 +212,10 @@ std::vector<std::optional<double>> numbers(const std::vector<Round>& rounds) {
   return out;
 }
 
-// What the sources say. Control's shares are those of frames 1 and 2 in its Table 1, whose last row
-// is called reflections but is the sum of all ray traced effects: 8.9 and 7.1 ms, 9.5 and 8.1 ms
-// with the structures (effects/SOURCES.md: E7). [GDC 2018 talk; Northlight deck; survey: Table 1]
+// The claims of the sources. Control's shares are those of frames 1 and 2 in its Table 1, whose
+// last row is called reflections but is the sum of all ray traced effects: 8.9 and 7.1 ms, 9.5 and
+// 8.1 ms with the structures (effects/SOURCES.md: E7). [GDC 2018 talk; Northlight deck; survey:
+// Table 1]
 constexpr std::pair<const char*, const char*> kTexts[] = {
     {"AO: 16 rays a pixel / 16 x 1 ray (0.85 to 1.15)", "1.00: 80 ms / 16 x 5 ms"},
     {"a sun ray / an AO ray of 4 m", "below 1: coherent"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parts that a scene does not need would cost: each is put back in turn, and the frame is
-// timed against the one without it.
+// Measures what the parts that a scene does not need would cost: each is put back in turn, and the
+// frame is timed against the one without it.
 #pragma once
 
 #include <string>

@@ -132,7 +132,7 @@ FloatImage first_three(const FloatImage& image) {
   return out;
 }
 
-// Whether whole frames are compared.
+// Returns whether whole frames are compared.
 bool is_of_frames(const std::string& split) {
   return split == "denoise" || split == "shadow-map" || split == "ssr";
 }

@@ -13,7 +13,7 @@
 
 namespace kaamos::measure {
 
-// What can be compared, by the name of --split.
+// A comparison that can be made, by the name of --split.
 struct Split {
   std::string name;
   std::string about;  // what stands side by side, from left to right

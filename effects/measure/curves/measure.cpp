@@ -77,7 +77,7 @@ rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
   return Outcome::kDone;
 }
 
-// What the settings of a reference are compared with.
+// The pictures that the settings of a reference are compared with.
 struct Compared {
   Target target;
   std::optional<Target> truth;

@@ -42,8 +42,8 @@ struct MeasurePlan {
   bool against_truth = false;
 };
 
-// What --measure takes, in the order of --help: every effect of the registry that traces rays,
-// frame and svgf.
+// The names that --measure takes, in the order of --help: every effect of the registry that traces
+// rays, frame and svgf.
 std::vector<std::string> measured_effects();
 // The default size, at which each effect takes a few minutes on two cores.
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);

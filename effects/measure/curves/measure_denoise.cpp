@@ -60,7 +60,7 @@ struct Subject {
   std::map<std::string, FloatImage> before;  // the second last frame, by signal
 };
 
-// What a frame of the sequence shows is compared for each of these.
+// A signal that is compared in the frames of the sequence.
 struct MeasuredSignal {
   std::string name;  // of its layer
   Setting setting;

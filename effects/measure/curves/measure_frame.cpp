@@ -46,7 +46,7 @@ const std::vector<Part>& frame_parts() {
   return parts;
 }
 
-// Where a frame is compared.
+// The frames that are compared.
 enum Place : std::uint32_t { kFirst, kStill, kMoving, kPlaceCount };
 constexpr const char* kPlaceNames[kPlaceCount] = {"first frame", "eighth frame, still",
                                                   "eighth frame, moving"};

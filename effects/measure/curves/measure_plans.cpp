@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which settings of an effect are measured, and against which reference.
+// Chooses the settings of an effect that are measured, and the references for them.
 #include <fmt/format.h>
 
 #include "effects/glass/transparent/transparent.h"
@@ -54,7 +54,7 @@ MeasurePlan sun_plan() {
 MeasurePlan contact_plan(const Options& options) {
   MeasurePlan plan{.title = "Contact shadows", .signal = "visibility of the two strongest lights"};
   plan.effects = {"local", "contact"};
-  // Of this very length: what the maps could show besides is part of what is measured.
+  // The length is exactly this one: what the maps could show besides is part of what is measured.
   const auto with_length = [](Setting of, float metres) {
     of.settings.set_constants(ContactShadowConstants{metres});
     return of;

@@ -56,7 +56,7 @@ class EffectRuns {
   // The mean of the samples of the last run, without channels that say something else. `lit`
   // shadows: the radiance of the local lights. Glass: the frame's radiance behind and with it.
   rtapi::Result<effects::FloatImage> read(const Setting& setting);
-  // What glass stands in front of.
+  // Reads the background, which glass stands in front of.
   rtapi::Result<effects::FloatImage> read_background();
   // The picture to which a run adds.
   rtapi::Texture sum(const Setting& setting) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What northlight itself cannot do, as an error like the libraries' own.
+// Makes an error like the libraries' own of something that northlight itself cannot do.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is measured, and how: a program fills it in.
+// The options that say what is measured, and how: a program fills them in.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace kaamos::measure {
 
-// What a person is told, a line each.
+// Tells a person something, a line each time.
 using Say = std::function<void(const std::string& text)>;
 
 // The frame that is measured, the machine, and the work. Names of options are northlight's.

@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint32_t kVulkanPart = 4;  // of the width and height
 constexpr float kShownDifference = 4;
 
-// Of floats from 0 to 1; what the mask leaves out is grey.
+// Takes floats from 0 to 1; pixels that the mask leaves out become grey.
 ByteImage as_bytes(const FloatImage& image, const std::vector<std::uint8_t>& mask) {
   ByteImage out{image.width, image.height, 3, std::vector<std::uint8_t>(image.values.size())};
   for (std::size_t i = 0; i < out.values.size(); ++i) {
@@ -142,7 +142,8 @@ class PartStudy {
     return Outcome::kDone;
   }
 
-  // Of --measure svgf, the last frames at rest and along the path: a result for each signal.
+  // Runs --measure svgf and takes the last frames at rest and along the path: a result for each
+  // signal.
   rtapi::Result<Outcome> measure_filters(const Progress& progress,
                                          std::vector<StudyResult>& results) {
     Options own = options_;

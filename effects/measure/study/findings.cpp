@@ -68,7 +68,7 @@ std::string others_line(const StudyResult& result) {
                              setting_name(*same), same->ms / other->ms, cost(*same));
 }
 
-// Of all signals at rest: what the best filter makes of one ray.
+// Says for each signal at rest what the best filter makes of one ray.
 std::string filters_line(const std::vector<StudyResult>& results) {
   std::string out;
   for (const StudyResult& result : results) {
@@ -84,7 +84,7 @@ std::string filters_line(const std::vector<StudyResult>& results) {
   return out.empty() ? out : "Denoising takes errors down: " + out;
 }
 
-// What boils least among what is about as accurate as the best.
+// Says for each study in motion which settings change least and most from frame to frame.
 std::string flicker_line(const std::vector<StudyResult>& results) {
   std::string out;
   for (const StudyResult& result : results) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a study found, in sentences made from its numbers.
+// Says what a study found, in sentences made from its numbers.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace kaamos::measure {
 // "adaptive shadows, 5 rays at most".
 std::string setting_name(const StudyRow& row);
 
-// What was found, in ten lines at most: what matters most comes first.
+// Returns the findings, in ten lines at most: what matters most comes first.
 std::vector<std::string> study_findings(const std::vector<StudyResult>& results);
 
 }  // namespace kaamos::measure

@@ -59,7 +59,7 @@ Scene with_mover(Scene scene) {
   return scene;
 }
 
-// What one setting showed so far.
+// The measurements of one setting so far.
 struct Track {
   std::vector<double> ms;
   double traced = 0;

@@ -16,13 +16,13 @@ struct StudyFamily {
 };
 
 const std::vector<StudyFamily>& study_families();
-// Of --families: those, and "claims".
+// The names that --families takes: those, and "claims".
 std::vector<std::string> study_family_names();
 
 // Every technique of the family, from fast to accurate. `quick`: three settings of each at most.
 MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool quick);
 
-// What the technique of a plan's group cannot show; empty: nothing but noise.
+// Returns what the technique of a plan's group cannot show; empty: nothing but noise.
 std::string what_it_misses(const std::string& group);
 
 }  // namespace kaamos::measure

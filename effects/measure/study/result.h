@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What --study found out about a family: kept in files, so that an interrupted study goes on.
+// The results of --study for a family, kept in files so that an interrupted study goes on.
 #pragma once
 
 #include <optional>

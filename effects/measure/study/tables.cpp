@@ -64,7 +64,7 @@ StudyTable claims_table(const Options& options, const ClaimTable& claims) {
   return out;
 }
 
-// How much of the eight passes' sum each takes.
+// Makes a table of the share that each of the eight passes has of their sum.
 StudyTable control_table(const Options& options, const ClaimTable& claims) {
   StudyTable out{
       "control", "The survey's Table 1: where a frame of Control spends its rays' time", {}, {}};

@@ -28,7 +28,7 @@ std::string attribute(const ExrFile& file, const std::string& name) {
   return found == file.attributes.end() ? std::string() : found->second;
 }
 
-// Whether the options ask for the same picture as the references were made with.
+// Returns whether the options ask for the same picture as the references were made with.
 bool is_same_picture(const Options& options, const ExrFile& file) {
   const PathReferenceDesc wanted = describe_reference(options), made;
   const FloatImage& image = file.layers.front().image;

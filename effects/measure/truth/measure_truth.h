@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which layers of the path-traced truth an effect's signal is held against.
+// Makes the truth of an effect's signal from layers of the path-traced truth.
 #pragma once
 
 #include <optional>

@@ -9,7 +9,7 @@
 
 namespace kaamos::measure {
 
-// What the options ask of it.
+// Describes the reference that the options ask for.
 effects::PathReferenceDesc describe_reference(const Options& options);
 
 // Writes reference.exr, a PNG for each of its layers, and reference.sums, with which --resume goes

@@ -26,7 +26,7 @@ class Ranks {
   // Gives rank 0's values to all.
   void copy_from_first(std::span<double> values) const;
   void copy_from_first(std::span<std::uint32_t> values) const;
-  // Whether it holds on any rank.
+  // Returns whether the value is true on any rank.
   bool any(bool value) const;
 
  private:

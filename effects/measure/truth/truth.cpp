@@ -28,7 +28,7 @@ rtapi::Result<Outcome> trace_truth(const Options& options, const Scene& scene,
   PathReference& reference = **created;
   const std::string path = fmt::format("{}/truth-{}x{}-{:016x}.sums", cache, options.frame.width,
                                        options.frame.height, reference.sums().fingerprint);
-  // What cannot be gone on with is traced again.
+  // Sums that cannot be continued are traced again.
   if (std::filesystem::exists(path)) static_cast<void>(load_path_sums(path, reference.sums()));
   if (reference.samples() < options.measure_truth) {
     const auto done = reference.accumulate(
