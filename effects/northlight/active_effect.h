@@ -20,7 +20,7 @@
 
 namespace kaamos::effects {
 
-/// What the passes of effects read besides the G-buffer.
+/// The inputs of the passes of effects besides the G-buffer.
 struct EffectInputs {
   const LightStage& lights;      ///< lists and maps of local lights, the volume of indirect light
   rtapi::Texture kept_radiance;  ///< of the frame before; null: no effect of the frame reads it
@@ -59,19 +59,19 @@ class ActiveEffect {
   rtapi::Result<PassViews> create_views(const Frame& frame,
                                         const std::vector<rtapi::Texture>& pictures) const;
 
-  /// What the registry says.
+  /// The effect's row in the registry.
   const Effect& row() const { return row_; }
   /// As the frame renders it.
   const EffectSettings& settings() const { return settings_; }
-  /// Of its passes in statistics.
+  /// The title of its passes in statistics.
   const std::string& title() const { return title_; }
   /// False: main lighting.
   bool has_passes() const { return row_.pass || row_.make; }
   /// Reads the radiance that all others make.
   bool is_late() const { return row_.needs.radiance; }
-  /// Whether it has views of the pass.
+  /// Returns whether it has views of the pass.
   bool has_views() const { return needs_views_; }
-  /// Whether it adds itself to the finished radiance.
+  /// Returns whether it adds itself to the finished radiance.
   bool is_composed() const { return compose_.has_value(); }
   /// Its rays, as the frame traces them; null: it is more than one pass of them.
   const RayEffect* rays() const {
@@ -90,7 +90,7 @@ class ActiveEffect {
   std::uint64_t bytes() const;
 
  private:
-  // What was made from some settings. The first are the frame's.
+  // The passes made from some settings. The first are the frame's.
   struct Passes {
     EffectSettings settings;
     PassViews views;

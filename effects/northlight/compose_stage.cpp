@@ -33,7 +33,7 @@ rtapi::Result<ComposePass> ComposeStage::create_pass(const FrameParts& parts) co
 rtapi::Status ComposeStage::create_whole() {
   FrameParts parts;
   for (const auto& effect : effects_.active()) {
-    // Of several, the last one stays: alternatives stand behind what they are alternatives to.
+    // The last of several stays, because alternatives stand behind what they are alternatives to.
     if (effect->row().needs.strongest_lights) {
       if (const auto s = lights_.set_contact(filters_.composed(*effect, 0)); !s) return s;
     }

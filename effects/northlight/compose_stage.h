@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What puts a frame together: the radiance of all effects, and antialiasing over frames.
+/// Puts a frame together: the radiance of all effects, and antialiasing over frames.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -20,7 +20,7 @@
 
 namespace kaamos::effects {
 
-/// How a part of a frame is recorded.
+/// Options for recording a part of a frame.
 struct PartOptions {
   std::uint32_t first_sample = 0;  ///< of each pixel's sequence
   std::uint32_t samples = 0;       ///< 0: as settings() have them
@@ -64,11 +64,11 @@ class EffectStage {
   const std::vector<std::unique_ptr<ActiveEffect>>& active() const { return active_; }
   /// Null: the frame does not render it.
   ActiveEffect* find(const std::string& effect) const;
-  /// Whether an effect is rendered: chosen, and of use in this scene.
+  /// Returns whether an effect is rendered: chosen, and of use in this scene.
   bool renders(const std::string& effect) const;
-  /// Whether there are late effects.
+  /// Returns whether there are late effects.
   bool has_late() const;
-  /// What main lighting is needed for.
+  /// Returns what the effects need of main lighting.
   LightStage::Needs light_needs() const;
   /// The picture that an effect adds its samples to. Null: no such signal.
   rtapi::Texture sum(const std::string& signal) const;

@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// What denoises a whole frame; other frames have no filters.
+/// The denoisers of a whole frame; other frames have no filters.
 class FilterStage {
  public:
   /// All must stay.
@@ -40,7 +40,8 @@ class FilterStage {
   /// @errors KA3046 no such signal; those of SignalFilters::add.
   rtapi::Status add_signal(SignalFilters& to, const std::string& signal) const;
 
-  /// What the composition takes for a signal: denoised, as its pass wrote it, or main lighting.
+  /// The picture that the composition takes for a signal: denoised, as its pass wrote it, or main
+  /// lighting.
   const rtapi::Texture& composed(const ActiveEffect& effect, std::size_t signal) const;
   /// The signals and their denoisers; none before prepare.
   const SignalFilters& signals() const { return filters_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the stages of a frame share.
+/// The context that the stages of a frame share.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -42,7 +42,7 @@ struct FrameContext {
   ShaderLibraries libraries = {};  ///< those that prepare took
   /// Parts of the frame that this scene or these settings have no use for, and why.
   std::vector<std::string> left_out = {};
-  /// What preparing a whole frame took; empty if there was nothing to bake or to load.
+  /// Statistics of preparing a whole frame; empty if there was nothing to bake or to load.
   std::optional<PassStatistics> set_up = {};
 };
 

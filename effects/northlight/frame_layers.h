@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What can be read of a frame, by name.
+/// The layers that can be read of a frame, by name.
 #pragma once
 
 #include <rtapi/rtapi.h>

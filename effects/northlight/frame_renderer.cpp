@@ -12,7 +12,7 @@ namespace kaamos::effects {
 
 namespace {
 
-// Of an effect that runs alone: a dispatch takes no more.
+// A dispatch of an effect that runs alone takes no more samples.
 constexpr std::uint32_t kMostSamplesPerDispatch = 1024;
 
 // Fills in the shaders that the frame needs.

@@ -22,7 +22,7 @@
 
 namespace kaamos::effects {
 
-/// What one run of a single effect took.
+/// The time and the rays of one run of a single effect.
 struct RunStatistics {
   double ms = 0;           ///< of execution
   std::uint64_t rays = 0;  ///< traced, those of hit shading included
@@ -84,12 +84,13 @@ class FrameRenderer {
   /// Any picture of the frame. [read_picture]
   /// @errors those of the device.
   rtapi::Result<FloatImage> read(const rtapi::Texture& picture);
-  /// What can be read: the G-buffer, each effect's signals, raw and denoised, and "radiance".
+  /// The layers that can be read: the G-buffer, each effect's signals, raw and denoised, and
+  /// "radiance".
   std::vector<std::string> layers() const;
 
   // For whoever records a frame into lists of their own: prepare first. Filters and composition
   // have functions of their own.
-  /// What is traced and shaded, in order: "gbuffer", "lights" and the effects' names.
+  /// The parts that are traced and shaded, in order: "gbuffer", "lights" and the effects' names.
   std::vector<std::string> parts() const;
   /// Records one of them over the whole picture. Sums begin anew. Drawn surfaces are those of now:
   /// what their draws read is written while they are recorded.
@@ -104,7 +105,7 @@ class FrameRenderer {
   FilterStage& filters() { return stages_->filters; }
   ComposeStage& composition() { return stages_->composition; }
   ///@}
-  /// What they share.
+  /// The context that they share.
   const FrameContext& context() const { return context_; }
   /// Executes and times the passes.
   PassRunner& runner() { return context_.runner; }

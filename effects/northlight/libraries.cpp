@@ -41,7 +41,7 @@ rtapi::Result<rtapi::ShaderLibrary> visibility_filter_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_visibility_filter());
 }
 
-// What a frame has besides its effects, and which frames do.
+// A part that a frame has besides its effects, and the frames that have it.
 struct PartRow {
   EffectLibrary library;
   bool (*is_needed)(const FrameSettings&);

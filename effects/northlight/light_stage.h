@@ -16,10 +16,10 @@
 
 namespace kaamos::effects {
 
-/// What a whole frame has for effects that shade; other frames have none of it.
+/// The lighting that a whole frame has for effects that shade; other frames have none of it.
 class LightStage {
  public:
-  /// What effects ask of main lighting.
+  /// The demands that effects make on main lighting.
   struct Needs {
     bool main = false;       ///< a picture of all local lights
     bool strongest = false;  ///< the strongest lights of each pixel are added later
@@ -56,7 +56,7 @@ class LightStage {
   const rtapi::Texture& picture() const {
     return leaves_out_strongest_ ? direct_->total() : direct_->direct();
   }
-  /// Whether an effect of this frame reads the volume of indirect light.
+  /// Returns whether an effect of this frame reads the volume of indirect light.
   bool reads_volume() const;
   /// Null: no effect of this frame reads it, or none before prepare.
   const GpuVolume* volume() const { return has_volume_ ? &gpu_volume_ : nullptr; }
@@ -65,7 +65,7 @@ class LightStage {
   const GpuVolume& gpu_volume() const { return gpu_volume_; }
   const GpuVolume& no_volume() const { return no_volume_; }
   ///@}
-  /// What baking it took; empty if nothing was baked.
+  /// Statistics of baking it; empty if nothing was baked.
   const std::optional<BakeStatistics>& bake() const { return bake_; }
 
  private:

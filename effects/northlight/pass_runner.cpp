@@ -14,7 +14,7 @@ namespace {
 constexpr double kDispatchMs = 250;
 constexpr std::uint32_t kFirstRows = 32;
 
-// How much of something is dispatched at once.
+// The amount of something that is dispatched at once.
 class Portion {
  public:
   // `most` at most. What is fixed stays at its size.

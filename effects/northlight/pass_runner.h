@@ -22,7 +22,7 @@ namespace kaamos::effects {
 /// next step. Empty: nobody watches.
 using Progress = std::function<bool(const std::string& what, double done)>;
 
-/// What one pass of a frame took.
+/// The time, rays and memory of one pass of a frame.
 struct PassStatistics {
   std::string name;                  ///< "ambient occlusion"
   double ms = 0;                     ///< from recording to the end of execution
@@ -77,9 +77,9 @@ class PassRunner {
   void set_draw_executor(DrawExecutor executor) { execute_draws_ = std::move(executor); }
   /// Milliseconds of the clock that times passes and runs; by default the time that passes.
   void set_clock(std::function<double()> milliseconds) { clock_ms_ = std::move(milliseconds); }
-  /// What that clock shows.
+  /// The time that this clock shows.
   double now_ms() const { return clock_ms_(); }
-  /// Where everything is executed.
+  /// The queue on which everything is executed.
   rtapi::CommandQueue& queue() { return queue_; }
 
   /// Executes what `record` records; milliseconds. It is no pass of the frame.

@@ -34,7 +34,7 @@ class SceneStage {
   /// The samples of what runs from here on, as if the frame had had this seed.
   /// @errors those of the device.
   rtapi::Status set_seed(std::uint32_t seed);
-  /// Where the instances are at a moment, and at which level of detail.
+  /// The states of the instances at a moment: where they are, and at which level of detail.
   std::vector<InstanceState> states_at(const FrameMoment& moment) const;
   /// Null if nothing moves.
   const StructureStatistics* structures() const {

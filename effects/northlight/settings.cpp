@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which effects a frame has, by what was chosen and by what its scene offers.
+// Decides which effects a frame has, by what was chosen and by what its scene offers.
 #include "effects/northlight/settings.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ bool is_glossy(const Material& material) {
          constants.image[kMetallicRoughnessTexture] != kNoTexture;
 }
 
-// Of what is shown; glass reflects by itself.
+// Looks only at what is shown; glass reflects by itself.
 bool has_glossy(const Scene& scene) {
   const auto shows_glossy = [&](std::uint32_t mesh) {
     const auto& geometries = scene.meshes[mesh].geometries;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What can be chosen about a frame.
+/// The settings that can be chosen for a frame.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ struct VolumeSettings {
   std::shared_ptr<const IndirectVolume> given;  ///< instead of a file and of baking
 };
 
-/// How a frame finds what its pixels show. The pictures are the same, but for pixels at edges.
+/// The way in which a frame finds what its pixels show. The pictures are the same, but for pixels
+/// at edges.
 enum class Primary : std::uint8_t {
   kRays,    ///< by rays: the reference
   kRaster,  ///< by draws [effects/surfaces/gbuffer/raster_gbuffer.h]
@@ -41,7 +42,7 @@ struct FrameSettings {
   std::uint32_t width = 1280;  ///< pixels, 1 to 16384
   std::uint32_t height = 720;  ///< pixels, 1 to 16384
   std::uint32_t seed = 0;      ///< the same seed gives the same frame
-  /// What is rendered, by the names of the registry. [choose_effects]
+  /// The effects that are rendered, by the names of the registry. [choose_effects]
   std::map<std::string, EffectSettings> effects;
   /// Signals are denoised and put together with local lights and glass. false: only ambient
   /// occlusion and the sun, as they are; an effect with pictures of its own is then an error.
@@ -50,7 +51,7 @@ struct FrameSettings {
   VolumeSettings volume;                                 ///< for effects that read it
   LightCulling light_culling = LightCulling::kClusters;  ///< of main lighting; the same picture
   LightMaps light_maps = LightMaps::kTraced;             ///< the atlas of shadow maps
-  /// Of the strongest lights' shadow maps and contact shadows.
+  /// The combination of the strongest lights' shadow maps and contact shadows.
   ContactCombination contact = ContactCombination::kProduct;
   bool taa = false;     ///< antialiasing over the frames of a sequence
   bool moving = false;  ///< frames of a sequence: structures are kept up with what moves
@@ -72,7 +73,7 @@ std::map<std::string, EffectSettings> choose_effects(
     const std::vector<std::string>& names,
     const std::vector<Effect>& effects = northlight_effects());
 
-/// Which pixel of each 2 x 2 has rays in a frame of a sequence. [PassConstants::pixel_offset]
+/// The pixel of each 2 x 2 that has rays in a frame of a sequence. [PassConstants::pixel_offset]
 ///@{
 std::uint32_t rotating_offset(std::uint32_t index);                               ///< in turns
 std::uint32_t pixel_offset(const EffectSettings& settings, std::uint32_t index);  ///< of an effect
@@ -89,23 +90,23 @@ void add_included(std::map<std::string, EffectSettings>& chosen,
 
 /// Local lights of a scene, as many as light_constants makes.
 std::uint32_t count_local_lights(const Scene& scene);
-/// Whether an instance is transparent.
+/// Returns whether an instance is transparent.
 bool has_glass(const Scene& scene);
-/// Whether the scene has what an effect is about: a sun, local lights, glass, glossy
+/// Returns whether the scene has what an effect is about: a sun, local lights, glass, glossy
 /// materials.
 bool scene_offers(const Scene& scene, const EffectNeeds& needs);
 
-/// Whether an effect among these has pictures of its own and so needs a whole frame.
+/// Returns whether an effect among these has pictures of its own and so needs a whole frame.
 bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
                       const std::vector<Effect>& effects = northlight_effects());
 
 /// The chosen effect in whose favour another one is left out; null: none.
 const Effect* what_replaces(const FrameSettings& settings, const std::vector<Effect>& effects,
                             const Effect& effect);
-/// Whether an effect is rendered: chosen, and of use in this scene.
+/// Returns whether an effect is rendered: chosen, and of use in this scene.
 bool is_rendered(const Scene& scene, const FrameSettings& settings,
                  const std::vector<Effect>& effects, const std::string& name);
-/// Whether reflections are chosen, and left out because nothing shows them.
+/// Returns whether reflections are chosen, and left out because nothing shows them.
 bool is_matte(const Scene& scene, const FrameSettings& settings,
               const std::vector<Effect>& effects);
 

@@ -18,7 +18,7 @@
 
 namespace kaamos::effects {
 
-/// What an effect adds the samples of a signal to, and what tells its denoiser more.
+/// The pictures to which an effect adds the samples of a signal, and what tells its denoiser more.
 struct SignalSums {
   rtapi::Texture sum;        ///< of light or visibility
   rtapi::Texture sharpness;  ///< of visibility: EffectSignal::is_visibility; else null
@@ -72,7 +72,7 @@ class SignalFilters {
   rtapi::Status create(const rtapi::Device& device, const Frame& frame,
                        const DenoiseLibraries& libraries, const DenoiseDesc& desc);
 
-  /// Which pixel of each 2 x 2 the next frame's sums have, where it takes turns.
+  /// Sets which pixel of each 2 x 2 the next frame's sums have, where it takes turns.
   void set_pixel_offset(std::uint32_t offset) { pixel_offset_ = offset; }
   /// Records the load of a filter's signals and its passes.
   void record(rtapi::CommandList& list, const Frame& frame, Filter& filter) const;
@@ -91,14 +91,14 @@ class SignalFilters {
   Signal* find(const std::string& name);
   /// Null: no such signal.
   const Signal* find(const std::string& name) const;
-  /// What the denoiser of a signal keeps from frame to frame, one of both; null: nothing.
+  /// The picture that the denoiser of a signal keeps from frame to frame, one of both; null: none.
   struct Memory {
     const rtapi::Texture* moments = nullptr;     ///< of light [Denoiser::moments]
     const rtapi::Texture* visibility = nullptr;  ///< [VisibilityDenoiser::accumulated]
   };
   /// That of a signal; of visibility its first channel.
   Memory memory(const Signal& signal) const;
-  /// What the denoiser makes of a signal.
+  /// The denoised picture of a signal.
   const rtapi::Texture& denoised(const Signal& signal) const {
     const Filter& filter = filters_[signal.filter];
     return filter.visibility ? filter.visibility->result(signal.index)

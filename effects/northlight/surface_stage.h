@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the pixels of a frame show: the G-buffer, traced or drawn.
+/// The surfaces that the pixels of a frame show: the G-buffer, traced or drawn.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -32,8 +32,8 @@ class SurfaceStage {
   /// Executes them as passes of the frame.
   /// @errors those of the device.
   rtapi::Result<Outcome> run(const Progress& progress);
-  /// How the drawn G-buffer differs from one by rays, and what both take. The frame's pictures stay
-  /// as they are.
+  /// Compares the drawn G-buffer with one by rays, and what both take. The frame's pictures stay as
+  /// they are.
   /// @errors those of the device; KA3046 the G-buffer is not drawn.
   rtapi::Result<PrimaryComparison> compare();
   /// Null: the G-buffer is traced, or there is none before prepare.
