@@ -17,7 +17,7 @@ struct ShadowPayload {
   float visibility;
 };
 
-// What an intersection shader passes to the hit shaders: at most 32 bytes.
+// The attributes that an intersection shader passes to the hit shaders: at most 32 bytes.
 struct SphereAttributes {
   float3 normal;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hit group's record holds: root constants as a constant buffer, and the addresses of the
+// A hit group's record holds root constants as a constant buffer, and the addresses of the
 // geometry's own vertices and indices.
 
 RaytracingAccelerationStructure scene : register(t0);

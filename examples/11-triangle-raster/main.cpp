@@ -9,7 +9,7 @@ using namespace rtapi;
 static Texture Render(const example::Setup& setup) {
   const Device& device = setup.device;
 
-  // What is drawn to: a texture, and a view of it in a heap that only the command list reads.
+  // The render target: a texture, and a view of it in a heap that only the command list reads.
   const Texture image = device
                             .CreateTexture({.Width = setup.width,
                                             .Height = setup.height,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kMapSize = 1024;
 
-// What an instance adds to the unit cube; per-instance data of the input layout.
+// The data that an instance adds to the unit cube; per-instance data of the input layout.
 struct Box {
   float center[3];
   float half_size[3];

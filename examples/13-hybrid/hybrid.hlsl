@@ -118,7 +118,7 @@ float3 lit(float3 color, float3 normal, float light) {
   return color * (0.3 + 0.1 * normal.y + 0.7 * light * saturate(dot(normal, kToSun)));
 }
 
-// What a mirror at the ray's origin shows.
+// Returns what a mirror at the ray's origin shows.
 float3 reflected(RayDesc ray) {
   RayQuery<RAY_FLAG_FORCE_OPAQUE> query;
   query.TraceRayInline(scene, RAY_FLAG_NONE, 0xff, ray);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What --tables, --explain and --heatmap look at, print and write.
+// Collects, prints and writes what --tables, --explain and --heatmap look at.
 #pragma once
 
 #include <rtapi/explain.h>
@@ -22,7 +22,7 @@ struct ExplainedDispatch {
   rtapi::PixelExplanation pixel;
 };
 
-// What was seen of a frame.
+// The explanations and counts that were taken of a frame.
 struct Inspection {
   std::vector<ExplainedDispatch> explained;          // with --explain
   std::vector<rtapi::PixelStatistics> pixel_counts;  // with --heatmap: width * height

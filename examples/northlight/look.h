@@ -7,12 +7,12 @@
 
 namespace northlight {
 
-// Whether the renderer's frames will have what the views look at. Errors: those of check_view.
+// Checks that the renderer's frames will have what the views look at. Errors: those of check_view.
 rtapi::Status check_views(const Options& options, const kaamos::effects::FrameRenderer& renderer);
 // Adds the views of the renderer's last frame to `result`.
 rtapi::Status add_views(const Options& options, kaamos::effects::FrameRenderer& renderer,
                         FrameResult& result);
-// What their colours stand for, a line each.
+// Says what their colours stand for, a line each.
 std::string describe_views(const FrameResult& result);
 
 }  // namespace northlight

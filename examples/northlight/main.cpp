@@ -104,7 +104,8 @@ bool override_materials(const Options& options, Scene& scene) {
   return true;
 }
 
-// How long a pass that is partly done will still take, at the speed that it has had so far.
+// Estimates how long a pass that is partly done will still take, at the speed that it has had so
+// far.
 std::string time_left(const std::string& pass, double done) {
   using Clock = std::chrono::steady_clock;
   static std::string current;
@@ -230,7 +231,7 @@ using Measuring = std::function<rtapi::Result<Outcome>(const kaamos::measure::Op
                                                        const Scene& scene, const Progress& progress,
                                                        std::string& said)>;
 
-// What the options measure instead of rendering a frame; null: nothing.
+// Returns the measurement that the options ask for instead of rendering a frame; null: none.
 Measuring find_measuring(const Options& options) {
   if (!options.measure.empty()) return run_measure;
   if (options.study) return run_study;

@@ -32,7 +32,7 @@ constexpr std::uint32_t kMaxSamples = 65536;
 constexpr std::uint32_t kMaxFrames = 100000;
 constexpr std::uint32_t kMaxSide = 16384;  // limit of a texture [D3D12: resource limits]
 
-// What options say in words, until all of them have been read.
+// The values of options that are words, kept until all options have been read.
 struct Words {
   std::string size = "1280x720";
   std::vector<std::string> effects = {"ao", "sun"};
@@ -223,7 +223,7 @@ Fireflies fireflies(const std::string& name) {
   return Fireflies::kRetrace;
 }
 
-// What the words mean for the frame and its effects.
+// Applies the words to the frame and its effects.
 void apply(const Words& words, Options& options) {
   FrameSettings& frame = options.frame;
   ContactShadowConstants contact = kContactAsNeeded;

@@ -14,7 +14,7 @@ namespace northlight {
 
 using namespace kaamos::measure;
 
-// What the frame is and how it is measured, and what else the program does.
+// The frame, how it is measured, and what else the program does.
 struct Options : kaamos::measure::Options {
   std::uint32_t piece_triangles = 0;  // split larger meshes; 0: split none
   bool measure_left_out = false;      // instead of writing files

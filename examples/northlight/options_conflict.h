@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of northlight's options exclude each other.
+// Finds options of northlight that exclude each other.
 #pragma once
 
 #include <string>

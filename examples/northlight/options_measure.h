@@ -10,7 +10,7 @@
 
 namespace northlight {
 
-// What the options say in words, until all of them have been read.
+// The values of options that are words, kept until all options have been read.
 struct MeasureWords {
   std::string clock = "wall";
   std::string study;

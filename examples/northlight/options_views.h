@@ -11,7 +11,7 @@
 namespace northlight {
 
 void add_views(CLI::App& app, Options& options);
-// What is rendered if no effects are named: what the views look at.
+// Chooses the effects that are rendered if none are named: those that the views look at.
 void choose_for_views(const Options& options, std::vector<std::string>& effects);
 // Makes a frame of single effects a whole one if a view looks at what only that has.
 void show_views(Options& options);

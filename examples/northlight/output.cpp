@@ -95,7 +95,8 @@ bool is_light(const std::string& layer, const std::vector<Effect>& effects) {
   return layer == "emissive" || layer == "radiance_reference";
 }
 
-// What a viewer sees of a layer: light as in the frame, everything else as numbers from 0 to 1.
+// Makes the picture of a layer for a viewer: light as in the frame, everything else as numbers from
+// 0 to 1.
 ByteImage layer_picture(const std::string& name, const FloatImage& image, const FrameResult& result,
                         const FrameRenderer& renderer) {
   const FloatImage& ids = result.layers.at("ids");

@@ -36,7 +36,8 @@ std::string list_devices();
 // The table printed at the end.
 std::string describe(const kaamos::effects::FrameRenderer& renderer, const FrameResult& result);
 
-// How drawn surfaces differ from what rays see, and what both took; empty where rays found them.
+// Says how drawn surfaces differ from what rays see, and what both took; empty where rays found
+// them.
 std::string describe_primary(const FrameResult& result);
 
 }  // namespace northlight

@@ -23,7 +23,7 @@ struct SequenceFrame {
   bool cut = false;
 };
 
-// How much a picture changes beyond its motion, before and after a filter.
+// The change of a picture beyond its motion, before and after a filter.
 struct FlickerLine {
   std::string name;
   kaamos::effects::TemporalChange raw;

@@ -21,7 +21,7 @@ struct Material {
 const Material kMaterials[] = {
     {{0.7f, 0.08f, 0.05f}, 0.5f}, {{0.05f, 0.4f, 0.1f}, 0.25f}, {{0.05f, 0.12f, 0.6f}, 0.1f}};
 
-// What follows the identifier in a record of TorusGroup: the parameters of its local root
+// The data that follow the identifier in a record of TorusGroup: the parameters of its local root
 // signature.
 struct TorusArguments {
   D3D12_GPU_VIRTUAL_ADDRESS vertices;

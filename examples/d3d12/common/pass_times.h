@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long the passes of a frame take, by timestamps.
+// Measures how long the passes of a frame take, by timestamps.
 #pragma once
 
 #include <d3d12.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the D3D12 examples share: the command line, the device, buffers, and the picture file.
+// The parts that the D3D12 examples share: the command line, the device, buffers, and the picture
+// file.
 #pragma once
 
 #include <d3d12.h>
