@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a hit shader looks at the attributes it declares. One that does not may stand in a hit
-// group whose intersection shader reports attributes of another type.
+// Finds out whether a hit shader looks at the attributes it declares. One that does not may stand
+// in a hit group whose intersection shader reports attributes of another type.
 #pragma once
 
 #include "runtime/hlsl/ir/ir.h"

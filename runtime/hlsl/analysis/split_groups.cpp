@@ -32,7 +32,7 @@ bool holds_return(const Stmt& stmt) {
   return found;
 }
 
-// Whether a break or continue leaves the statement.
+// Returns whether a break or continue leaves the statement.
 bool leaves(const Stmt& stmt, bool in_loop, bool in_switch) {
   if (stmt.kind == StmtKind::kBreak) return !in_loop && !in_switch;
   if (stmt.kind == StmtKind::kContinue) return !in_loop;

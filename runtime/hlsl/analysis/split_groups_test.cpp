@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which pieces a body is cut into, which variables the group shares and which each thread keeps.
-// What the pieces compute is compared with fibers in tests/hlsl/group_test.cpp.
+// Tests which pieces a body is cut into, which variables the group shares and which each thread
+// keeps. What the pieces compute is compared with fibers in tests/hlsl/group_test.cpp.
 #include "runtime/hlsl/analysis/split_groups.h"
 
 #include <gtest/gtest.h>

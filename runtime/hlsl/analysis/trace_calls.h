@@ -21,9 +21,9 @@ struct ReachedCalls {
 // Duplicates are removed. File names point into the module.
 ReachedCalls collect_calls(const ir::Module& module, const ir::EntryPoint& entry);
 
-// Whether any part of a TraceRay, CallShader or TraceRayInline (the structure's place, flags, mask
-// or indices) is not a constant in the function that contains it. Checked code then reports it when
-// it runs.
+// Returns whether any part of a TraceRay, CallShader or TraceRayInline (the structure's place,
+// flags, mask or indices) is not a constant in the function that contains it. Checked code then
+// reports it when it runs.
 bool is_unknown(const ir::Module& module, const ir::Stmt& call);
 
 }  // namespace kaamos::hlsl

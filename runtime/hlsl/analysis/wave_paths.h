@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Which lanes take part in a wave operation on a CPU, where every lane, or every eight of them,
-// runs on its own fiber: those that would be active on a machine whose lanes run in lockstep and
-// join again where statements end. [HLSL: Wave intrinsics, active lanes]
+// Finds which lanes take part in a wave operation on a CPU, where every lane, or every eight of
+// them, runs on its own fiber: those that would be active on a machine whose lanes run in lockstep
+// and join again where statements end. [HLSL: Wave intrinsics, active lanes]
 //
 // A lane that comes to an operation waits there with its path, the words that say where it is: the
 // number of the statement in its function, for a loop followed by the number of the iteration, and
@@ -51,7 +51,7 @@ class WavePaths {
   uint32_t length_ = 0;  // of its longest path so far
 };
 
-// Whether the statement or anything in it can reach a wave operation.
+// Returns whether the statement or anything in it can reach a wave operation.
 bool reaches_wave(const ir::Stmt& stmt);
 
 }  // namespace kaamos::hlsl

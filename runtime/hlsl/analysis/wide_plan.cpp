@@ -66,7 +66,7 @@ class Analysis {
     changed_ = true;
   }
 
-  // Whether a write needs a mask; also marks what it makes varying.
+  // Returns whether a write needs a mask; also marks what it makes varying.
   bool write(const Variable* variable, bool varying, uint32_t region) {
     out_.written.insert(variable);
     if (variable->storage == Storage::kStaticGlobal) return true;

@@ -46,8 +46,8 @@ struct WideFunction {
   bool varying_result = false;
   bool masked_return = false;  // threads return one by one
 
-  // Whether the parameter can be read from the caller's copy: it takes many registers, and nothing
-  // changes it while the function runs.
+  // Returns whether the parameter can be read from the caller's copy: it takes many registers, and
+  // nothing changes it while the function runs.
   bool only_reads(const ir::Variable* parameter) const;
 
   bool is_varying(const ir::Variable* variable) const;
@@ -68,8 +68,8 @@ class WidePlan {
       functions_;
 };
 
-// Whether it is a struct, or an array of structs, that holds a resource: lanes cannot each have
-// their own.
+// Returns whether it is a struct, or an array of structs, that holds a resource: lanes cannot each
+// have their own.
 bool holds_resource(const ir::Type* type);
 
 }  // namespace kaamos::hlsl

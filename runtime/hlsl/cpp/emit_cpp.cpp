@@ -86,8 +86,8 @@ void CppEmitter::collect_parameters_by_reference() {
   }
 }
 
-// Which static globals a function can touch, and how much stack it may need. Callees come before
-// callers in the module.
+// Finds which static globals a function can touch, and how much stack it may need. Callees come
+// before callers in the module.
 void CppEmitter::collect_static_use() {
   for (const Function* function : module_.functions) {
     auto& statics = statics_[function];

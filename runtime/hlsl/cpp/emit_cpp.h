@@ -14,7 +14,7 @@
 
 namespace kaamos::hlsl {
 
-// Which compute and ray generation shaders run several threads at once. [wide_plan.h]
+// The compute and ray generation shaders that run several threads at once. [wide_plan.h]
 enum class WideThreads : uint8_t {
   kNever,
   kWhereFaster,  // ray generation, and groups of at least as many threads

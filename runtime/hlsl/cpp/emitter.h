@@ -32,7 +32,7 @@ class WideEmitter;
 
 // "0, 2": the components of a swizzle.
 std::string component_list(const std::vector<uint8_t>& components);
-// What follows the subscript of a matrix's row, which is a vector even if the IR has a scalar
+// The text behind the subscript of a matrix's row, which is a vector even if the IR has a scalar
 // there.
 inline std::string behind_row(const ir::Type* indexed) {
   const bool has_one_column = indexed->kind == ir::TypeKind::kMatrix && indexed->columns == 1;
@@ -76,8 +76,8 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   bool is_bound(const ir::Expr& expr) const;
-  // Whether the binding was looked up beforehand, for a group or for all invocations of a ray
-  // shader.
+  // Returns whether the binding was looked up beforehand, for a group or for all invocations of a
+  // ray shader.
   bool is_looked_up(const ir::Expr& resource) const;
   // `element` is the index into a structured buffer; null for raw and constant buffers. `text`
   // prints the index, and the buffer unless that was looked up.
@@ -125,7 +125,8 @@ class CppEmitter {
   void end_shader();  // returns from the function with any value
 
   // waves.cpp
-  // How many words of the path, counted from its start, come before the statement's, and `more`.
+  // The number of words of the path, counted from its start, that come before the statement's,
+  // plus `more`.
   std::string wave_depth(const ir::Stmt& stmt, uint32_t more) const;
   void enter_wave_path(const ir::Stmt& stmt);
   // Nothing for calls and loops that reach no wave operation.
@@ -135,7 +136,7 @@ class CppEmitter {
   void begin_wave_iteration(const ir::Stmt& stmt);
   std::string wave_operation(const ir::Stmt& stmt) const;
   void wave(const ir::Stmt& stmt);
-  // What follows `thread` in a ComputeDesc.
+  // The text that follows `thread` in a ComputeDesc.
   static std::string wave_facts(const ir::EntryPoint& entry, const std::string& lanes = "nullptr");
 
   // emit_cpp.cpp
@@ -204,8 +205,8 @@ class CppEmitter {
   bool binds_per_group_ = false;  // compute shaders only: bound.h
   bool reads_bound_ = false;      // Invocation::bound
   std::vector<bool> has_row_;     // by entry point: ExportDesc::row
-  // Where the elements of each array start in `bound`, after everything that is not an array; 0 if
-  // they are not there.
+  // The indices in `bound` at which the elements of each array start, after everything that is not
+  // an array; 0 if they are not there.
   std::vector<uint32_t> bound_elements_;
   uint32_t bound_count_ = 0;
   std::string out_;
@@ -238,9 +239,9 @@ class CppEmitter {
   std::string return_text_ = "return;";
 };
 
-// Whether the statements i and i + 1 are `T x;` and `x = f();`.
+// Returns whether the statements i and i + 1 are `T x;` and `x = f();`.
 bool begins_with_call(const ir::Block& body, size_t i);
-// Whether KAAMOS_UNROLL applies to this loop.
+// Returns whether KAAMOS_UNROLL applies to this loop.
 bool is_unrolled(const ir::Stmt& loop);
 // The C++ name in code that sees the prelude as `ks`: "int32_t", "ks::half".
 const char* scalar_name(ir::Scalar scalar);

@@ -52,8 +52,8 @@ void CppEmitter::at_generated() {
   }
 }
 
-// Whether `x` is declared and the next statement assigns a function's result to it: `T x = f()`
-// neither clears nor copies it.
+// Returns whether `x` is declared and the next statement assigns a function's result to it:
+// `T x = f()` neither clears nor copies it.
 bool begins_with_call(const Block& body, size_t i) {
   const Stmt& first = *body[i];
   return first.kind == StmtKind::kDeclare && first.value == nullptr && i + 1 < body.size() &&

@@ -24,7 +24,7 @@ bool has_access(const Expr* root) {
   return found;
 }
 
-// Whether the prelude's function for the intrinsic takes wide values of the scalar type:
+// Returns whether the prelude's function for the intrinsic takes wide values of the scalar type:
 // component-wise functions do, and so does geometry on types that fit registers.
 bool takes_wide(Intrinsic intrinsic, Scalar scalar) {
   switch (intrinsic) {

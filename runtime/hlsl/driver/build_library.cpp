@@ -11,8 +11,8 @@ namespace kaamos::hlsl {
 
 namespace {
 
-// What the library is built of. The GLSL takes the place of the SPIR-V, because SPIR-V takes many
-// times longer to make.
+// The text of everything that the library is built of. The GLSL takes the place of the SPIR-V,
+// because SPIR-V takes many times longer to make.
 std::string content_of(const ir::Module& module, const std::string& cpp, bool spirv) {
   std::string content = cpp;
   if (!spirv) return content;

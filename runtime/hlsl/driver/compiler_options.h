@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How the C++ compiler is called for emitted code at run time: with the options that
+// The options with which the C++ compiler is called for emitted code at run time: those that
 // kaamos_add_shader_library gives it at build time. The list is in cmake/KaamosShaders.cmake.
 #pragma once
 
@@ -18,7 +18,7 @@ enum class Optimisation {
   kFull,   // as in a release build
 };
 
-// Which options a compiler knows.
+// The options that a compiler knows.
 enum class OptionSet {
   kGnu,  // those of g++ from version 12 on
   kAny,  // those of every g++ and clang: code is slower and does the same

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What a library was compiled from, as one text that the library carries: the options and every
-// file that was read. It lets the library's checked variant be compiled where and when one is
-// wanted, and the library together with others that it calls, with every `#include` finding the
-// same files.
+// The source that a library was compiled from, as one text that the library carries: the options
+// and every file that was read. It lets the library's checked variant be compiled where and when
+// one is wanted, and the library together with others that it calls, with every `#include` finding
+// the same files.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a library exports and binds, as JSON for tools and human readers.
+// Describes what a library exports and binds, as JSON for tools and human readers.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a misspelt name is from what may have been meant.
+// Measures how far a misspelt name is from what may have been meant.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the compiler reads files: from disk, or from memory in tests and for shaders made at run
+// Reads files for the compiler: from disk, or from memory in tests and for shaders made at run
 // time.
 #pragma once
 

@@ -52,9 +52,9 @@ class Lexer {
   // While a group is skipped because of #if, names are not entered into the table.
   void set_skipping(bool skipping) { skipping_ = skipping; }
 
-  // Whether '(' comes next without any space.
+  // Returns whether '(' comes next without any space.
   bool is_left_paren_adjacent() const { return *skip_splices(position_) == '('; }
-  // Whether the next token is '('; consumes nothing.
+  // Returns whether the next token is '('; consumes nothing.
   bool is_left_paren_next();
   // At `<`: reads up to `>` on this line as one kUnknown token whose text is what is in between.
   // Returns false and reads nothing if there is no `<...>`.

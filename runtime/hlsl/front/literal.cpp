@@ -181,7 +181,7 @@ class NumberReader {
     return is_large(digits) ? std::nullopt : std::optional<Float>(Float{0});
   }
 
-  // Whether an out-of-range number is too large rather than too small.
+  // Returns whether an out-of-range number is too large rather than too small.
   bool is_large(std::string_view digits) const {
     size_t e = digits.find_first_of(is_hex_ ? "pP" : "eE");
     std::string_view mantissa = digits.substr(0, e);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What comes after a colon: semantics, registers, packoffset, payload access qualifiers.
+// Parses what comes after a colon: semantics, registers, packoffset, payload access qualifiers.
 #include <cctype>
 #include <charconv>
 

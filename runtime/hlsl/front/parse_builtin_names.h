@@ -29,8 +29,8 @@ struct BuiltinName {
 
 BuiltinName find_builtin_name(std::string_view text);
 
-// What the unknown type `text` was probably meant to be: a name in `declared` or a built-in one
-// that differs in one or two letters, or HLSL's word for a GLSL type. Empty if there is no guess.
+// Guesses what the unknown type `text` was meant to be: a name in `declared` or a built-in one that
+// differs in one or two letters, or HLSL's word for a GLSL type. Empty if there is no guess.
 std::string similar_type_name(std::string_view text, std::span<const std::string_view> declared);
 
 }  // namespace kaamos::hlsl

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which message each mistake gives, at which line and column; and that one mistake gives one
+// Tests which message each mistake gives, at which line and column, and that one mistake gives one
 // message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which words can be names, and where: as DXC's lexer and parser have it.
+// Tests which words can be names, and where: as DXC's lexer and parser have it.
 #include <gtest/gtest.h>
 
 #include "runtime/hlsl/front/parse_test_support.h"

@@ -109,7 +109,7 @@ bool looks_like_name(TokenKind kind) {
   }
 }
 
-// Where DXC allows a modifier. [DXC: DiagnoseHLSLDecl]
+// The places where DXC allows a modifier. [DXC: DiagnoseHLSLDecl]
 enum Place : uint8_t {
   kGlobal = 1,
   kLocal = 2,

@@ -6,8 +6,8 @@
 namespace kaamos::hlsl {
 namespace {
 
-// How many scopes one look-up visits through bases and `using namespace`. It ends cycles, and keeps
-// a web of namespaces that all use each other from taking forever.
+// The most scopes that one look-up visits through bases and `using namespace`. The limit ends
+// cycles, and keeps a web of namespaces that all use each other from taking forever.
 constexpr int kMaxVisits = 256;
 
 bool is_word(TokenKind kind) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser needs to know about names while it parses: which are types, templates and
+// Records what the parser needs to know about names while it parses: which are types, templates and
 // namespaces, and in which scope. Variables and functions are recorded only if they hide a type.
 #pragma once
 

@@ -38,7 +38,8 @@ class Parser {
   static constexpr uint32_t kMaxHeight = 1024;
   static constexpr uint32_t kMaxElseIf = 1024;
   static constexpr size_t kMaxArrayBounds = 32;
-  // How many tokens to look ahead into template arguments; a parenthesised group counts as one.
+  // The number of tokens to look ahead into template arguments; a parenthesised group counts as
+  // one.
   static constexpr size_t kMaxLookAhead = 512;
 
   struct Nesting {
@@ -138,7 +139,7 @@ class Parser {
   }
 
   // ---- parse_names.cpp
-  // What the qualified name at a token means, found without consuming it.
+  // The meaning of the qualified name at a token, found without consuming it.
   struct NameLookup {
     ParsedSymbol symbol;
     size_t end = 0;             // After the name; the starting index if there is no name.
@@ -146,9 +147,9 @@ class Parser {
     bool is_type() const { return symbol.is_type(); }
   };
   NameLookup look_up(size_t index);
-  // What a name that follows no `::` means where it stands.
+  // The meaning of a name that follows no `::`, where it stands.
   ParsedSymbol find_first_part(size_t index);
-  // Whether the `<` at `index`, after the name at `name_index`, begins template arguments.
+  // Returns whether the `<` at `index`, after the name at `name_index`, begins template arguments.
   bool begins_template_arguments(size_t index, size_t name_index, const ParsedSymbol& symbol,
                                  bool is_member);
   // The index after the type (modifiers included) that begins at `index`; `index` if there is none.
@@ -254,7 +255,7 @@ class Parser {
 
   // ---- parse_declarations.cpp
   enum class Context : uint8_t { kGlobal, kMember, kBuffer, kLocal };
-  // What comes before a declaration.
+  // Everything that comes before a declaration.
   struct Prefix {
     std::span<const Attribute> attributes;
     std::span<const TemplateParameter> template_parameters;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where text comes from: files, the chain of #include, the chain of macro expansions. A location is
-// 32 bits; the SourceManager turns it into file, line and column.
+// Keeps track of where text comes from: files, the chain of #include, the chain of macro
+// expansions. A location is 32 bits; the SourceManager turns it into file, line and column.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct SourceLocation {
   friend constexpr bool operator==(SourceLocation, SourceLocation) = default;
 };
 
-// What a person reads: the outermost place in a file, with #line applied.
+// A location as a person reads it: the outermost place in a file, with #line applied.
 struct ResolvedLocation {
   std::string_view path;  // Empty if there is no location.
   uint32_t line = 0;      // Counted from 1.
@@ -48,7 +48,7 @@ struct SourceText {
 
 class SourceManager {
  public:
-  // How one token got through a macro: `spelling` is the token in the #define, `invocation` the
+  // The way of one token through a macro: `spelling` is the token in the #define, `invocation` the
   // macro's name where it was used (itself a macro location if macros are nested).
   struct MacroExpansion {
     std::string_view macro;
@@ -87,7 +87,7 @@ class SourceManager {
 
   // The outermost place in a file: where the macro was used, or the location itself.
   SourceLocation file_location(SourceLocation location) const;
-  // Where the characters are: in the #define for a token of a macro's body.
+  // The place of the characters: in the #define for a token of a macro's body.
   SourceLocation spelling_location(SourceLocation location) const;
   std::optional<MacroExpansion> expansion_of(SourceLocation location) const;
   // The #include that included the file of this location; invalid for the main file.

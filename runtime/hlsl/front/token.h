@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the lexer and the preprocessor pass to the parser.
+// The tokens that the lexer and the preprocessor pass to the parser.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ std::string GlslEmitter::graphics_input(size_t index) {
   return name;
 }
 
-// What the driver does not convert as D3D does. [spirv_interface.h: kTargetConstant]
+// Converts a target as D3D does where the driver does not. [spirv_interface.h: kTargetConstant]
 std::string GlslEmitter::converted_target(const SignatureElement& element,
                                           const std::string& name) {
   const uint32_t slot = element.semantic_index;

@@ -16,10 +16,10 @@ struct GlslPrelude {
   std::vector<std::string> missing;  // k_* names in `body` that the prelude lacks
 };
 
-// What a shader with the text `body` needs directly after `#version`: the definitions of the k_*
-// names in it, and of those they use. Overloads for 16-bit, 64-bit integer and double types are
-// included only if the body mentions such a type, so that an ordinary shader requires no capability
-// that it does not use.
+// Returns what a shader with the text `body` needs directly after `#version`: the definitions of
+// the k_* names in it, and of those they use. Overloads for 16-bit, 64-bit integer and double types
+// are included only if the body mentions such a type, so that an ordinary shader requires no
+// capability that it does not use.
 GlslPrelude glsl_prelude(std::string_view body);
 
 // The names of all blocks in text order, without duplicates.

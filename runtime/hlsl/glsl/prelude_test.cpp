@@ -93,7 +93,7 @@ TEST(GlslPrelude, EveryFunctionIsValidSpirv) {
   const std::string calls = calls_of(prelude);
   EXPECT_GT(std::count(calls.begin(), calls.end(), '\n'), 2000);
   GlslShader shader;
-  // What an entry point defines for checked.glsl.
+  // An entry point defines these functions for checked.glsl.
   const std::string entry =
       "uint g_check_shader() { return 0u; }\nuvec3 g_check_index() { return uvec3(0); }\n";
   shader.text = "#version 460\n" + prelude + entry + "void main() {\n" + calls + "}\n";

@@ -194,7 +194,7 @@ std::string GlslEmitter::header(const std::string& payload, const Type* t) const
          ".bytes = " + glsl::number(4 * glsl::words(t)) + ";\n";
 }
 
-// Which acceleration structure a resource refers to.
+// Declares the function that finds the acceleration structure to which a resource refers.
 void GlslEmitter::declare_top_level() {
   declare_status();
   generated("g_top_level",

@@ -109,7 +109,7 @@ std::string texture_function(const char* operation, const Type* resource, Scalar
          texel_class(scalar);
 }
 
-// Whether it is a constant that Vulkan accepts as an offset.
+// Returns whether it is a constant that Vulkan accepts as an offset.
 bool is_texel_offset(const Expr& offset) {
   if (offset.kind != ExprKind::kLiteral) {
     return false;

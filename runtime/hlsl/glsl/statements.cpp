@@ -12,7 +12,7 @@ using namespace ir;
 
 namespace {
 
-// Whether the block, as a loop's body, contains a `continue` for that loop.
+// Returns whether the block, as a loop's body, contains a `continue` for that loop.
 bool has_continue(const Block& block) {
   for (const Stmt* stmt : block) {
     if (stmt->kind == StmtKind::kContinue) {

@@ -283,7 +283,8 @@ std::string GlslEmitter::literal(const Expr& expr) {
   return out + ")";
 }
 
-// What GLSL accepts as the initialiser of a constant: no calls, so no floats made from bits.
+// Returns whether GLSL accepts it as the initialiser of a constant: no calls, so no floats made
+// from bits.
 bool GlslEmitter::is_constant(const Expr& expr) const {
   switch (expr.kind) {
     case ExprKind::kZero:

@@ -128,7 +128,7 @@ std::string GlslEmitter::all_equal(const Expr* operand) {
   return out + ")";
 }
 
-// What a wave of one lane gives, in a ray shader.
+// Returns what a wave of one lane gives, in a ray shader.
 std::string GlslEmitter::lone_wave(const Stmt& stmt) {
   const Type* t = stmt.result->type;
   const std::string v = stmt.operands.empty() ? "" : value(stmt.operands[0]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How each kind of node is evaluated. compile.cpp picks one of these for each expression.
+// The functions that evaluate each kind of node. compile.cpp picks one of these for each
+// expression.
 #pragma once
 
 #include "runtime/hlsl/interpret/program.h"

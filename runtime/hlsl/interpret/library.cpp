@@ -163,7 +163,7 @@ void set_imports(shader::ExportDesc& out, const std::vector<uint32_t>& imports) 
   out.import_count = static_cast<uint32_t>(imports.size());
 }
 
-// What is known of an entry point without its code.
+// Returns what is known of an entry point without its code.
 shader::ExportDesc describe(const ir::EntryPoint& entry) {
   const bool callable = entry.stage == ir::kStageCallable;
   shader::ExportDesc out = {};

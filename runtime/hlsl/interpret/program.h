@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What a module is turned into before it runs: variables are byte offsets, expressions are nodes
-// that know how to evaluate themselves, statements refer to nodes. A program is immutable while it
-// runs, so several threads can run it at once; everything that changes is in Frame and Context on
-// the thread's stack. Neither owns memory, because a backend leaves a failing shader by a jump.
+// The program that a module is turned into before it runs: variables are byte offsets, expressions
+// are nodes that know how to evaluate themselves, statements refer to nodes. A program is immutable
+// while it runs, so several threads can run it at once; everything that changes is in Frame and
+// Context on the thread's stack. Neither owns memory, because a backend leaves a failing shader by
+// a jump.
 #pragma once
 
 #include <cstddef>
@@ -134,7 +135,7 @@ struct StaticInitialiser {
   uint32_t bytes = 0;
 };
 
-// What runs before the body of an entry point.
+// The code of an entry point, and what is set up before its body runs.
 struct EntryCode {
   const ir::EntryPoint* entry = nullptr;
   const Code* code = nullptr;

@@ -88,7 +88,7 @@ struct BarrierRule {
   std::string_view name;
   uint32_t flags;  // ir::BarrierFlags
 };
-// What the first operand of a wave operation is converted to.
+// The types to which the first operand of a wave operation is converted.
 enum class WaveOperand : uint8_t {
   kNone,
   kBool,

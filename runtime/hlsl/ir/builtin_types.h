@@ -30,7 +30,8 @@ struct ResourceTraits {
 
 const ResourceTraits& traits_of(ir::ResourceKind kind);
 std::string_view resource_name(ir::ResourceKind kind);
-// Whether a type of that name is a RasterizerOrdered view, whose traits are those of its RW twin.
+// Returns whether a type of that name is a RasterizerOrdered view, whose traits are those of its RW
+// twin.
 bool is_ordered_view(std::string_view name);
 // Also knows older spellings such as `sampler`. Null if the name is not a resource type.
 const ResourceTraits* find_resource(std::string_view name);

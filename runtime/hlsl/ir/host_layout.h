@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How the interpreter stores values: byte for byte like the C++ types that emit_cpp prints (vec,
-// mat and array of vector.h without padding, structs with natural alignment).
+// The layout in which the interpreter stores values: byte for byte like the C++ types that emit_cpp
+// prints (vec, mat and array of vector.h without padding, structs with natural alignment).
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ class Layouts {
   // bytes is never more than kMaxValueBytes + 1, which means that the type is too large.
   Extent extent_of(const ir::Type* type);
   uint32_t field_offset(const ir::Struct& structure, uint32_t field);
-  // How a value of the type is copied to and from a buffer.
+  // The moves that copy a value of the type to and from a buffer.
   std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
 
  private:

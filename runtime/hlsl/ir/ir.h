@@ -3,7 +3,7 @@
 // The typed intermediate representation between the checker and everything that comes after it (C++
 // emitter, GLSL emitter, interpreter, reflection).
 //
-// What makes the emitters plain printers:
+// Its rules make the emitters plain printers:
 // - Expressions are pure trees: no side effects, no traps, operands of equal and final type. They
 //   may be evaluated in any order and any number of times between two statements.
 // - Everything with an effect is a statement: assignments, memory stores, atomics, calls of user
@@ -106,7 +106,7 @@ struct Struct {
   Location location;
 };
 
-// How a type is laid out in memory. [HLSL: Packing rules for constant variables]
+// The layout of a type in memory. [HLSL: Packing rules for constant variables]
 enum class Layout : uint8_t {
   kConstantBuffer,  // 16-byte rows; members do not straddle them; tails are reused
   kStructured,      // natural alignment of components, no padding to rows
@@ -239,8 +239,8 @@ enum class SystemValue : uint8_t {
   kHitKind,
 };
 
-// What can be read from a RayQuery: about the candidate, or about the committed hit if Expr::index
-// is 1.
+// The values that can be read from a RayQuery: about the candidate, or about the committed hit if
+// Expr::index is 1.
 enum class QueryValue : uint8_t {
   kType,  // CANDIDATE_TYPE or COMMITTED_STATUS
   kRayT,
@@ -355,7 +355,7 @@ struct SwitchCase {
   Block body;  // runs on into the next case unless it breaks
 };
 
-// What kAtomic acts on if it is not a groupshared place.
+// The target of kAtomic if it is not a groupshared place.
 // kCounter: that of the structured buffer operands[0].
 enum class AtomicTarget : uint8_t { kPlace, kMemory, kElement, kTyped, kCounter };
 
@@ -425,7 +425,7 @@ struct Function {
   bool has_waves = false;       // can reach kWave
 };
 
-// Where an entry point's parameter gets its value.
+// The source of the value of an entry point's parameter.
 enum class EntryParameter : uint8_t {
   kPayload,
   kAttributes,
@@ -459,7 +459,7 @@ struct EntryPoint {
   std::vector<EntryParameter> parameters;
   const Type* payload = nullptr;  // payload, or callable data
   const Type* attributes = nullptr;
-  // Whether it has access qualifiers, in shader model 6.7 or higher, where MaxPayloadSizeInBytes is
+  // True if it has access qualifiers, in shader model 6.7 or higher, where MaxPayloadSizeInBytes is
   // not a limit.
   bool unbounded_payload = false;
   std::optional<std::string> root_signature;  // [RootSignature("...")]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where the parts of a value are in memory, byte for byte as DXC places them.
+// Computes where the parts of a value are in memory, byte for byte as DXC places them.
 //
 // Constant buffers: rows of 16 bytes that no scalar or vector straddles; arrays, structs and
 // matrices of more than one line start a new row; the rest of the last row of an array or struct is

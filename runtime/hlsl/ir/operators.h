@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How binary operators are spelled: in the languages that have them, and as functions of the
+// The spellings of binary operators: in the languages that have them, and as functions of the
 // preludes of emitted code, for the types where the language's operator means something else.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace kaamos::hlsl::ir {
 
 struct BinarySpelling {
   const char* symbol;  // of HLSL, C++ and GLSL
-  // Whether it means the same in all three on scalars of 32 and 64 bits. Division by zero, and
+  // True if it means the same in all three on scalars of 32 and 64 bits. Division by zero, and
   // counts of shifts that are too large, do not.
   bool is_native;
   const char* cpp;  // in namespace ks

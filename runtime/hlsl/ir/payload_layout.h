@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How a payload is laid out in memory, for debuggers and explanations.
+// Describes how a payload is laid out in memory, for debuggers and explanations.
 #pragma once
 
 #include <string>

@@ -78,7 +78,7 @@ constexpr Scalar plain_scalar(Scalar scalar) {
   }
 }
 
-// Where a scalar is: a bool is a byte in a variable, as in C++, and takes four in a buffer.
+// The place of a scalar: a bool is a byte in a variable, as in C++, and takes four in a buffer.
 // Literal types count as int and float.
 enum class ScalarStorage : uint8_t { kVariable, kBuffer };
 
@@ -108,7 +108,7 @@ constexpr std::string_view name_of(Scalar scalar) {
   return kNames[static_cast<size_t>(scalar)];
 }
 
-// What a wave operation is told, and back.
+// Converts to the type that a wave operation is told, and back.
 constexpr shader::WaveScalar wave_scalar(Scalar plain) {
   return static_cast<shader::WaveScalar>(plain);
 }

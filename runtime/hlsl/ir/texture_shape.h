@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a texture's declaration says about the views that fit it.
+// Tells what a texture's declaration says about the views that fit it.
 #pragma once
 
 #include "runtime/hlsl/ir/ir.h"

@@ -51,8 +51,8 @@ inline const Variable* root_of(const Expr* place) {
   return place != nullptr ? place->variable : nullptr;
 }
 
-// Whether a function can change an argument other than through its by-reference parameter: if the
-// argument uses globals, the function can name them itself.
+// Returns whether a function can change an argument other than through its by-reference parameter:
+// if the argument uses globals, the function can name them itself.
 inline bool callee_can_write(const Expr* argument) {
   bool names_global = false;
   visit_expr(argument, [&](const Expr& expr) {
