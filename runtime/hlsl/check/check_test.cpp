@@ -245,6 +245,36 @@ TEST(Bindings, AutomaticRegistersFillGapsByClass) {
   EXPECT_FALSE(binding(good, "b")->automatic);
 }
 
+// As DXC has it: what nothing reads is gone before registers are given out, unless
+// -flegacy-resource-reservation says otherwise.
+TEST(Bindings, UnusedRegistersAreFreeUnlessReserved) {
+  const std::string source = kernel("results.Store(0, a[0] + pair[1][0]);",
+                                    "StructuredBuffer<uint> spare : register(t0);\n"
+                                    "StructuredBuffer<uint> also_spare : register(t0);\n"
+                                    "StructuredBuffer<uint> two[2] : register(t2);\n"
+                                    "StructuredBuffer<uint> a;\nStructuredBuffer<uint> pair[2];");
+  const Compilation free(source);
+  ASSERT_NE(free.module, nullptr) << free.messages();
+  EXPECT_EQ(binding(free, "a")->register_index, 0u);
+  EXPECT_EQ(binding(free, "pair")->register_index, 1u);
+  FrontendOptions options;
+  options.reserve_unused = true;
+  const Compilation reserved(source, options);
+  ASSERT_NE(reserved.module, nullptr) << reserved.messages();
+  EXPECT_EQ(binding(reserved, "a")->register_index, 1u);
+  EXPECT_EQ(binding(reserved, "pair")->register_index, 4u);
+  EXPECT_EQ(binding(reserved, "spare"), nullptr);
+}
+
+TEST(Bindings, ConstantRegistersEndWithTheBuffer) {
+  const Compilation last(kernel("results.Store(0, a.x);", "uint4 a : register(c4095);"));
+  ASSERT_NE(last.module, nullptr) << last.messages();
+  EXPECT_EQ(binding(last, "$Globals")->size_bytes, 65536u);
+  const Compilation past(kernel("results.Store(0, a.x);", "uint4 a : register(c4096);"));
+  EXPECT_EQ(past.module, nullptr);
+  EXPECT_NE(past.messages().find("KA2545"), std::string::npos) << past.messages();
+}
+
 TEST(Bindings, GlobalsComeFirst) {
   const Compilation compilation(kernel("results.Store(0, a + b + c);",
                                        "cbuffer A { uint a; };\nuint b;\n"
