@@ -7,15 +7,17 @@
 #include <cstdint>
 #include <string>
 
+#include "runtime/errors/message_table.h"
+
 namespace kaamos::d3d12 {
 
 enum class ErrorId : uint16_t {
-#define KAAMOS_D3D12_ERROR(number, name, code, title, rule, cure) name = number,
-#define KAAMOS_D3D12_WARNING(number, name, title, rule, cure) name = number,
+#define KAAMOS_MESSAGE(number, name, ...) name = number,
 #include "d3d12/com/errors.inc"
-#undef KAAMOS_D3D12_WARNING
-#undef KAAMOS_D3D12_ERROR
+#undef KAAMOS_MESSAGE
 };
+
+using errors::public_id;
 
 /// "KA4011 title: detail". `detail` says what, where, actual and allowed, and what to do.
 rtapi::Error make_error(ErrorId id, const std::string& detail);

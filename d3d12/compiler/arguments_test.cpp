@@ -5,6 +5,8 @@
 
 #include <string_view>
 
+#include "d3d12/com/errors.h"
+
 namespace kaamos::d3d12 {
 namespace {
 
@@ -20,7 +22,7 @@ DxcArguments parse(const std::vector<std::string>& words) {
 std::string error_of(const std::vector<std::string>& words) {
   const auto parsed = parse_dxc_arguments(words);
   if (parsed) return "";
-  EXPECT_EQ(parsed.error().id.number, 4024);
+  EXPECT_EQ(parsed.error().id, public_id(ErrorId::kCompiler));
   return parsed.error().message;
 }
 

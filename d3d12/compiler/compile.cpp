@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <rtapi/error_ids.h>
+
 #include "d3d12/container/checksum.h"
 #include "d3d12/container/root_signature_blob.h"
 #include "d3d12/container/shader_source.h"
@@ -18,20 +20,21 @@ using rtapi::ShaderDiagnosticSeverity;
 
 // Warnings that DXC does not have, so that -WX fails for no source that DXC takes: about functions
 // that nothing calls, and attributes of vk.
-constexpr uint16_t kUnreached = 2578;
-constexpr uint16_t kOwnWarnings[] = {kUnreached, 2340};
+constexpr rtapi::ErrorId kUnreached = rtapi::error_ids::compiler::kSkipped;
+constexpr rtapi::ErrorId kOwnWarnings[] = {kUnreached,
+                                           rtapi::error_ids::compiler::kVkAttributeIgnored};
 
 bool fails_by_warning(const rtapi::ShaderCompilation& compiled) {
   return std::any_of(compiled.Diagnostics.begin(), compiled.Diagnostics.end(), [](const auto& one) {
-    const bool is_own = std::find(std::begin(kOwnWarnings), std::end(kOwnWarnings),
-                                  one.Id.number) != std::end(kOwnWarnings);
+    const bool is_own = std::find(std::begin(kOwnWarnings), std::end(kOwnWarnings), one.Id) !=
+                        std::end(kOwnWarnings);
     return one.Severity == ShaderDiagnosticSeverity::kWarning && !is_own;
   });
 }
 
 // With an entry point of the file chosen, that others of it are not reached is no news.
 bool is_news(const rtapi::ShaderDiagnostic& one, const rtapi::ShaderCompileOptions& options) {
-  return one.Id.number != kUnreached || options.EntryPoint.empty();
+  return one.Id != kUnreached || options.EntryPoint.empty();
 }
 
 std::string absolute(const std::string& path) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "d3d12/com/errors.h"
 #include "d3d12/com/report.h"
 #include "d3d12/container/shader_bytecode.h"
 #include "d3d12/container/shader_source.h"
@@ -150,10 +151,11 @@ TEST(LoadShader, IsInterpretedWhereItCannotBeBuiltAndSaysSoOnce) {
                            "echo \"error: unrecognized option '-std=c++20'\" >&2\nexit 1\n";
   fs::permissions(broken, fs::perms::owner_all);
   int warnings = 0;
-  const uint64_t sink =
-      process_reporter().add_sink([&](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-        if (severity == D3D12_MESSAGE_SEVERITY_WARNING && error.id.number == 4025) ++warnings;
-      });
+  const uint64_t sink = process_reporter().add_sink([&](D3D12_MESSAGE_SEVERITY severity,
+                                                        const rtapi::Error& error) {
+    if (severity == D3D12_MESSAGE_SEVERITY_WARNING && error.id == public_id(ErrorId::kInterpreted))
+      ++warnings;
+  });
   const auto loaded = [&](const char* compiler, const std::string& colour) {
     setenv("KAAMOS_CXX", compiler, 1);
     const CompiledSource compiled = compile_source(

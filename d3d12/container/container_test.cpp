@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "d3d12/com/errors.h"
 #include "d3d12/container/checksum.h"
 
 namespace kaamos::d3d12 {
@@ -47,7 +48,7 @@ void unsign(std::vector<std::byte>& container) {
 std::string error_of(const std::vector<std::byte>& container) {
   const auto parts = read_container(container.data(), container.size());
   if (parts) return "";
-  EXPECT_EQ(parts.error().id.number, 4020);
+  EXPECT_EQ(parts.error().id, public_id(ErrorId::kBytecode));
   return parts.error().message;
 }
 
@@ -173,7 +174,7 @@ TEST(Container, ErrorsNameTheOffset) {
 TEST(Container, NullIsNone) {
   const auto parts = read_container(nullptr, 100);
   ASSERT_FALSE(parts);
-  EXPECT_EQ(parts.error().id.number, 4020);
+  EXPECT_EQ(parts.error().id, public_id(ErrorId::kBytecode));
 }
 
 TEST(Container, UnsignedOneIsRead) {

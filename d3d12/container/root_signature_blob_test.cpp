@@ -6,6 +6,7 @@
 
 #include <d3dcompiler.h>
 
+#include "d3d12/com/errors.h"
 #include "d3d12/container/container.h"
 #include "d3d12/objects/d3d12_fixture.h"
 
@@ -106,7 +107,7 @@ TEST(RootSignatureBlob, DamagedBytesAreRefusedWithoutACrash) {
     std::memcpy(damaged.data() + i, &large, 4);
     const auto read = read_root_signature(damaged);
     if (!read.ok()) {
-      EXPECT_EQ(read.error().id.number, 4021) << i;
+      EXPECT_EQ(read.error().id, public_id(ErrorId::kRootSignatureBlob)) << i;
     }
   }
 }

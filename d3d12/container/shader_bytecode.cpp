@@ -6,6 +6,8 @@
 #include <memory>
 #include <mutex>
 
+#include <rtapi/error_ids.h>
+
 #include "d3d12/container/checksum.h"
 #include "d3d12/container/shader_source.h"
 
@@ -13,13 +15,10 @@ namespace kaamos::d3d12 {
 
 namespace {
 
-// rtapi's errors of a source that compiles and cannot be built on this machine.
-constexpr uint16_t kNoCompiler = 2750;
-constexpr uint16_t kCompilerFailed = 2751;
-
+// Of a source that compiles and cannot be built on this machine.
 bool cannot_be_built(const rtapi::Status& status) {
-  return !status.ok() &&
-         (status.error().id.number == kNoCompiler || status.error().id.number == kCompilerFailed);
+  return !status.ok() && (status.error().id == rtapi::error_ids::compiler::kNoCompiler ||
+                          status.error().id == rtapi::error_ids::compiler::kCompilerFailed);
 }
 
 rtapi::Result<rtapi::ShaderLibrary> compile(const void* bytes, size_t size, Reporter& reporter) {

@@ -3,6 +3,8 @@
 #include <cstdlib>
 
 #include <kaamos_adapter.h>
+#include <rtapi/error_ids.h>
+
 #include "d3d12/objects/debug.h"
 #include "d3d12/objects/device.h"
 
@@ -44,8 +46,10 @@ D3D12_MESSAGE_SEVERITY severity_of(rtapi::MessageSeverity severity) {
 }
 
 // rtapi's warnings that checked shaders and linked ones are interpreted.
-constexpr uint16_t kCodeInterpreted = 424;
-constexpr uint16_t kFunctionInterpreted = 565;
+bool is_interpreted(rtapi::ErrorId id) {
+  return id == rtapi::error_ids::checked::kCodeInterpreted ||
+         id == rtapi::error_ids::api::kFunctionInterpreted;
+}
 
 HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, void** device) {
   if (device != nullptr) *device = nullptr;
@@ -71,7 +75,7 @@ HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, v
   const auto reporter = std::make_shared<Reporter>();
   desc.OnMessage = [reporter](const rtapi::Message& message) {
     const rtapi::Error error{message.Id, rtapi::ErrorCode::kFailed, message.Text};
-    if (message.Id.number == kCodeInterpreted || message.Id.number == kFunctionInterpreted) {
+    if (is_interpreted(message.Id)) {
       reporter->report_interpreted(error);
     } else {
       reporter->report(severity_of(message.Severity), error);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "d3d12/objects/device.h"
 
+#include <rtapi/error_ids.h>
+
 namespace kaamos::d3d12 {
 
 Device::Device(rtapi::Device device, std::shared_ptr<Reporter> reporter, bool debug, LUID luid)
@@ -16,14 +18,10 @@ HRESULT Device::GetDeviceRemovedReason() {
   if (removed_) return DXGI_ERROR_DEVICE_REMOVED;
   const rtapi::Status status = device_.GetDeviceRemovedReason();
   if (status.ok()) return S_OK;
-  switch (status.error().id.number) {
-    case 990:  // memory ran out
-      return E_OUTOFMEMORY;
-    case 955:  // the Vulkan device was lost
-      return DXGI_ERROR_DEVICE_REMOVED;
-    default:  // an endless loop or too deep a recursion is what D3D12 calls a hung device
-      return DXGI_ERROR_DEVICE_HUNG;
-  }
+  const rtapi::ErrorId id = status.error().id;
+  if (id == rtapi::error_ids::backend::kOutOfMemory) return E_OUTOFMEMORY;
+  if (id == rtapi::error_ids::backend::kVulkanDeviceLost) return DXGI_ERROR_DEVICE_REMOVED;
+  return DXGI_ERROR_DEVICE_HUNG;  // what D3D12 calls an endless loop or too deep a recursion
 }
 
 // Objects go on working; the reason is what programs look at.

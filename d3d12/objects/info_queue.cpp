@@ -73,7 +73,7 @@ HRESULT FilterStack::write(D3D12_INFO_QUEUE_FILTER* filter, SIZE_T* size) const 
 void InfoQueue::listen_to(std::shared_ptr<Reporter> reporter) {
   reporter_ = std::move(reporter);
   sink_ = reporter_->add_sink([this](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
-    const MessageKind kind = message_kind(error.id.number);
+    const MessageKind kind = message_kind(error.id);
     store({kind.category, severity, kind.id, error.message});
   });
 }

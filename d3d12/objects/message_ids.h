@@ -4,7 +4,7 @@
 
 #include <directx/d3d12sdklayers.h>
 
-#include <cstdint>
+#include <rtapi/result.h>
 
 namespace kaamos::d3d12 {
 
@@ -13,8 +13,8 @@ struct MessageKind {
   D3D12_MESSAGE_ID id;
 };
 
-/// Finds the category and id of an error by its number, 712 for KA0712. An error for which D3D12
-/// has no id gets D3D12_MESSAGE_ID_UNKNOWN and the category of its range.
-MessageKind message_kind(uint16_t number);
+/// Finds the category and id of an error by its own id. An error for which D3D12 has no id gets
+/// D3D12_MESSAGE_ID_UNKNOWN and the category of its range.
+MessageKind message_kind(rtapi::ErrorId error);
 
 }  // namespace kaamos::d3d12

@@ -19,22 +19,22 @@ std::atomic<uint32_t> g_device_count{0};
 Status check_desc(const DeviceDesc& desc) {
   using detail::Id;
   if (desc.Precision > TraversalPrecision::kExact) {
-    return detail::MakeError(Id::kDeviceDesc, "Precision is ",
-                             static_cast<uint32_t>(desc.Precision),
-                             "; it must be kFast, kRobust or kExact");
+    return detail::make_error(Id::kDeviceDesc, "Precision is ",
+                              static_cast<uint32_t>(desc.Precision),
+                              "; it must be kFast, kRobust or kExact");
   }
   if (desc.Tier != RaytracingTier::kTier1_0 && desc.Tier != RaytracingTier::kTier1_1) {
-    return detail::MakeError(Id::kDeviceDesc, "Tier is ", static_cast<uint32_t>(desc.Tier),
-                             "; it must be kTier1_0 or kTier1_1");
+    return detail::make_error(Id::kDeviceDesc, "Tier is ", static_cast<uint32_t>(desc.Tier),
+                              "; it must be kTier1_0 or kTier1_1");
   }
   if (desc.Threads > 4096) {
-    return detail::MakeError(Id::kDeviceDesc, "Threads is ", desc.Threads,
-                             "; it must be 0 (all threads of the machine) to 4096");
+    return detail::make_error(Id::kDeviceDesc, "Threads is ", desc.Threads,
+                              "; it must be 0 (all threads of the machine) to 4096");
   }
   const uint32_t lanes = desc.WaveLanes;
   if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16 && lanes != 32) {
-    return detail::MakeError(Id::kDeviceDesc, "WaveLanes is ", lanes,
-                             "; it must be 4, 8, 16, 32, or 0 (8 lanes)");
+    return detail::make_error(Id::kDeviceDesc, "WaveLanes is ", lanes,
+                              "; it must be 4, 8, 16, 32, or 0 (8 lanes)");
   }
   return {};
 }
@@ -54,15 +54,15 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   if (Status s = check_desc(desc); !s.ok()) return s.error();
   const auto known = detail::backends();
   if (known.empty()) {
-    return MakeError(Id::kNoBackend,
-                     "this build has no backend; install libembree-dev and run CMake again");
+    return make_error(Id::kNoBackend,
+                      "this build has no backend; install libembree-dev and run CMake again");
   }
   auto it = std::find_if(known.begin(), known.end(),
                          [&](const runtime::BackendFactory* f) { return desc.Backend == f->name; });
   if (it == known.end()) {
     std::string names;
-    for (const auto* f : known) names += Text(names.empty() ? "" : ", ", Quoted(f->name));
-    return MakeError(Id::kUnknownBackend, Quoted(desc.Backend), "; this build has ", names);
+    for (const auto* f : known) names += concat(names.empty() ? "" : ", ", in_quotes(f->name));
+    return make_error(Id::kUnknownBackend, in_quotes(desc.Backend), "; this build has ", names);
   }
   auto impl = std::make_shared<DeviceImpl>();
   impl->desc = desc;

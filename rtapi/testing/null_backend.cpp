@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include <rtapi/error_ids.h>
+
 #include "rtapi/src/backends.h"
 
 namespace rtapi::testing {
@@ -38,7 +40,8 @@ class NullBackend : public runtime::BackendDevice {
 
   Result<std::shared_ptr<runtime::BackendBuffer>> create_buffer(const BufferDesc& desc) override {
     if (desc.SizeInBytes > (uint64_t{1} << 30)) {
-      return Error{{990}, ErrorCode::kOutOfMemory, "KA0990 out of memory"};
+      return Error{error_ids::backend::kOutOfMemory, ErrorCode::kOutOfMemory,
+                   "KA0990 out of memory"};
     }
     return std::shared_ptr<runtime::BackendBuffer>(std::make_shared<NullBuffer>(desc.SizeInBytes));
   }

@@ -1,47 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/backend/errors.h"
 
-#include <algorithm>
-#include <cassert>
-#include <cstdio>
-#include <iterator>
-
 namespace kaamos::runtime {
 namespace {
 
-using rtapi::ErrorCode;
-using rtapi::MessageSeverity;
-
-constexpr MessageEntry kTable[] = {
-#define KAAMOS_RUNTIME_MESSAGE(number, name, severity, code, title, rule, cure) \
-  {Id::name, MessageSeverity::severity, ErrorCode::code, title, rule, cure},
+constexpr errors::MessageRow kTable[] = {
+#define KAAMOS_MESSAGE KAAMOS_MESSAGE_ROW
 #include "runtime/backend/errors.inc"
-#undef KAAMOS_RUNTIME_MESSAGE
+#undef KAAMOS_MESSAGE
 };
-
-const MessageEntry& entry_of(Id id) {
-  const auto* found = std::lower_bound(std::begin(kTable), std::end(kTable), id,
-                                       [](const MessageEntry& e, Id i) { return e.id < i; });
-  assert(found != std::end(kTable) && found->id == id);
-  return *found;
-}
-
-std::string text_of(const MessageEntry& entry, const std::string& detail) {
-  return public_id(entry.id).text() + " " + entry.title + ": " + detail;
-}
 
 }  // namespace
 
-std::span<const MessageEntry> message_table() {
-  return kTable;
-}
-
-rtapi::Error make_error(Id id, ErrorCode code, const std::string& detail) {
-  return {public_id(id), code, text_of(entry_of(id), detail)};
+rtapi::Error make_error(Id id, rtapi::ErrorCode code, const std::string& detail) {
+  rtapi::Error error = make_error(id, detail);
+  error.code = code;
+  return error;
 }
 
 rtapi::Error make_error(Id id, const std::string& detail) {
-  return make_error(id, entry_of(id).code, detail);
+  return errors::make_error(kTable, public_id(id), detail);
 }
 
 Id removal_id(shader::RemovalReason reason) {
@@ -62,15 +40,8 @@ Id removal_id(shader::RemovalReason reason) {
   return Id::kShaderRemoval;
 }
 
-std::string hexadecimal(uint64_t address) {
-  char text[2 + 16 + 1];
-  std::snprintf(text, sizeof(text), "0x%llx", static_cast<unsigned long long>(address));
-  return text;
-}
-
 rtapi::Message make_message(Id id, const std::string& detail) {
-  const MessageEntry& entry = entry_of(id);
-  return {entry.severity, public_id(id), text_of(entry, detail)};
+  return errors::make_message(kTable, public_id(id), detail);
 }
 
 }  // namespace kaamos::runtime

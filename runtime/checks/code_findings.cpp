@@ -251,7 +251,7 @@ std::string where(const CodePlace& place, const CheckReport& r) {
   std::string out;
   const runtime::LinkedShader* shader = place.shader;
   if (shader != nullptr) {
-    out = std::string(stage_name(shader->stage)) + " " + quoted(shader->name);
+    out = std::string(stage_name(shader->stage)) + " " + in_quotes(shader->name);
   } else {
     out = "a shader";
   }

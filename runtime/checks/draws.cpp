@@ -59,8 +59,8 @@ void Draws::created(const runtime::LinkedGraphics& pipeline) {
   if (!pipeline.has_pixel()) return;
   const uint32_t flags = pipeline.pixel_desc().flags;
   if ((flags & shader::kGraphicsEarlyDepthStencil) == 0) return;
-  const std::string who = "pipeline " + quoted(pipeline.name) + ": pixel shader " +
-                          quoted(pipeline.pixel.name) + " has [earlydepthstencil] and ";
+  const std::string who = "pipeline " + in_quotes(pipeline.name) + ": pixel shader " +
+                          in_quotes(pipeline.pixel.name) + " has [earlydepthstencil] and ";
   if (pipeline.pixel_columns.depth != runtime::kNoColumn) {
     reporter_.report(Id::kEarlyDepth,
                      who +
@@ -78,7 +78,7 @@ void Draws::created(const runtime::LinkedGraphics& pipeline) {
 }
 
 void Draws::check(const runtime::DrawCommand& command, const std::string& label) {
-  who_ = "draw " + number(number_++) + ", pipeline " + quoted(command.linked->name);
+  who_ = "draw " + number(number_++) + ", pipeline " + in_quotes(command.linked->name);
   draws_nothing_ = false;
   label_ = label;
   targets_.check(command, who_, label);
@@ -160,7 +160,7 @@ void Draws::check_root_arguments(const runtime::DrawCommand& command,
       reporter_.report(
           Id::kRootArgumentUnset,
           who_ + ": root parameter " + number(p) + ", from which " + stage_name(shader.stage) +
-              " shader " + quoted(shader.name) + " reads " +
+              " shader " + in_quotes(shader.name) + " reads " +
               binding_name(shader.library->bindings[i]) + ", is not set" +
               (changed ? "; it was set before SetGraphicsRootSignature set another signature, "
                          "which forgets all arguments. Set it again."
@@ -241,7 +241,7 @@ void Draws::report_outputs(const runtime::DrawCommand& command, const DrawCounts
           (kinds.empty() ? "" : " and ") + std::string("Inf at ") + counted(odd.infinite, "pixel");
     }
     reporter_.report(Id::kOutputNotANumber,
-                     who_ + ": pixel shader " + quoted(command.linked->pixel.name) + " gave " +
+                     who_ + ": pixel shader " + in_quotes(command.linked->pixel.name) + " gave " +
                          what + " " + kinds + " (one of them: (" + number(odd.first.x) + ", " +
                          number(odd.first.y) + "), triangle " + number(odd.first.primitive_id) +
                          ")" + effect +
@@ -319,7 +319,7 @@ void Draws::report_nothing_drawn(const runtime::DrawCommand& command, const Draw
   }
   if (counts.shaded != 0 && counts.discarded == counts.shaded) {
     return tell(Id::kNothingVisible, "discard",
-                "pixel shader " + quoted(linked.pixel.name) + " discards all " +
+                "pixel shader " + in_quotes(linked.pixel.name) + " discards all " +
                     counted(counts.shaded, "pixel") + ".");
   }
 }

@@ -70,7 +70,7 @@ void Hazards::hold_against(Ranges& ranges, uint64_t begin, uint64_t end, const s
         Id::kUavBarrierMissing,
         what + " at " + address_name(addresses_, begin) + " is " + it->second.what +
             ", but there is no UAV barrier between the two. Record ResourceBarrier::Uav for " +
-            (allocation && !allocation->name.empty() ? quoted(allocation->name)
+            (allocation && !allocation->name.empty() ? in_quotes(allocation->name)
                                                      : std::string("the buffer")) +
             ", or without a resource for all, after the first.");
     it = ranges.erase(it);

@@ -82,15 +82,15 @@ void Layer::created(const runtime::LinkedPipeline& pipeline) {
       if (first->code->attribute_bytes != shader->code->attribute_bytes) continue;
       const auto with = [](const runtime::LinkedShader& s) {
         const std::string layout = layout_of(s);
-        return std::string(stage_name(s.stage)) + " shader " + quoted(s.name) +
+        return std::string(stage_name(s.stage)) + " shader " + in_quotes(s.name) +
                (s.code->attribute_type == 1 ? " (reports hits with several types)"
                 : layout.empty()            ? ""
                                             : " (" + layout + ")");
       };
       reporter_.report(
           Id::kAttributeMismatch,
-          "hit group " + quoted(record->name) + ": the attributes of " + with(*first) + " and of " +
-              with(*shader) +
+          "hit group " + in_quotes(record->name) + ": the attributes of " + with(*first) +
+              " and of " + with(*shader) +
               " have different scalars. All shaders of a hit group must use one type.");
       break;
     }
@@ -183,7 +183,7 @@ void Layer::reached(const runtime::Command& command, std::span<const runtime::Re
     for (const auto& [shader, call] : calls) {
       if (call.acceleration_structure == 0) continue;
       check_top_level(inputs(), call.acceleration_structure,
-                      "compute shader " + quoted(shader->name));
+                      "compute shader " + in_quotes(shader->name));
     }
     return;
   }
@@ -313,7 +313,7 @@ void Layer::check(const runtime::DispatchCommand& command) {
   Arguments arguments;
   arguments.global = command.state.root_arguments->bytes.data();
   arguments.state = &command.state;
-  const std::string where = "compute shader " + quoted(shader.name);
+  const std::string where = "compute shader " + in_quotes(shader.name);
   check_arguments(inputs(), shader, arguments, where);
   for (uint32_t i = 0; i < shader.slots.size(); ++i) {
     const auto& binding = shader.library->bindings[i];

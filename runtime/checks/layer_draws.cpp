@@ -34,7 +34,7 @@ void Layer::check(const runtime::DrawCommand& command) {
   for (const runtime::LinkedShader* shader : {&command.linked->vertex, &command.linked->pixel}) {
     if (shader->code == nullptr) continue;
     const std::string where =
-        draws_.who() + ": " + stage_name(shader->stage) + " shader " + quoted(shader->name);
+        draws_.who() + ": " + stage_name(shader->stage) + " shader " + in_quotes(shader->name);
     check_arguments(inputs(), *shader, arguments, where);
     for (uint32_t i = 0; i < shader->slots.size(); ++i) {
       const auto& binding = shader->library->bindings[i];

@@ -33,19 +33,9 @@ bool find_record(const rtapi::GpuVirtualAddressRangeAndStride& table, uint64_t a
 
 }  // namespace
 
-std::string quoted(const std::string& name) {
-  return "\"" + name + "\"";
-}
-
-std::string hex(uint64_t value) {
-  char text[24];
-  std::snprintf(text, sizeof text, "0x%llx", static_cast<unsigned long long>(value));
-  return text;
-}
-
 std::string buffer_name(const runtime::Allocation& allocation) {
   return (allocation.name.empty() ? std::string("an unnamed buffer")
-                                  : "buffer " + quoted(allocation.name)) +
+                                  : "buffer " + in_quotes(allocation.name)) +
          " (" + std::to_string(allocation.size_bytes) + " bytes)";
 }
 
@@ -133,7 +123,7 @@ std::string binding_name(const shader::BindingDesc& binding) {
   std::string text =
       register_letter(binding.register_class) + std::to_string(binding.register_index);
   if (binding.space != 0) text += ", space " + std::to_string(binding.space);
-  return text + " " + quoted(binding.name);
+  return text + " " + in_quotes(binding.name);
 }
 
 std::string texture_name(uint32_t shape) {

@@ -11,11 +11,13 @@
 
 #include "runtime/backend/address_map.h"
 #include "runtime/backend/linked_pipeline.h"
+#include "runtime/errors/text.h"
 
 namespace kaamos::checks {
 
-std::string quoted(const std::string& name);
-std::string hex(uint64_t value);
+using errors::hex;
+using errors::in_quotes;
+
 // "buffer \"sofa.vb\" (416 bytes)", "an unnamed buffer (416 bytes)".
 std::string buffer_name(const runtime::Allocation& allocation);
 // "byte 416 of buffer \"sofa.vb\" (416 bytes)"; "address 0x1f, which is in no live buffer".

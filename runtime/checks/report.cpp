@@ -2,24 +2,19 @@
 #include "runtime/checks/report.h"
 
 #include <algorithm>
-#include <iterator>
 #include <vector>
 
 namespace kaamos::checks {
 namespace {
 
-using rtapi::MessageSeverity;
-
-constexpr MessageEntry kTable[] = {
-#define KAAMOS_CHECK(number, name, severity, title, rule, cure) \
-  {Id::name, MessageSeverity::severity, title, rule, cure},
+constexpr errors::MessageRow kTable[] = {
+#define KAAMOS_MESSAGE KAAMOS_MESSAGE_ROW
 #include "runtime/checks/messages.inc"
-#undef KAAMOS_CHECK
+#undef KAAMOS_MESSAGE
 };
 
-const MessageEntry& entry_of(Id id) {
-  return *std::lower_bound(std::begin(kTable), std::end(kTable), id,
-                           [](const MessageEntry& e, Id wanted) { return e.id < wanted; });
+rtapi::Message make_message(Id id, const std::string& detail) {
+  return errors::make_message(kTable, errors::public_id(id), detail);
 }
 
 // How many different findings of one command are kept apart; the rest are only counted.
@@ -27,12 +22,8 @@ constexpr size_t kMostKept = 256;
 
 }  // namespace
 
-std::span<const MessageEntry> message_table() {
+errors::MessageTable message_table() {
   return kTable;
-}
-
-rtapi::ErrorId public_id(Id id) {
-  return {static_cast<uint16_t>(id)};
 }
 
 uint64_t Reporter::key_of(std::string_view text) {
@@ -93,18 +84,15 @@ void Reporter::flush() {
   const std::string place = where_.empty() ? "" : " (" + where_ + ")";
   const size_t told = std::min<size_t>(shown.size(), limit_);
   for (size_t i = 0; i < told; ++i) {
-    const MessageEntry& entry = entry_of(shown[i].id);
     const uint64_t again = shown[i].finding->count - 1;
-    std::string text =
-        public_id(entry.id).text() + " " + entry.title + ": " + shown[i].finding->text;
+    std::string text = shown[i].finding->text;
     if (again > 0) text += " [and " + std::to_string(again) + " more times]";
-    sink_({entry.severity, public_id(entry.id), text + place});
+    sink_(make_message(shown[i].id, text + place));
   }
   if (const uint64_t rest = shown.size() - told + left_out_; rest > 0) {
-    const MessageEntry& entry = entry_of(Id::kMoreFindings);
-    sink_({entry.severity, public_id(entry.id),
-           public_id(entry.id).text() + " " + entry.title + ": " + std::to_string(rest) +
-               " more are not shown. Correct the first ones and run again." + place});
+    sink_(make_message(Id::kMoreFindings,
+                       std::to_string(rest) +
+                           " more are not shown. Correct the first ones and run again." + place));
   }
   findings_.clear();
   left_out_ = 0;

@@ -10,32 +10,24 @@
 #include <functional>
 #include <map>
 #include <mutex>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include <rtapi/device.h>
+#include <rtapi/message.h>
+
+#include "runtime/errors/message_table.h"
 
 namespace kaamos::checks {
 
 // The number in KA04nn.
 enum class Id : uint16_t {
-#define KAAMOS_CHECK(number, name, severity, title, rule, cure) name = number,
+#define KAAMOS_MESSAGE(number, name, ...) name = number,
 #include "runtime/checks/messages.inc"
-#undef KAAMOS_CHECK
+#undef KAAMOS_MESSAGE
 };
 
-struct MessageEntry {
-  Id id;
-  rtapi::MessageSeverity severity;
-  const char* title;  // the message's text right after the id
-  const char* rule;   // items of the conformance list
-  const char* cure;
-};
-// Sorted by id.
-std::span<const MessageEntry> message_table();
-rtapi::ErrorId public_id(Id id);
+errors::MessageTable message_table();
 
 // Thread-safe.
 class Reporter {

@@ -16,9 +16,9 @@ class ReporterTest : public ::testing::Test {
 
 TEST(MessageTableTest, IdsAreSortedAndDescribed) {
   int last = 399;
-  for (const MessageEntry& entry : message_table()) {
-    EXPECT_GT(static_cast<int>(entry.id), last);
-    last = static_cast<int>(entry.id);
+  for (const errors::MessageRow& entry : message_table()) {
+    EXPECT_GT(static_cast<int>(entry.number), last);
+    last = static_cast<int>(entry.number);
     EXPECT_NE(std::string(entry.title), "") << last;
     EXPECT_NE(std::string(entry.rule), "") << last;
     EXPECT_NE(std::string(entry.cure), "") << last;

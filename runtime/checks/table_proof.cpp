@@ -31,7 +31,7 @@ struct Reason {
 };
 
 std::string shader_name(const LinkedShader& shader) {
-  return std::string(stage_name(shader.stage)) + " shader " + quoted(shader.name);
+  return std::string(stage_name(shader.stage)) + " shader " + in_quotes(shader.name);
 }
 
 std::string call_place(const TraceCall& call) {
@@ -220,7 +220,7 @@ const LinkedRecord* Proof::identify(RecordKind kind, Table& table, uint64_t inde
     if (const std::string name = inputs_.identifiers.find(bytes); !name.empty()) {
       report_missing(
           kind, Id::kRecordForeignIdentifier,
-          where + " holds the identifier of " + quoted(name) +
+          where + " holds the identifier of " + in_quotes(name) +
               " from a state object other than the one that SetPipelineState1 set" + reason +
               ". Write the identifier that GetShaderIdentifier of this state object returns.");
       return nullptr;
@@ -239,7 +239,7 @@ const LinkedRecord* Proof::identify(RecordKind kind, Table& table, uint64_t inde
   }
   if (record->kind != kind) {
     report_missing(kind, Id::kRecordWrongKind,
-                   where + " holds " + quoted(record->name) + ", which is a " +
+                   where + " holds " + in_quotes(record->name) + ", which is a " +
                        record_kind_name(record->kind) + " export" + reason +
                        ". Put it into the table of its kind.");
     return nullptr;
@@ -261,7 +261,7 @@ void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
         record->hit_group_type == rtapi::HitGroupType::kProceduralPrimitive;
     if (group_procedural != reason.procedural) {
       report(Id::kRecordWrongGroupType,
-             where + " holds hit group " + quoted(record->name) + ", which is for " +
+             where + " holds hit group " + in_quotes(record->name) + ", which is for " +
                  (group_procedural ? "procedural primitives" : "triangles") +
                  ", but is reached by " + (reason.procedural ? "boxes" : "triangles") + how +
                  ". AABBs need a hit group with an intersection shader, triangles one without.");
@@ -274,7 +274,8 @@ void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
     if (!table.layout_told) {
       table.layout_told = true;
       report(Id::kRecordStride,
-             where + " holds " + quoted(record->name) + how + ": its local root signature takes " +
+             where + " holds " + in_quotes(record->name) + how +
+                 ": its local root signature takes " +
                  std::to_string(record->local_argument_bytes) +
                  " bytes after the 32 of the "
                  "identifier, " +
@@ -287,10 +288,10 @@ void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
   const uint64_t offset = index * stride;
   const uint64_t available = table.range.SizeInBytes - std::min(offset, table.range.SizeInBytes);
   if (available < needed) {
-    report(Id::kRecordTooShort, where + " holds " + quoted(record->name) + how + ", which needs " +
-                                    std::to_string(needed) + " bytes, but the table ends after " +
-                                    std::to_string(available) +
-                                    ". Is SizeInBytes the size of all records?");
+    report(Id::kRecordTooShort,
+           where + " holds " + in_quotes(record->name) + how + ", which needs " +
+               std::to_string(needed) + " bytes, but the table ends after " +
+               std::to_string(available) + ". Is SizeInBytes the size of all records?");
     return;
   }
   const uint8_t* bytes = table.host + offset;

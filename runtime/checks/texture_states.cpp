@@ -85,7 +85,7 @@ std::vector<uint32_t> TextureStates::split(Tracked& texture, const Subresources&
 }
 
 std::string TextureStates::name(const Tracked& texture) {
-  return texture.name.empty() ? "an unnamed texture" : "texture " + quoted(texture.name);
+  return texture.name.empty() ? "an unnamed texture" : "texture " + in_quotes(texture.name);
 }
 
 std::string TextureStates::in_state(const Tracked& texture, uint32_t subresource) {

@@ -70,7 +70,7 @@ class Reader {
       const bool constants = binding.type == shader::BindingType::kConstantBuffer;
       add(address, constants ? binding.size_bytes : UINT64_MAX,
           who + ": " + binding_name(binding) + " of " + stage_name(shader.stage) + " shader " +
-              quoted(shader.name));
+              in_quotes(shader.name));
     }
   }
 
@@ -88,7 +88,7 @@ std::vector<UploadRange> read_uploads(const runtime::AddressMap& addresses,
     const auto* draw = std::get_if<runtime::DrawCommand>(&command);
     if (draw == nullptr) continue;
     reader.add(*draw,
-               "draw " + std::to_string(number++) + ", pipeline " + quoted(draw->linked->name));
+               "draw " + std::to_string(number++) + ", pipeline " + in_quotes(draw->linked->name));
   }
   return std::move(reader.out);
 }

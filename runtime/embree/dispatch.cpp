@@ -11,6 +11,7 @@
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/services.h"
+#include "runtime/errors/text.h"
 #include "runtime/shader/float_mode.h"
 #include "runtime/shader/texture/format_codec.h"
 
@@ -221,10 +222,10 @@ CountedOutcome end_dispatch(RunningDispatch& dispatch) {
   result.counters = dispatch.counters;
   result.reached = std::move(dispatch.reached);
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
-    result.warnings.push_back({runtime::Id::kNoTopLevel,
-                               "there is no top level at address " + runtime::hexadecimal(address) +
-                                   "; the rays missed (" + dispatch.label +
-                                   "). Was one built, and not overwritten or freed?"});
+    result.warnings.push_back(
+        {runtime::Id::kNoTopLevel, "there is no top level at address " + errors::hex(address) +
+                                       "; the rays missed (" + dispatch.label +
+                                       "). Was one built, and not overwritten or freed?"});
   }
   const RecordTable one_record;
   const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,

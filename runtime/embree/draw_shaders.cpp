@@ -7,6 +7,7 @@
 #include "runtime/embree/fault.h"
 #include "runtime/embree/fiber_group.h"
 #include "runtime/embree/parallel.h"
+#include "runtime/errors/text.h"
 #include "runtime/shader/float_mode.h"
 
 namespace kaamos::embree {
@@ -79,7 +80,7 @@ class DrawThread final : public raster::ShaderThread {
     const std::string& name = current_->pipeline().linked().pixel.name;
     current_->dispatch.context->reporter->report(
         checks::Id::kDivergentDerivative,
-        "pixel shader " + checks::quoted(name) +
+        "pixel shader " + errors::in_quotes(name) +
             " takes a derivative, or samples with an implicit level, where not all pixels of a 2 "
             "x 2 quad take part; D3D12 leaves the result undefined, here missing pixels count as "
             "0. Do it before the branch or loop, or use SampleLevel or SampleGrad.");

@@ -14,6 +14,7 @@
 
 #include "runtime/backend/errors.h"
 #include "runtime/backend/fault_signals.h"
+#include "runtime/errors/text.h"
 
 namespace kaamos::embree {
 namespace {
@@ -135,7 +136,7 @@ std::string detail_of(const Worker& worker) {
       return "calls are nested too deep";
     case shader::RemovalReason::kFault:
       return std::string(name_of(worker.fault_signal)) + " at address " +
-             runtime::hexadecimal(worker.fault_address) +
+             errors::hex(worker.fault_address) +
              ". A root descriptor, a table handle or a record argument may name memory that is "
              "not "
              "there";

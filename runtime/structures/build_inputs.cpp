@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "runtime/backend/errors.h"
+#include "runtime/errors/text.h"
 
 namespace kaamos::runtime {
 namespace {
@@ -114,7 +115,7 @@ rtapi::Status outside(uint32_t geometry, const char* what, uint64_t address, uin
                       uint64_t available) {
   return make_error(
       Id::kInputOutOfBounds,
-      "geometry " + std::to_string(geometry) + ", " + what + " at address " + hexadecimal(address) +
+      "geometry " + std::to_string(geometry) + ", " + what + " at address " + errors::hex(address) +
           " needs " + std::to_string(bytes) + " bytes, but its buffer has " +
           std::to_string(available) +
           " from there on. Check address, count and stride, and that the buffer is alive.");

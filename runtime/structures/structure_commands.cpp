@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/backend/dispatch_checks.h"
+#include "runtime/errors/text.h"
 #include "runtime/structures/build_inputs.h"
 #include "runtime/structures/serialized_structure.h"
 
@@ -107,7 +108,7 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
   } catch (const std::bad_alloc&) {
     return make_error(Id::kOutOfMemory,
                       "copies of the inputs of the acceleration structure at address " +
-                          hexadecimal(structure.address) + " could not be allocated.");
+                          errors::hex(structure.address) + " could not be allocated.");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // State objects: identifiers, stack and recursion, additions.
+#include <rtapi/error_ids.h>
 #include <shaders/stack.h>
 
 #include <algorithm>
@@ -339,14 +340,14 @@ void stack_size_of_additions(Context& t) {
 // Our policy for identifiers that a pipeline does not know: nothing runs, and a message says so.
 void new_identifiers_through_older_objects(Context& t) {
   DeviceDesc desc = t.target().device_desc();
-  std::vector<uint16_t> ids;
-  desc.OnMessage = [&](const Message& message) { ids.push_back(message.Id.number); };
+  std::vector<ErrorId> ids;
+  desc.OnMessage = [&](const Message& message) { ids.push_back(message.Id); };
   Context own(desc, t.target());
   const auto parent = make(own, parent_of(own)).value();
   const auto child = own.device().AddToStateObject(addition_of(named({"CallB"})), parent).value();
   const auto answers = call(own, parent, {"CallA", "CallB"}, &child);
   t.equal("answers through the parent", answers, Bytes{1, 77});
-  t.holds("the message KA0896", std::count(ids.begin(), ids.end(), 896) > 0);
+  t.holds("the message KA0896", std::ranges::count(ids, error_ids::backend::kRecordUnknown) > 0);
   t.equal("answers through the child", call(own, child, {"CallA", "CallB"}), Bytes{1, 2});
 }
 

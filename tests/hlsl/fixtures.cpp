@@ -2,6 +2,7 @@
 #include "fixtures.h"
 
 #include <kaamos/shader/abi.h>
+#include <rtapi/error_ids.h>
 #include <rtapi/rtapi.h>
 
 #include <algorithm>
@@ -45,7 +46,8 @@ Device single_threaded_device(const std::string& backend, std::vector<std::strin
   if (told != nullptr) {
     desc.Checked = true;
     desc.OnMessage = [told](const Message& message) {
-      const bool of_compiling = message.Id.number == 423 || message.Id.number == 424;
+      const bool of_compiling = message.Id == error_ids::checked::kCodeNotChecked ||
+                                message.Id == error_ids::checked::kCodeInterpreted;
       if (message.Severity != MessageSeverity::kInfo && !of_compiling) {
         told->push_back(message.Text);
       }

@@ -201,8 +201,8 @@ check_errors() {
 check_told() {
   check_errors
   local file=runtime/checks/messages.inc line text id
-  grep -nE '^KAAMOS_CHECK\(' "$file" | while IFS=: read -r line text; do
-    id=$(printf 'KA%04d' "$(sed 's/^KAAMOS_CHECK(\([0-9]*\),.*/\1/' <<<"$text")")
+  grep -nE '^KAAMOS_MESSAGE\(' "$file" | while IFS=: read -r line text; do
+    id=$(printf 'KA%04d' "$(sed 's/^KAAMOS_MESSAGE(\([0-9]*\),.*/\1/' <<<"$text")")
     if ! list_files -name '*_test.cpp' -o -path './tests/conformance/err*.cpp' |
       xargs -r -d '\n' grep -qF "\"$id"; then
       echo "$file:$line: no test holds $id"

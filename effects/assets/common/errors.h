@@ -7,7 +7,6 @@
 #include <rtapi/result.h>
 
 #include <cstdint>
-#include <span>
 #include <string>
 
 namespace kaamos::effects {
@@ -19,23 +18,11 @@ using rtapi::Status;
 /// The number in KA3nnn. effects/assets/common/errors.inc is the table, rtapi/ERRORS.md lists it.
 enum class ErrorId : std::uint16_t {
 /// @cond
-#define KAAMOS_EFFECTS_ERROR(number, name, code, title, source, cure) name = number,
+#define KAAMOS_MESSAGE(number, name, ...) name = number,
 #include "effects/assets/common/errors.inc"
-#undef KAAMOS_EFFECTS_ERROR
+#undef KAAMOS_MESSAGE
   /// @endcond
 };
-
-/// A row of the table.
-struct ErrorEntry {
-  ErrorId id;             ///< the number
-  rtapi::ErrorCode code;  ///< of errors with this id
-  const char* title;      ///< what a message says after the id
-  const char* source;     ///< the format or paper that sets the rule; "" where there is none
-  const char* cure;       ///< what to do about it
-};
-
-/// Every row, sorted by id.
-std::span<const ErrorEntry> error_table();
 
 /// "KA3020 title: detail". `detail` says what failed, where, the actual and the allowed value, and
 /// what to do.

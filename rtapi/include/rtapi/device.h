@@ -13,6 +13,7 @@
 #include <rtapi/command_queue.h>
 #include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
+#include <rtapi/message.h>
 #include <rtapi/pipeline_state.h>
 #include <rtapi/query.h>
 #include <rtapi/raytracing.h>
@@ -45,16 +46,6 @@ enum class TraversalPrecision : uint32_t {
   /// opaque, and in others where an instance or a ray has FORCE_NON_OPAQUE.
   kRobust,
   kExact  ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
-};
-
-/// The severity of a message.
-enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
-
-/// A message for DeviceDesc::OnMessage.
-struct Message {
-  MessageSeverity Severity = MessageSeverity::kError;  ///< how grave it is
-  ErrorId Id;                                          ///< KA0715 is number 715
-  std::string Text;                                    ///< begins with the id
 };
 
 /// Describes a device for CreateDevice.

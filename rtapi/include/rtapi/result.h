@@ -24,8 +24,8 @@ enum class ErrorCode : uint32_t {
 };
 
 /// The number of an error or a message, KA0712 for 712. Numbers are stable: one keeps its meaning
-/// in later versions. rtapi/ERRORS.md lists them with their meaning and their cure. Compare
-/// numbers, never texts.
+/// in later versions. rtapi/ERRORS.md lists them with their meaning and their cure, and
+/// <rtapi/error_ids.h> has names for them. Compare ids, never texts.
 struct ErrorId {
   uint16_t number = 0;  ///< 0 is no id
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// All of the API, but for what few programs need: runtime compilation of HLSL,
-/// `<rtapi/shader_compiler.h>`, and what shows tables and pixels to people,
+/// All of the API, but for what few programs need: names of errors, `<rtapi/error_ids.h>`, runtime
+/// compilation of HLSL, `<rtapi/shader_compiler.h>`, and what shows tables and pixels to people,
 /// `<rtapi/table_description.h>`, `<rtapi/explain.h>` and `<rtapi/explain_draw.h>`.
 #pragma once
 

@@ -15,7 +15,7 @@ Result<Buffer> BuildAccelerationStructure(const Device& device, const CommandQue
                                           std::string name, const Buffer& source) {
   using Flags = RaytracingAccelerationStructureBuildFlags;
   if (!queue)
-    return MakeError(Id::kNullHandle, "BuildAccelerationStructure: an empty queue handle");
+    return make_error(Id::kNullHandle, "BuildAccelerationStructure: an empty queue handle");
   const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs);
   if (!sizes.ok()) return sizes.error();
   // An update that the list will refuse needs none.

@@ -20,7 +20,7 @@ namespace detail {
 
 bool CommandListImpl::check_open(const char* call) {
   if (open) return true;
-  fail(MakeError(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
+  fail(make_error(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
   return false;
 }
 
@@ -53,8 +53,8 @@ runtime::RootBindings CommandListImpl::snapshot(const char* call, const RootStat
 
 const StateObjectImpl* CommandListImpl::rays_pipeline(const char* call) {
   if (!raytracing_pipeline) {
-    fail(MakeError(Id::kPipelineNotSet, call,
-                   " without a ray tracing pipeline; call SetPipelineState1 first"));
+    fail(make_error(Id::kPipelineNotSet, call,
+                    " without a ray tracing pipeline; call SetPipelineState1 first"));
     return nullptr;
   }
   const StateObjectImpl& pipeline = *raytracing_pipeline.impl();
@@ -66,7 +66,8 @@ const StateObjectImpl* CommandListImpl::rays_pipeline(const char* call) {
         return !g || same_definition(g, compute.signature);
       });
   if (fits) return &pipeline;
-  fail(MakeError(Id::kPipelineRootSignature, call, ": ",
+  fail(
+      make_error(Id::kPipelineRootSignature, call, ": ",
                  compute.signature
                      ? "the compute root signature does not match any ray generation shader of the "
                        "pipeline"
@@ -82,17 +83,17 @@ const PipelineStateImpl* fit_pipeline(CommandListImpl& list, const char* call, b
   const char* const kind = graphics ? "graphics" : "compute";
   const PipelineStateImpl* pipeline = list.pipeline_state.impl().get();
   if (!pipeline || (pipeline->graphics != nullptr) != graphics) {
-    list.fail(MakeError(Id::kPipelineNotSet, call, " without a ", kind,
-                        " pipeline; call SetPipelineState first"));
+    list.fail(make_error(Id::kPipelineNotSet, call, " without a ", kind,
+                         " pipeline; call SetPipelineState first"));
     return nullptr;
   }
   const RootSignature& set = graphics ? list.graphics.signature : list.compute.signature;
   if (same_definition(pipeline->root_signature, set)) return pipeline;
-  list.fail(
-      MakeError(Id::kPipelineRootSignature, call, ": ",
-                set ? Text("the ", kind, " root signature is not that of pipeline ")
-                    : Text("no ", kind, " root signature is set, but one is needed by pipeline "),
-                Quoted(pipeline->name)));
+  list.fail(make_error(
+      Id::kPipelineRootSignature, call, ": ",
+      set ? concat("the ", kind, " root signature is not that of pipeline ")
+          : concat("no ", kind, " root signature is set, but one is needed by pipeline "),
+      in_quotes(pipeline->name)));
   return nullptr;
 }
 
@@ -113,13 +114,13 @@ Status check_rules(const runtime::DispatchProblem& problem) {
     case runtime::DispatchFault::kNone:
       return {};
     case runtime::DispatchFault::kTableLayout:
-      return MakeError(Id::kShaderTableLayout, problem.text);
+      return make_error(Id::kShaderTableLayout, problem.text);
     case runtime::DispatchFault::kTableMemory:
-      return MakeError(Id::kShaderTableMemory, problem.text);
+      return make_error(Id::kShaderTableMemory, problem.text);
     case runtime::DispatchFault::kTooLarge:
       break;
   }
-  return MakeError(Id::kDispatchTooLarge, problem.text);
+  return make_error(Id::kDispatchTooLarge, problem.text);
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ const std::vector<Error> kNoErrors;
 }
 
 Status CommandList::Reset() {
-  if (!impl_) return MakeError(Id::kNullHandle, "Reset on an empty command list handle");
+  if (!impl_) return make_error(Id::kNullHandle, "Reset on an empty command list handle");
   if (Status s = impl_->device->removed(); !s.ok()) return s;
   CommandListImpl fresh;
   fresh.device = impl_->device;
@@ -142,11 +143,11 @@ Status CommandList::Reset() {
 }
 
 Status CommandList::Close() {
-  if (!impl_) return MakeError(Id::kNullHandle, "Close on an empty command list handle");
-  if (!impl_->open) return MakeError(Id::kListNotOpen, "Close on a closed command list");
+  if (!impl_) return make_error(Id::kNullHandle, "Close on an empty command list handle");
+  if (!impl_->open) return make_error(Id::kListNotOpen, "Close on a closed command list");
   if (impl_->open_events > 0) {
     impl_->fail(
-        MakeError(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
+        make_error(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
   }
   impl_->open = false;
   if (impl_->errors.empty()) return {};
@@ -169,14 +170,14 @@ void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
     }
     const DescriptorHeapDesc& desc = heap.GetDesc();
     if (!HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible)) {
-      return impl_->fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
-                                   " was created without kShaderVisible"));
+      return impl_->fail(make_error(Id::kSetHeaps, named("descriptor heap", desc.Name),
+                                    " was created without kShaderVisible"));
     }
     DescriptorHeap& slot = desc.Type == DescriptorHeapType::kSampler ? samplers : views;
     if (slot) {
       return impl_->fail(
-          MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
-                    " is the second heap of its type; only one of each type can be set"));
+          make_error(Id::kSetHeaps, named("descriptor heap", desc.Name),
+                     " is the second heap of its type; only one of each type can be set"));
     }
     slot = heap;
   }
@@ -200,9 +201,9 @@ void CommandList::SetPipelineState1(const StateObject& pipeline) {
     return impl_->fail(s.error());
   }
   if (pipeline.GetType() != StateObjectType::kRaytracingPipeline) {
-    return impl_->fail(MakeError(Id::kPipelineNotSet,
-                                 "SetPipelineState1 takes a ray tracing pipeline, but this is a "
-                                 "collection"));
+    return impl_->fail(make_error(Id::kPipelineNotSet,
+                                  "SetPipelineState1 takes a ray tracing pipeline, but this is a "
+                                  "collection"));
   }
   impl_->raytracing_pipeline = pipeline;
   impl_->pipeline_state = {};
@@ -257,14 +258,14 @@ void CommandList::BeginEvent(std::string name) {
 void CommandList::EndEvent() {
   if (!impl_ || !impl_->check_open("EndEvent")) return;
   if (impl_->open_events == 0) {
-    return impl_->fail(MakeError(Id::kEvents, "EndEvent without BeginEvent"));
+    return impl_->fail(make_error(Id::kEvents, "EndEvent without BeginEvent"));
   }
   --impl_->open_events;
   impl_->record(runtime::EventCommand{false, {}});
 }
 
 Result<CommandList> Device::CreateCommandList() const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateCommandList on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateCommandList on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   auto list = std::make_shared<CommandListImpl>();
   list->device = impl_;

@@ -21,37 +21,37 @@ Status check_resource(const std::shared_ptr<DeviceImpl>& device, const Resource&
                       std::string_view what) {
   if (const auto* b = std::get_if<Buffer>(&resource)) return CheckHandle(device, *b, what);
   if (const auto* t = std::get_if<Texture>(&resource)) return CheckHandle(device, *t, what);
-  return MakeError(Id::kNullHandle, what, " is empty");
+  return make_error(Id::kNullHandle, what, " is empty");
 }
 
 std::string name_of(const Resource& resource) {
-  if (const auto* b = std::get_if<Buffer>(&resource)) return Named("buffer", b->name());
-  if (const auto* t = std::get_if<Texture>(&resource)) return Named("texture", t->name());
+  if (const auto* b = std::get_if<Buffer>(&resource)) return named("buffer", b->name());
+  if (const auto* t = std::get_if<Texture>(&resource)) return named("texture", t->name());
   return "no resource";
 }
 
 Status check_transition(const ResourceBarrier& barrier) {
   const std::string name = name_of(barrier.Resource);
   if (barrier.StateBefore == barrier.StateAfter) {
-    return MakeError(Id::kBarrier, name, ": transition from state ",
-                     Hex(static_cast<uint32_t>(barrier.StateBefore)), " to itself");
+    return make_error(Id::kBarrier, name, ": transition from state ",
+                      hex(static_cast<uint32_t>(barrier.StateBefore)), " to itself");
   }
   const auto structure = ResourceStates::kRaytracingAccelerationStructure;
   const auto* buffer = std::get_if<Buffer>(&barrier.Resource);
   const bool holds_structures = buffer && buffer->GetDesc().InitialState == structure;
   if (holds_structures || HasAny(barrier.StateBefore | barrier.StateAfter, structure)) {
-    return MakeError(Id::kAccelerationStructureTransition, name,
-                     ": a buffer keeps the state kRaytracingAccelerationStructure for life; order "
-                     "builds and traces with UAV barriers");
+    return make_error(Id::kAccelerationStructureTransition, name,
+                      ": a buffer keeps the state kRaytracingAccelerationStructure for life; order "
+                      "builds and traces with UAV barriers");
   }
   if (buffer && buffer->GetDesc().Heap != HeapType::kDefault) {
-    return MakeError(Id::kBarrier, name, ": upload and readback buffers cannot leave their state");
+    return make_error(Id::kBarrier, name, ": upload and readback buffers cannot leave their state");
   }
   const auto* texture = std::get_if<Texture>(&barrier.Resource);
   const uint32_t count = texture ? texture->subresource_count() : 1;
   if (barrier.Subresource != kResourceBarrierAllSubresources && barrier.Subresource >= count) {
-    return MakeError(Id::kBarrier, name, ": subresource ", barrier.Subresource,
-                     " does not exist; there are ", count);
+    return make_error(Id::kBarrier, name, ": subresource ", barrier.Subresource,
+                      " does not exist; there are ", count);
   }
   return {};
 }
@@ -72,10 +72,10 @@ Result<CopySide> resolve_texture_side(const TextureCopyLocation& location, const
   const Texture& texture = std::get<Texture>(location.pResource);
   const TextureDesc& desc = texture.GetDesc();
   CopySide side;
-  side.name = Text(which, " ", Named("texture", desc.Name));
+  side.name = concat(which, " ", named("texture", desc.Name));
   if (location.SubresourceIndex >= texture.subresource_count()) {
-    return MakeError(Id::kCopyRange, side.name, ": subresource ", location.SubresourceIndex,
-                     " does not exist; there are ", texture.subresource_count());
+    return make_error(Id::kCopyRange, side.name, ": subresource ", location.SubresourceIndex,
+                      " does not exist; there are ", texture.subresource_count());
   }
   side.place.texture = texture.impl()->memory;
   side.place.mip = location.SubresourceIndex % desc.MipLevels;
@@ -92,24 +92,24 @@ Result<CopySide> resolve_buffer_side(const TextureCopyLocation& location, const 
   const Buffer& buffer = std::get<Buffer>(location.pResource);
   const SubresourceFootprint& f = location.PlacedFootprint.Footprint;
   CopySide side;
-  side.name = Text(which, " ", Named("buffer", buffer.name()));
+  side.name = concat(which, " ", named("buffer", buffer.name()));
   const uint64_t offset = location.PlacedFootprint.Offset;
   const FormatInfo format = GetFormatInfo(f.Format);
   const uint64_t element = format.bytes;
   if (element == 0 || f.Width == 0 || f.Height == 0 || f.Depth == 0) {
-    return MakeError(Id::kCopyFootprint, side.name, ": the footprint has ", f.Width, "x", f.Height,
-                     "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format),
-                     element == 0 ? ", which cannot be copied" : "; no size may be 0");
+    return make_error(Id::kCopyFootprint, side.name, ": the footprint has ", f.Width, "x", f.Height,
+                      "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format),
+                      element == 0 ? ", which cannot be copied" : "; no size may be 0");
   }
   if (f.Width % format.block_side != 0 || f.Height % format.block_side != 0) {
-    return MakeError(Id::kCopyBlocks, side.name, ": the footprint has ", f.Width, "x", f.Height,
-                     " texels of block-compressed format ", static_cast<uint32_t>(f.Format),
-                     "; both must be multiples of ", int{format.block_side});
+    return make_error(Id::kCopyBlocks, side.name, ": the footprint has ", f.Width, "x", f.Height,
+                      " texels of block-compressed format ", static_cast<uint32_t>(f.Format),
+                      "; both must be multiples of ", int{format.block_side});
   }
   const uint64_t row_bytes = f.Width / format.block_side * element;
   if (offset % kTextureDataPlacementAlignment != 0 ||
       f.RowPitch % kTextureDataPitchAlignment != 0 || f.RowPitch < row_bytes) {
-    return MakeError(
+    return make_error(
         Id::kCopyFootprint, side.name, ": offset ", offset, " and row pitch ", f.RowPitch,
         " for rows of ", row_bytes,
         " bytes; the offset must be a multiple of 512, the pitch a multiple of 256 and "
@@ -123,8 +123,8 @@ Result<CopySide> resolve_buffer_side(const TextureCopyLocation& location, const 
   const bool fits = offset <= size && rows - 1 <= size / f.RowPitch &&
                     (rows - 1) * f.RowPitch + row_bytes <= size - offset;
   if (!fits) {
-    return MakeError(Id::kCopyRange, side.name, ": a footprint of ", rows, " rows of ", f.RowPitch,
-                     " bytes from byte ", offset, " does not fit its ", size, " bytes");
+    return make_error(Id::kCopyRange, side.name, ": a footprint of ", rows, " rows of ", f.RowPitch,
+                      " bytes from byte ", offset, " does not fit its ", size, " bytes");
   }
   side.place.buffer = buffer.impl()->memory;
   side.place.offset = offset;
@@ -142,8 +142,8 @@ Result<CopySide> resolve_side(const std::shared_ptr<DeviceImpl>& device,
   if (Status s = check_resource(device, location.pResource, which); !s.ok()) return s.error();
   const bool texture = is<Texture>(location.pResource);
   if (texture != (location.Type == TextureCopyType::kSubresourceIndex)) {
-    return MakeError(Id::kCopyFormat, which, " is ", texture ? "a texture" : "a buffer",
-                     ", its Type says otherwise");
+    return make_error(Id::kCopyFormat, which, " is ", texture ? "a texture" : "a buffer",
+                      ", its Type says otherwise");
   }
   return texture ? resolve_texture_side(location, which) : resolve_buffer_side(location, which);
 }
@@ -162,7 +162,7 @@ bool can_copy(Format a, Format b) {
 Status check_copy_formats(const CopySide& to, const CopySide& from) {
   if (can_copy(to.format, from.format)) return {};
   const FormatInfo a = GetFormatInfo(to.format), b = GetFormatInfo(from.format);
-  return MakeError(
+  return make_error(
       Id::kCopyFormat, "CopyTextureRegion: ", from.name, " has format ",
       static_cast<uint32_t>(from.format), " and ", to.name, " has format ",
       static_cast<uint32_t>(to.format), "; both must belong to one format family",
@@ -174,26 +174,26 @@ Status check_copy_formats(const CopySide& to, const CopySide& from) {
 Status check_block_edges(const CopySide& side, int axis, uint32_t first, uint32_t last) {
   const uint32_t step = side.step(axis);
   if (first % step == 0 && (last % step == 0 || last == side.size[axis])) return {};
-  return MakeError(Id::kCopyBlocks, "CopyTextureRegion: on axis ", axis, ", texels ", first, "..",
-                   last, " of ", side.name, " (format ", static_cast<uint32_t>(side.format),
-                   ", size ", side.size[axis], ") are not whole blocks; both must be multiples of ",
-                   step, ", or the second the size");
+  return make_error(
+      Id::kCopyBlocks, "CopyTextureRegion: on axis ", axis, ", texels ", first, "..", last, " of ",
+      side.name, " (format ", static_cast<uint32_t>(side.format), ", size ", side.size[axis],
+      ") are not whole blocks; both must be multiples of ", step, ", or the second the size");
 }
 
 Status check_copy_heaps(const Buffer& dest, const Buffer& source) {
   if (dest.GetDesc().Heap == HeapType::kUpload) {
-    return MakeError(Id::kCopyHeap, "dest ", Named("buffer", dest.name()),
-                     " is on the upload heap, which commands cannot write");
+    return make_error(Id::kCopyHeap, "dest ", named("buffer", dest.name()),
+                      " is on the upload heap, which commands cannot write");
   }
   if (source.GetDesc().Heap == HeapType::kReadback) {
-    return MakeError(Id::kCopyHeap, "source ", Named("buffer", source.name()),
-                     " is on the readback heap, which commands cannot read");
+    return make_error(Id::kCopyHeap, "source ", named("buffer", source.name()),
+                      " is on the readback heap, which commands cannot read");
   }
   const auto structure = ResourceStates::kRaytracingAccelerationStructure;
   for (const Buffer* b : {&dest, &source}) {
     if (b->GetDesc().InitialState == structure) {
-      return MakeError(Id::kCopyHeap, Named("buffer", b->name()),
-                       " holds acceleration structures; use CopyRaytracingAccelerationStructure");
+      return make_error(Id::kCopyHeap, named("buffer", b->name()),
+                        " holds acceleration structures; use CopyRaytracingAccelerationStructure");
     }
   }
   return {};
@@ -206,8 +206,8 @@ void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barrie
   for (const auto& barrier : barriers) {
     const bool uav = barrier.Type == ResourceBarrierType::kUav;
     if (!uav && barrier.Type != ResourceBarrierType::kTransition) {
-      impl_->fail(MakeError(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
-                            "; it must be kTransition or kUav"));
+      impl_->fail(make_error(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
+                             "; it must be kTransition or kUav"));
       continue;
     }
     Status s;
@@ -249,17 +249,17 @@ void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, con
   if (outside(dest, dest_offset) || outside(source, source_offset)) {
     const bool at_dest = outside(dest, dest_offset);
     const Buffer& b = at_dest ? dest : source;
-    return impl_->fail(MakeError(Id::kCopyRange, "CopyBufferRegion: ", size, " bytes from byte ",
-                                 at_dest ? dest_offset : source_offset, " on do not fit in ",
-                                 at_dest ? "dest " : "source ", Named("buffer", b.name()),
-                                 ", which has ", b.size(), " bytes"));
+    return impl_->fail(make_error(Id::kCopyRange, "CopyBufferRegion: ", size, " bytes from byte ",
+                                  at_dest ? dest_offset : source_offset, " on do not fit in ",
+                                  at_dest ? "dest " : "source ", named("buffer", b.name()),
+                                  ", which has ", b.size(), " bytes"));
   }
   const bool overlap =
       dest == source && dest_offset < source_offset + size && source_offset < dest_offset + size;
   if (overlap && size != 0) {
-    return impl_->fail(MakeError(Id::kCopyOverlap, "CopyBufferRegion: ", size, " bytes from byte ",
-                                 source_offset, " to byte ", dest_offset, " of ",
-                                 Named("buffer", dest.name())));
+    return impl_->fail(make_error(Id::kCopyOverlap, "CopyBufferRegion: ", size, " bytes from byte ",
+                                  source_offset, " to byte ", dest_offset, " of ",
+                                  named("buffer", dest.name())));
   }
   if (size == 0) return;
   impl_->record(runtime::CopyBufferCommand{dest.impl()->memory, dest_offset, source.impl()->memory,
@@ -274,9 +274,9 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
   auto from = resolve_side(impl_->device, source, "source");
   if (!from.ok()) return impl_->fail(from.error());
   if (!to->place.texture && !from->place.texture) {
-    return impl_->fail(MakeError(Id::kCopyFormat,
-                                 "CopyTextureRegion: both sides are buffers; use "
-                                 "CopyBufferRegion"));
+    return impl_->fail(make_error(Id::kCopyFormat,
+                                  "CopyTextureRegion: both sides are buffers; use "
+                                  "CopyBufferRegion"));
   }
   if (Status s = check_copy_formats(*to, *from); !s.ok()) return impl_->fail(s.error());
   const Box whole = {0, 0, 0, from->size[0], from->size[1], from->size[2]};
@@ -300,16 +300,16 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
     command.extent[i] = end - from->place.origin[i];
     if (end > from->elements(i) || to->place.origin[i] > to->elements(i) ||
         command.extent[i] > to->elements(i) - to->place.origin[i]) {
-      return impl_->fail(MakeError(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
-                                   first[i], "..", last[i], " of ", from->name, " (size ",
-                                   from->size[i], ") do not fit at ", target[i], " of ", to->name,
-                                   " (size ", to->size[i], ")"));
+      return impl_->fail(make_error(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
+                                    first[i], "..", last[i], " of ", from->name, " (size ",
+                                    from->size[i], ") do not fit at ", target[i], " of ", to->name,
+                                    " (size ", to->size[i], ")"));
     }
   }
   if (to->place.texture && to->place.texture == from->place.texture &&
       to->place.mip == from->place.mip && to->place.array_element == from->place.array_element) {
-    return impl_->fail(MakeError(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
-                                 ": source and dest are the same subresource"));
+    return impl_->fail(make_error(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
+                                  ": source and dest are the same subresource"));
   }
   command.dest = std::move(to->place);
   command.source = std::move(from->place);
@@ -329,15 +329,15 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
     const Buffer& to = std::get<Buffer>(dest);
     const Buffer& from = std::get<Buffer>(source);
     if (to.size() != from.size()) {
-      return impl_->fail(MakeError(Id::kCopyFormat, "CopyResource: ", name_of(dest), " has ",
-                                   to.size(), " bytes, but ", name_of(source), " has ",
-                                   from.size()));
+      return impl_->fail(make_error(Id::kCopyFormat, "CopyResource: ", name_of(dest), " has ",
+                                    to.size(), " bytes, but ", name_of(source), " has ",
+                                    from.size()));
     }
     return CopyBufferRegion(to, 0, from, 0, to.size());
   }
   if (!is<Texture>(dest) || !is<Texture>(source)) {
-    return impl_->fail(MakeError(Id::kCopyFormat, "CopyResource: ", name_of(dest), " and ",
-                                 name_of(source), " must both be buffers or both be textures"));
+    return impl_->fail(make_error(Id::kCopyFormat, "CopyResource: ", name_of(dest), " and ",
+                                  name_of(source), " must both be buffers or both be textures"));
   }
   const TextureDesc& a = std::get<Texture>(dest).GetDesc();
   const TextureDesc& b = std::get<Texture>(source).GetDesc();
@@ -349,8 +349,8 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
                             : get_mip_elements(a, mip) == get_mip_elements(b, mip);
   }
   if (a.Dimension != b.Dimension || !same_size) {
-    return impl_->fail(MakeError(Id::kCopyFormat, "CopyResource: ", name_of(dest), " and ",
-                                 name_of(source), " differ in dimension, size or mip levels"));
+    return impl_->fail(make_error(Id::kCopyFormat, "CopyResource: ", name_of(dest), " and ",
+                                  name_of(source), " differ in dimension, size or mip levels"));
   }
   const uint32_t count = std::get<Texture>(dest).subresource_count();
   for (uint32_t i = 0; i < count; ++i) {
@@ -365,35 +365,35 @@ Result<runtime::ClearUavCommand> resolve_clear(CommandListImpl& list, GpuDescrip
                                                CpuDescriptorHandle cpu, const Resource& resource) {
   const auto slot = list.device->find_slot(cpu);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
-    return MakeError(Id::kClearView, "the CPU handle ", Hex(cpu.ptr),
-                     " is not in a live CBV/SRV/UAV heap");
+    return make_error(Id::kClearView, "the CPU handle ", hex(cpu.ptr),
+                      " is not in a live CBV/SRV/UAV heap");
   }
   const uint64_t start = list.view_heap.GetGPUDescriptorHandleForHeapStart().ptr;
   const uint64_t index = (gpu.ptr - start) / kDescriptorHandleIncrementSize;
   if (!list.view_heap || gpu.ptr < start ||
       (gpu.ptr - start) % kDescriptorHandleIncrementSize != 0 ||
       index >= list.view_heap.GetDesc().NumDescriptors) {
-    return MakeError(Id::kClearView, "the GPU handle ", Hex(gpu.ptr),
-                     " is not in the CBV/SRV/UAV heap that is set");
+    return make_error(Id::kClearView, "the GPU handle ", hex(gpu.ptr),
+                      " is not in the CBV/SRV/UAV heap that is set");
   }
   runtime::ClearUavCommand command;
   std::memcpy(&command.view, slot->slot, sizeof command.view);
   if (command.view.access != shader::DescriptorAccess::kUnorderedAccess) {
-    return MakeError(Id::kClearView, "the descriptor is not an unordered access view");
+    return make_error(Id::kClearView, "the descriptor is not an unordered access view");
   }
   if (Status s = check_resource(list.device, resource, "the cleared resource"); !s.ok()) {
     return s.error();
   }
   const bool texture_view = command.view.kind == shader::DescriptorKind::kTexture;
   if (texture_view != is<Texture>(resource)) {
-    return MakeError(Id::kClearView, "the descriptor is a view of a ",
-                     texture_view ? "texture" : "buffer", ", but the resource is ",
-                     name_of(resource));
+    return make_error(Id::kClearView, "the descriptor is a view of a ",
+                      texture_view ? "texture" : "buffer", ", but the resource is ",
+                      name_of(resource));
   }
   if (const auto* buffer = std::get_if<Buffer>(&resource)) {
     const uint64_t offset = command.view.address - buffer->GetGPUVirtualAddress();
     if (offset > buffer->size() || command.view.size_bytes > buffer->size() - offset) {
-      return MakeError(Id::kClearView, "the view is not of ", name_of(resource));
+      return make_error(Id::kClearView, "the view is not of ", name_of(resource));
     }
     command.resource = buffer->impl()->memory;
   } else {
@@ -409,7 +409,7 @@ void CommandList::ClearUnorderedAccessViewUint(GpuDescriptorHandle gpu, CpuDescr
   if (!impl_ || !impl_->check_open("ClearUnorderedAccessViewUint")) return;
   auto command = resolve_clear(*impl_, gpu, cpu, resource);
   if (!command.ok()) return impl_->fail(command.error());
-  if (!values) return impl_->fail(MakeError(Id::kClearView, "values is a null pointer"));
+  if (!values) return impl_->fail(make_error(Id::kClearView, "values is a null pointer"));
   std::memcpy(command->values, values, sizeof command->values);
   impl_->record(std::move(*command));
 }
@@ -419,7 +419,7 @@ void CommandList::ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu, CpuDesc
   if (!impl_ || !impl_->check_open("ClearUnorderedAccessViewFloat")) return;
   auto command = resolve_clear(*impl_, gpu, cpu, resource);
   if (!command.ok()) return impl_->fail(command.error());
-  if (!values) return impl_->fail(MakeError(Id::kClearView, "values is a null pointer"));
+  if (!values) return impl_->fail(make_error(Id::kClearView, "values is a null pointer"));
   command->is_float = true;
   std::memcpy(command->values, values, sizeof command->values);
   impl_->record(std::move(*command));

@@ -46,10 +46,10 @@ Status check_viewport(const Viewport& v, size_t index) {
                       std::max(v.TopLeftY, v.TopLeftY + v.Height) <= kViewportMax;
   const bool depth = v.MinDepth >= 0 && v.MinDepth <= 1 && v.MaxDepth >= 0 && v.MaxDepth <= 1;
   if (is_finite(v) && inside && depth) return {};
-  return MakeError(Id::kDrawRectangles, "RSSetViewports: viewport ", index, " is (", v.TopLeftX,
-                   ", ", v.TopLeftY, ") + (", v.Width, ", ", v.Height, "), depth ", v.MinDepth,
-                   " to ", v.MaxDepth,
-                   "; it must be finite, within -32768 to 32767, with depths from 0 to 1");
+  return make_error(Id::kDrawRectangles, "RSSetViewports: viewport ", index, " is (", v.TopLeftX,
+                    ", ", v.TopLeftY, ") + (", v.Width, ", ", v.Height, "), depth ", v.MinDepth,
+                    " to ", v.MaxDepth,
+                    "; it must be finite, within -32768 to 32767, with depths from 0 to 1");
 }
 
 // Cuts rectangles to a view, and drops those that are empty then. [RAS-134]
@@ -113,7 +113,8 @@ const PipelineStateImpl* CommandListImpl::draw_pipeline(const char* call, bool i
   const PipelineStateImpl* set = graphics_pipeline(call);
   if (!set) return nullptr;
   if (draw_state->topology == PrimitiveTopology::kUndefined) {
-    fail(MakeError(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
+    fail(
+        make_error(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
     return nullptr;
   }
   const auto note = [&](MemoryUse use) {
@@ -140,15 +141,15 @@ void CommandList::IASetPrimitiveTopology(PrimitiveTopology topology) {
   const bool lines_or_points = (number >= 1 && number <= 3) || (number >= 10 && number <= 13) ||
                                (number >= 33 && number <= 64);
   if (lines_or_points) {
-    return impl_->fail(MakeError(Id::kGraphicsUnsupported, "IASetPrimitiveTopology: topology ",
-                                 number,
-                                 " is not triangles; only kTriangleList (4) and "
-                                 "kTriangleStrip (5) are drawn"));
+    return impl_->fail(make_error(Id::kGraphicsUnsupported, "IASetPrimitiveTopology: topology ",
+                                  number,
+                                  " is not triangles; only kTriangleList (4) and "
+                                  "kTriangleStrip (5) are drawn"));
   }
   if (topology != PrimitiveTopology::kUndefined && topology != PrimitiveTopology::kTriangleList &&
       topology != PrimitiveTopology::kTriangleStrip) {
-    return impl_->fail(MakeError(Id::kDrawState, "IASetPrimitiveTopology: ", number,
-                                 " is no topology; use kTriangleList (4) or kTriangleStrip (5)"));
+    return impl_->fail(make_error(Id::kDrawState, "IASetPrimitiveTopology: ", number,
+                                  " is no topology; use kTriangleList (4) or kTriangleStrip (5)"));
   }
   impl_->writable_draw_state().topology = topology;
 }
@@ -157,30 +158,30 @@ void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const Vertex
   if (!impl_ || !impl_->check_open("IASetVertexBuffers")) return;
   if (start_slot > kIAVertexInputResourceSlotCount ||
       views.size() > kIAVertexInputResourceSlotCount - start_slot) {
-    return impl_->fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slots ", start_slot, "..",
-                                 start_slot + views.size(), "; there are 32"));
+    return impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slots ", start_slot, "..",
+                                  start_slot + views.size(), "; there are 32"));
   }
   for (size_t i = 0; i < views.size(); ++i) {
     const VertexBufferView& view = views[i];
     if (view.StrideInBytes > kMaxVertexStride) {
-      return impl_->fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
-                                   " has a stride of ", view.StrideInBytes,
-                                   " bytes; it may be 0 to 2048"));
+      return impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
+                                    " has a stride of ", view.StrideInBytes,
+                                    " bytes; it may be 0 to 2048"));
     }
     if (view.BufferLocation != 0 &&
         !impl_->device->addresses.contains(view.BufferLocation,
                                            std::max<uint64_t>(view.SizeInBytes, 1))) {
-      return impl_->fail(MakeError(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
-                                   ": ", view.SizeInBytes, " bytes at ",
-                                   impl_->device->describe_address(view.BufferLocation),
-                                   " are not inside one live buffer"));
+      return impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
+                                    ": ", view.SizeInBytes, " bytes at ",
+                                    impl_->device->describe_address(view.BufferLocation),
+                                    " are not inside one live buffer"));
     }
   }
   std::copy(views.begin(), views.end(),
             impl_->writable_draw_state().vertex_buffers.begin() + start_slot);
   for (size_t i = 0; i < views.size(); ++i) {
     const auto slot = static_cast<uint32_t>(start_slot + i);
-    note_input(*impl_, slot, views[i].BufferLocation, Text("vertex buffer ", slot));
+    note_input(*impl_, slot, views[i].BufferLocation, concat("vertex buffer ", slot));
   }
 }
 
@@ -192,18 +193,18 @@ void CommandList::IASetIndexBuffer(const IndexBufferView* view) {
     return;
   }
   if (view->Format != Format::kR16Uint && view->Format != Format::kR32Uint) {
-    return impl_->fail(MakeError(Id::kDrawBuffers, "IASetIndexBuffer: format ",
-                                 static_cast<uint32_t>(view->Format),
-                                 "; it must be kR16Uint or kR32Uint"));
+    return impl_->fail(make_error(Id::kDrawBuffers, "IASetIndexBuffer: format ",
+                                  static_cast<uint32_t>(view->Format),
+                                  "; it must be kR16Uint or kR32Uint"));
   }
   const uint32_t bytes = GetFormatInfo(view->Format).bytes;
   if (view->BufferLocation % bytes != 0 ||
       !impl_->device->addresses.contains(view->BufferLocation,
                                          std::max<uint64_t>(view->SizeInBytes, 1))) {
     return impl_->fail(
-        MakeError(Id::kDrawBuffers, "IASetIndexBuffer: ", view->SizeInBytes, " bytes at ",
-                  impl_->device->describe_address(view->BufferLocation),
-                  "; they must be inside one live buffer, at a multiple of ", bytes));
+        make_error(Id::kDrawBuffers, "IASetIndexBuffer: ", view->SizeInBytes, " bytes at ",
+                   impl_->device->describe_address(view->BufferLocation),
+                   "; they must be inside one live buffer, at a multiple of ", bytes));
   }
   impl_->writable_draw_state().index_buffer = *view;
   note_input(*impl_, kIndexBufferSlot, view->BufferLocation, "index buffer");
@@ -212,8 +213,8 @@ void CommandList::IASetIndexBuffer(const IndexBufferView* view) {
 void CommandList::RSSetViewports(std::span<const Viewport> viewports) {
   if (!impl_ || !impl_->check_open("RSSetViewports")) return;
   if (viewports.size() > kViewportAndScissorRectCount) {
-    return impl_->fail(MakeError(Id::kDrawRectangles, "RSSetViewports: ", viewports.size(),
-                                 " viewports; there are 16"));
+    return impl_->fail(make_error(Id::kDrawRectangles, "RSSetViewports: ", viewports.size(),
+                                  " viewports; there are 16"));
   }
   for (size_t i = 0; i < viewports.size(); ++i) {
     if (Status s = check_viewport(viewports[i], i); !s.ok()) return impl_->fail(s.error());
@@ -227,8 +228,8 @@ void CommandList::RSSetViewports(std::span<const Viewport> viewports) {
 void CommandList::RSSetScissorRects(std::span<const Rect> rects) {
   if (!impl_ || !impl_->check_open("RSSetScissorRects")) return;
   if (rects.size() > kViewportAndScissorRectCount) {
-    return impl_->fail(MakeError(Id::kDrawRectangles, "RSSetScissorRects: ", rects.size(),
-                                 " rectangles; there are 16"));
+    return impl_->fail(make_error(Id::kDrawRectangles, "RSSetScissorRects: ", rects.size(),
+                                  " rectangles; there are 16"));
   }
   runtime::DrawState& state = impl_->writable_draw_state();
   state.scissors = {};
@@ -241,17 +242,17 @@ void CommandList::OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* 
                                      const CpuDescriptorHandle* depth_stencil) {
   if (!impl_ || !impl_->check_open("OMSetRenderTargets")) return;
   if (count > kSimultaneousRenderTargetCount || (count != 0 && !render_targets)) {
-    return impl_->fail(MakeError(Id::kDrawRectangles, "OMSetRenderTargets: ", count,
-                                 count > kSimultaneousRenderTargetCount
-                                     ? " render targets; there are 8"
-                                     : " render targets at a null pointer"));
+    return impl_->fail(make_error(Id::kDrawRectangles, "OMSetRenderTargets: ", count,
+                                  count > kSimultaneousRenderTargetCount
+                                      ? " render targets; there are 8"
+                                      : " render targets at a null pointer"));
   }
   runtime::DrawTargets targets;
   std::vector<MemoryUse> uses;
   const auto read = [&](CpuDescriptorHandle handle, bool depth, std::string role,
                         runtime::TargetView& view) {
     auto target =
-        read_target_slot(*impl_->device, handle, depth, Text("OMSetRenderTargets: ", role));
+        read_target_slot(*impl_->device, handle, depth, concat("OMSetRenderTargets: ", role));
     if (!target.ok()) {
       impl_->fail(target.error());
       return false;
@@ -267,7 +268,7 @@ void CommandList::OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* 
   for (uint32_t i = 0; i < count; ++i) {
     const CpuDescriptorHandle handle =
         single_handle_to_descriptor_range ? render_targets[0].Offset(i) : render_targets[i];
-    if (!read(handle, false, Text("render target ", i), targets.color[i])) return;
+    if (!read(handle, false, concat("render target ", i), targets.color[i])) return;
   }
   targets.color_count = count;
   if (depth_stencil && !read(*depth_stencil, true, "depth-stencil view", targets.depth)) return;
@@ -286,7 +287,7 @@ void CommandList::ClearRenderTargetView(CpuDescriptorHandle view, const float co
   if (!impl_ || !impl_->check_open("ClearRenderTargetView")) return;
   if (!color) {
     return impl_->fail(
-        MakeError(Id::kClearTarget, "ClearRenderTargetView: the pointer to the colour is null"));
+        make_error(Id::kClearTarget, "ClearRenderTargetView: the pointer to the colour is null"));
   }
   runtime::ClearTargetCommand command;
   std::copy(color, color + 4, command.color);
@@ -298,16 +299,16 @@ void CommandList::ClearDepthStencilView(CpuDescriptorHandle view, ClearFlags fla
   if (!impl_ || !impl_->check_open("ClearDepthStencilView")) return;
   const auto bits = static_cast<uint32_t>(flags);
   if (bits == 0 || bits > 3) {
-    return impl_->fail(MakeError(Id::kClearTarget, "ClearDepthStencilView: flags ", bits,
-                                 "; they must be kDepth (1), kStencil (2) or both"));
+    return impl_->fail(make_error(Id::kClearTarget, "ClearDepthStencilView: flags ", bits,
+                                  "; they must be kDepth (1), kStencil (2) or both"));
   }
   runtime::ClearTargetCommand command;
   command.depth_stencil = true;
   command.clear_depth = HasAny(flags, ClearFlags::kDepth);
   command.clear_stencil = HasAny(flags, ClearFlags::kStencil);
   if (command.clear_depth && !(depth >= 0 && depth <= 1)) {
-    return impl_->fail(
-        MakeError(Id::kClearTarget, "ClearDepthStencilView: depth ", depth, "; it must be 0 to 1"));
+    return impl_->fail(make_error(Id::kClearTarget, "ClearDepthStencilView: depth ", depth,
+                                  "; it must be 0 to 1"));
   }
   command.depth = depth;
   command.stencil = stencil;

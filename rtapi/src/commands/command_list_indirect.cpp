@@ -17,18 +17,18 @@ namespace {
 // Checks that `offset` is a multiple of 4 and that `bytes` from there lie in the buffer.
 Status check_range(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer, uint64_t offset,
                    uint64_t bytes, const char* what) {
-  if (Status s = CheckHandle(device, buffer, Text("ExecuteIndirect: the ", what)); !s.ok()) {
+  if (Status s = CheckHandle(device, buffer, concat("ExecuteIndirect: the ", what)); !s.ok()) {
     return s;
   }
   const BufferDesc& desc = buffer.GetDesc();
   if (offset % 4 != 0) {
-    return MakeError(Id::kIndirectArguments, "the offset into the ", what, " is ", offset,
-                     "; it must be a multiple of 4");
+    return make_error(Id::kIndirectArguments, "the offset into the ", what, " is ", offset,
+                      "; it must be a multiple of 4");
   }
   if (offset > desc.SizeInBytes || bytes > desc.SizeInBytes - offset) {
-    return MakeError(Id::kIndirectArguments, "the ", what, " needs bytes ", offset, "..",
-                     offset + bytes, " of ", Named("buffer", desc.Name), ", which has ",
-                     desc.SizeInBytes, " bytes; check max_command_count and the offset");
+    return make_error(Id::kIndirectArguments, "the ", what, " needs bytes ", offset, "..",
+                      offset + bytes, " of ", named("buffer", desc.Name), ", which has ",
+                      desc.SizeInBytes, " bytes; check max_command_count and the offset");
   }
   return {};
 }
@@ -94,8 +94,8 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   RootState& root = draws ? impl_->graphics : impl_->compute;
   if (given.root_signature && !same_definition(given.root_signature, root.signature)) {
     return impl_->fail(
-        MakeError(Id::kIndirectArguments, Named("command signature", given.desc.Name),
-                  " was made for another root signature than the one that is set on the list"));
+        make_error(Id::kIndirectArguments, named("command signature", given.desc.Name),
+                   " was made for another root signature than the one that is set on the list"));
   }
   // The commands bring these buffers along.
   for (const runtime::IndirectBufferView& view : given.layout->buffer_views) {

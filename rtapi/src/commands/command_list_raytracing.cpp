@@ -15,7 +15,7 @@ void use_inputs(CommandListImpl& list, const char* call,
   for (size_t i = 0; i < geometries.size(); ++i) {
     const RaytracingGeometryDesc& geometry = geometries[i];
     const auto use = [&](uint64_t count, GpuVirtualAddress address, const char* what) {
-      if (count != 0) list.use(call, address, Text("geometry ", i, " ", what));
+      if (count != 0) list.use(call, address, concat("geometry ", i, " ", what));
     };
     if (geometry.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
       use(geometry.AABBs.AABBCount, geometry.AABBs.AABBs.StartAddress, "AABBs");
@@ -47,9 +47,9 @@ void CommandList::BuildRaytracingAccelerationStructure(
     if (Status s = check_postbuild_info(device, info, 1); !s.ok()) return impl_->fail(s.error());
     const uint32_t bit = 1u << static_cast<uint32_t>(info.InfoType);
     if (seen & bit) {
-      return impl_->fail(MakeError(Id::kPostbuildInfo, kCall, ": InfoType ",
-                                   static_cast<uint32_t>(info.InfoType),
-                                   " is requested twice; each may be requested once per build"));
+      return impl_->fail(make_error(Id::kPostbuildInfo, kCall, ": InfoType ",
+                                    static_cast<uint32_t>(info.InfoType),
+                                    " is requested twice; each may be requested once per build"));
     }
     seen |= bit;
   }
@@ -84,12 +84,12 @@ void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
     return impl_->fail(s.error());
   }
   for (size_t i = 0; i < sources.size(); ++i) {
-    if (Status s = check_structure_address(device, sources[i], Text("source ", i)); !s.ok()) {
+    if (Status s = check_structure_address(device, sources[i], concat("source ", i)); !s.ok()) {
       return impl_->fail(s.error());
     }
   }
   impl_->use(kCall, desc.DestBuffer, "postbuild info");
-  for (size_t i = 0; i < sources.size(); ++i) impl_->use(kCall, sources[i], Text("source ", i));
+  for (size_t i = 0; i < sources.size(); ++i) impl_->use(kCall, sources[i], concat("source ", i));
   impl_->record(runtime::EmitPostbuildInfoCommand{desc, {sources.begin(), sources.end()}});
 }
 
@@ -101,8 +101,8 @@ void CommandList::CopyRaytracingAccelerationStructure(
   if (!impl_ || !impl_->check_open(kCall)) return;
   const DeviceImpl& device = *impl_->device;
   if (mode > Mode::kDeserialize) {
-    return impl_->fail(MakeError(Id::kAccelerationStructureCopy, "mode ",
-                                 static_cast<uint32_t>(mode), " is undefined; it must be 0 to 4"));
+    return impl_->fail(make_error(Id::kAccelerationStructureCopy, "mode ",
+                                  static_cast<uint32_t>(mode), " is undefined; it must be 0 to 4"));
   }
   const bool writes_bytes = mode == Mode::kSerialize || mode == Mode::kVisualizationDecodeForTools;
   Status s = mode == Mode::kDeserialize
@@ -116,9 +116,9 @@ void CommandList::CopyRaytracingAccelerationStructure(
   }
   if (!s.ok()) return impl_->fail(s.error());
   if (source == dest) {
-    return impl_->fail(MakeError(Id::kAccelerationStructureCopy,
-                                 "source and dest are the same address (",
-                                 device.describe_address(dest), "); they must not overlap"));
+    return impl_->fail(make_error(Id::kAccelerationStructureCopy,
+                                  "source and dest are the same address (",
+                                  device.describe_address(dest), "); they must not overlap"));
   }
   impl_->use(kCall, dest, "dest");
   impl_->use(kCall, source, "source");

@@ -94,13 +94,13 @@ uint64_t Fence::GetCompletedValue() const {
 }
 
 Status Fence::Signal(uint64_t value) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty fence handle");
+  if (!impl_) return make_error(Id::kNullHandle, "Signal on an empty fence handle");
   impl_->Signal(value);
   return {};
 }
 
 Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Wait on an empty fence handle");
+  if (!impl_) return make_error(Id::kNullHandle, "Wait on an empty fence handle");
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::milliseconds(timeout_ms);
   std::unique_lock lock(impl_->mutex);
@@ -110,15 +110,15 @@ Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
     if (impl_->current >= value) break;
     if (Status removed = impl_->device->removed(); !removed.ok()) return removed;
     if (timeout_ms != 0 && Clock::now() >= end) {
-      return MakeError(Id::kFenceWait, "the fence is still at ", impl_->current, " after ",
-                       timeout_ms, " ms; the wait is for ", value);
+      return make_error(Id::kFenceWait, "the fence is still at ", impl_->current, " after ",
+                        timeout_ms, " ms; the wait is for ", value);
     }
   }
   return {};
 }
 
 Result<Fence> Device::CreateFence(uint64_t initial_value) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateFence on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateFence on an empty device handle");
   auto fence = std::make_shared<FenceImpl>();
   fence->device = impl_;
   fence->current = initial_value;
@@ -126,7 +126,7 @@ Result<Fence> Device::CreateFence(uint64_t initial_value) const {
 }
 
 Result<CommandQueue> Device::CreateCommandQueue() const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateCommandQueue on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateCommandQueue on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   auto queue = std::make_shared<CommandQueueImpl>();
   queue->device = impl_;
@@ -134,18 +134,18 @@ Result<CommandQueue> Device::CreateCommandQueue() const {
 }
 
 Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "ExecuteCommandLists on an empty queue handle");
+  if (!impl_) return make_error(Id::kNullHandle, "ExecuteCommandLists on an empty queue handle");
   if (Status s = impl_->device->removed(); !s.ok()) return s;
   for (const CommandList& list : lists) {
     if (Status s = CheckHandle(impl_->device, list, "ExecuteCommandLists: a list"); !s.ok()) {
       return s;
     }
     if (list.is_open()) {
-      return MakeError(Id::kListNotExecutable, "the list is still open; call Close first");
+      return make_error(Id::kListNotExecutable, "the list is still open; call Close first");
     }
     if (!list.GetErrors().empty()) {
-      return MakeError(Id::kListNotExecutable, "recording failed with ", list.GetErrors().size(),
-                       " errors; the first is: ", list.GetErrors().front().message);
+      return make_error(Id::kListNotExecutable, "recording failed with ", list.GetErrors().size(),
+                        " errors; the first is: ", list.GetErrors().front().message);
     }
     if (const auto held = HoldAll(*list.impl()->uses); !held) return held.error();
   }
@@ -161,21 +161,21 @@ Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) con
 }
 
 Status CommandQueue::Signal(const Fence& fence, uint64_t value) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty queue handle");
+  if (!impl_) return make_error(Id::kNullHandle, "Signal on an empty queue handle");
   if (Status s = CheckHandle(impl_->device, fence, "Signal: the fence"); !s.ok()) return s;
   impl_->Submit(CommandQueueImpl::SignalFence{fence.impl(), value});
   return impl_->device->removed();
 }
 
 Status CommandQueue::Wait(const Fence& fence, uint64_t value) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Wait on an empty queue handle");
+  if (!impl_) return make_error(Id::kNullHandle, "Wait on an empty queue handle");
   if (Status s = CheckHandle(impl_->device, fence, "Wait: the fence"); !s.ok()) return s;
   impl_->Submit(CommandQueueImpl::WaitFence{fence.impl(), value});
   return impl_->device->removed();
 }
 
 Status CommandQueue::ExecuteAndWait(const CommandList& list) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "ExecuteAndWait on an empty queue handle");
+  if (!impl_) return make_error(Id::kNullHandle, "ExecuteAndWait on an empty queue handle");
   if (list.is_open()) {
     if (Status s = CommandList(list).Close(); !s.ok()) return s;
   }

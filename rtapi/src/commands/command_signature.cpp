@@ -43,21 +43,21 @@ class LayoutMaker {
 Status LayoutMaker::add_work(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
                              size_t index) {
   if (index + 1 != desc_.ArgumentDescs.size()) {
-    return MakeError(Id::kCommandSignature, where, " is a draw or dispatch, but ",
-                     desc_.ArgumentDescs.size() - 1 - index,
-                     " arguments follow it; it must be the last argument, and there must be only "
-                     "one");
+    return make_error(Id::kCommandSignature, where, " is a draw or dispatch, but ",
+                      desc_.ArgumentDescs.size() - 1 - index,
+                      " arguments follow it; it must be the last argument, and there must be only "
+                      "one");
   }
   if (work == runtime::IndirectWork::kDispatchRays &&
       device_.desc.Tier < RaytracingTier::kTier1_1) {
-    return MakeError(Id::kCommandSignatureTier, where,
-                     ": kDispatchRays needs tier 1.1, but the device was created with tier 1.0");
+    return make_error(Id::kCommandSignatureTier, where,
+                      ": kDispatchRays needs tier 1.1, but the device was created with tier 1.0");
   }
   const bool draws =
       work == runtime::IndirectWork::kDraw || work == runtime::IndirectWork::kDrawIndexed;
   if (!draws && !layout_.buffer_views.empty()) {
-    return MakeError(Id::kCommandSignature, where,
-                     " is a dispatch, which does not go with vertex and index buffer views");
+    return make_error(Id::kCommandSignature, where,
+                      " is a dispatch, which does not go with vertex and index buffer views");
   }
   complete_ = true;
   layout_.work = work;
@@ -68,14 +68,14 @@ Status LayoutMaker::add_work(const std::string& where, runtime::IndirectWork wor
 
 Status LayoutMaker::add_buffer_view(const std::string& where, bool of_indices, uint32_t slot) {
   if (slot >= kIAVertexInputResourceSlotCount) {
-    return MakeError(Id::kCommandSignature, where, " sets vertex buffer ", slot,
-                     "; there are 0 to 31");
+    return make_error(Id::kCommandSignature, where, " sets vertex buffer ", slot,
+                      "; there are 0 to 31");
   }
   for (const runtime::IndirectBufferView& other : layout_.buffer_views) {
     if (other.of_indices != of_indices || other.slot != slot) continue;
-    return MakeError(Id::kCommandSignature, where, " sets ",
-                     of_indices ? "the index buffer" : Text("vertex buffer ", slot),
-                     " a second time");
+    return make_error(Id::kCommandSignature, where, " sets ",
+                      of_indices ? "the index buffer" : concat("vertex buffer ", slot),
+                      " a second time");
   }
   layout_.buffer_views.push_back({layout_.packed_bytes, of_indices, slot});
   layout_.packed_bytes += sizeof(VertexBufferView);
@@ -85,33 +85,33 @@ Status LayoutMaker::add_buffer_view(const std::string& where, bool of_indices, u
 Status LayoutMaker::add_root(const std::string& where, uint32_t parameter, RootParameterType type,
                              uint32_t first_value, uint32_t values) {
   if (!root_signature_) {
-    return MakeError(Id::kCommandSignature, where,
-                     " sets a root argument; pass the root signature to CreateCommandSignature");
+    return make_error(Id::kCommandSignature, where,
+                      " sets a root argument; pass the root signature to CreateCommandSignature");
   }
   const auto& parameters = root_signature_.GetDesc().Parameters;
   if (parameter >= parameters.size()) {
-    return MakeError(Id::kCommandSignature, where, ": root parameter ", parameter,
-                     " does not exist; the root signature has ", parameters.size());
+    return make_error(Id::kCommandSignature, where, ": root parameter ", parameter,
+                      " does not exist; the root signature has ", parameters.size());
   }
   if (parameters[parameter].ParameterType != type) {
-    return MakeError(Id::kCommandSignature, where, ": root parameter ", parameter, " is of type ",
-                     static_cast<uint32_t>(parameters[parameter].ParameterType),
-                     ", but this argument sets one of type ", static_cast<uint32_t>(type));
+    return make_error(Id::kCommandSignature, where, ": root parameter ", parameter, " is of type ",
+                      static_cast<uint32_t>(parameters[parameter].ParameterType),
+                      ", but this argument sets one of type ", static_cast<uint32_t>(type));
   }
   const bool constants = type == RootParameterType::k32BitConstants;
   const uint64_t total = constants ? parameters[parameter].Constants.Num32BitValues : 1;
   if (values == 0) {
-    return MakeError(Id::kCommandSignature, where,
-                     ": Num32BitValuesToSet is 0; it must be at least 1");
+    return make_error(Id::kCommandSignature, where,
+                      ": Num32BitValuesToSet is 0; it must be at least 1");
   }
   if (uint64_t{first_value} + values > total) {
-    return MakeError(Id::kCommandSignature, where, ": values ", first_value, "..",
-                     uint64_t{first_value} + values, " of root parameter ", parameter,
-                     ", which has only ", total);
+    return make_error(Id::kCommandSignature, where, ": values ", first_value, "..",
+                      uint64_t{first_value} + values, " of root parameter ", parameter,
+                      ", which has only ", total);
   }
   const uint64_t key = uint64_t{parameter} << 32 | first_value;
   if (key < next_root_) {
-    return MakeError(
+    return make_error(
         Id::kCommandSignature, where, ": root parameter ", parameter, ", value ", first_value,
         ", is out of order; sort the arguments by parameter and value, and set each value once");
   }
@@ -128,7 +128,7 @@ Status LayoutMaker::add_root(const std::string& where, uint32_t parameter, RootP
 }
 
 Status LayoutMaker::add(const IndirectArgumentDesc& argument, size_t index) {
-  const std::string where = Text("argument ", index);
+  const std::string where = concat("argument ", index);
   switch (argument.Type) {
     case Type::kDispatch:
       return add_work(where, runtime::IndirectWork::kDispatch, sizeof(DispatchArguments), index);
@@ -157,27 +157,27 @@ Status LayoutMaker::add(const IndirectArgumentDesc& argument, size_t index) {
       return add_root(where, argument.UnorderedAccessView.RootParameterIndex,
                       RootParameterType::kUav, 0, 1);
     default:
-      return MakeError(Id::kCommandSignature, where, " has type ",
-                       static_cast<uint32_t>(argument.Type),
-                       "; it must be 0 to 9: kDispatchMesh (10) is not supported");
+      return make_error(Id::kCommandSignature, where, " has type ",
+                        static_cast<uint32_t>(argument.Type),
+                        "; it must be 0 to 9: kDispatchMesh (10) is not supported");
   }
 }
 
 Result<runtime::IndirectLayout> LayoutMaker::run() {
   if (desc_.ArgumentDescs.empty()) {
-    return MakeError(Id::kCommandSignature,
-                     "no arguments; the last one must be a draw or dispatch");
+    return make_error(Id::kCommandSignature,
+                      "no arguments; the last one must be a draw or dispatch");
   }
   for (size_t i = 0; i < desc_.ArgumentDescs.size(); ++i) {
     if (Status s = add(desc_.ArgumentDescs[i], i); !s.ok()) return s.error();
   }
   if (!complete_) {
-    return MakeError(Id::kCommandSignature, "the last argument is not a draw or dispatch");
+    return make_error(Id::kCommandSignature, "the last argument is not a draw or dispatch");
   }
   if (desc_.ByteStride % 4 != 0 || desc_.ByteStride < layout_.packed_bytes) {
-    return MakeError(Id::kCommandSignature, "ByteStride is ", desc_.ByteStride,
-                     "; it must be a multiple of 4 and at least ", layout_.packed_bytes,
-                     ", the size of the arguments");
+    return make_error(Id::kCommandSignature, "ByteStride is ", desc_.ByteStride,
+                      "; it must be a multiple of 4 and at least ", layout_.packed_bytes,
+                      ", the size of the arguments");
   }
   layout_.stride_bytes = desc_.ByteStride;
   return std::move(layout_);
@@ -196,16 +196,17 @@ const CommandSignatureDesc& CommandSignature::GetDesc() const {
 
 Result<CommandSignature> Device::CreateCommandSignature(const CommandSignatureDesc& desc,
                                                         const RootSignature& root_signature) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateCommandSignature on an empty device handle");
+  if (!impl_)
+    return make_error(Id::kNullHandle, "CreateCommandSignature on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (root_signature) {
     if (Status s = CheckHandle(impl_, root_signature, "the root signature"); !s.ok()) {
       return s.error();
     }
     if (root_signature.is_local()) {
-      return MakeError(Id::kRootSignatureKind,
-                       "CreateCommandSignature takes a global root signature, but this one is "
-                       "local; local arguments belong in shader records");
+      return make_error(Id::kRootSignatureKind,
+                        "CreateCommandSignature takes a global root signature, but this one is "
+                        "local; local arguments belong in shader records");
     }
   }
   auto layout = LayoutMaker(*impl_, desc, root_signature).run();

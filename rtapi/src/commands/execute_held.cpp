@@ -6,9 +6,9 @@
 namespace rtapi::detail {
 
 Status prepare_explained(const CommandQueue& queue, const CommandList& list, const char* call) {
-  if (!queue) return MakeError(Id::kNullHandle, call, ": the queue is an empty handle");
+  if (!queue) return make_error(Id::kNullHandle, call, ": the queue is an empty handle");
   const std::shared_ptr<DeviceImpl>& device = queue.impl()->device;
-  if (Status s = CheckHandle(device, list, Text(call, ": the list")); !s.ok()) return s;
+  if (Status s = CheckHandle(device, list, concat(call, ": the list")); !s.ok()) return s;
   if (list.is_open()) {
     if (Status s = CommandList(list).Close(); !s.ok()) return s;
   }

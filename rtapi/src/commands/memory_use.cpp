@@ -24,16 +24,16 @@ Result<std::vector<std::shared_ptr<const void>>> HoldAll(const MemoryUses& uses)
     held.push_back(use.owner.lock());
     if (held.back() != nullptr) continue;
     if (use.address == 0) {
-      return MakeError(Id::kMemoryFreed, use.call, ", command ", use.command, ": ", use.role,
-                       " was a view of ", Named("texture", use.name),
-                       ", which was freed after the call was recorded; descriptors keep nothing "
-                       "alive, so keep the texture until the list has executed");
+      return make_error(Id::kMemoryFreed, use.call, ", command ", use.command, ": ", use.role,
+                        " was a view of ", named("texture", use.name),
+                        ", which was freed after the call was recorded; descriptors keep nothing "
+                        "alive, so keep the texture until the list has executed");
     }
-    return MakeError(Id::kMemoryFreed, use.call, ", command ", use.command, ": ", use.role, " (",
-                     Hex(use.address), ") was in ", Named("buffer", use.name), " of ",
-                     use.buffer_bytes,
-                     " bytes, which was freed after the call was recorded; a list holds addresses, "
-                     "so keep the buffer until the list has executed");
+    return make_error(
+        Id::kMemoryFreed, use.call, ", command ", use.command, ": ", use.role, " (",
+        hex(use.address), ") was in ", named("buffer", use.name), " of ", use.buffer_bytes,
+        " bytes, which was freed after the call was recorded; a list holds addresses, "
+        "so keep the buffer until the list has executed");
   }
   return held;
 }

@@ -33,16 +33,16 @@ const QueryHeapDesc kEmptyHeap;
 // Checks queries `first` to `first + count` of a heap.
 Status check_queries(const CommandListImpl& list, const char* call, const QueryHeap& heap,
                      QueryType type, uint32_t first, uint32_t count) {
-  if (Status s = CheckHandle(list.device, heap, Text(call, ": heap")); !s.ok()) return s;
-  const std::string where = Text(call, ": ", Named("query heap", heap.GetDesc().Name));
+  if (Status s = CheckHandle(list.device, heap, concat(call, ": heap")); !s.ok()) return s;
+  const std::string where = concat(call, ": ", named("query heap", heap.GetDesc().Name));
   if (type != QueryType::kTimestamp) {
-    return MakeError(Id::kQuery, where, ": type ", static_cast<uint32_t>(type),
-                     "; it must be kTimestamp (2)");
+    return make_error(Id::kQuery, where, ": type ", static_cast<uint32_t>(type),
+                      "; it must be kTimestamp (2)");
   }
   const uint32_t total = heap.GetDesc().Count;
   if (first > total || count > total - first) {
-    return MakeError(Id::kQuery, where, ": queries ", first, "..", uint64_t{first} + count,
-                     " do not exist; there are ", total);
+    return make_error(Id::kQuery, where, ": queries ", first, "..", uint64_t{first} + count,
+                      " do not exist; there are ", total);
   }
   return {};
 }
@@ -52,17 +52,18 @@ Status check_destination(const CommandListImpl& list, const Buffer& buffer, uint
   if (Status s = CheckHandle(list.device, buffer, "ResolveQueryData: destination"); !s.ok()) {
     return s;
   }
-  const std::string where = Text("ResolveQueryData: ", Named("buffer", buffer.name()));
+  const std::string where = concat("ResolveQueryData: ", named("buffer", buffer.name()));
   if (buffer.GetDesc().Heap == HeapType::kUpload ||
       buffer.GetDesc().InitialState == ResourceStates::kRaytracingAccelerationStructure) {
-    return MakeError(Id::kQuery, where,
-                     " is on the upload heap or holds acceleration structures; resolve to a buffer "
-                     "of the default or readback heap");
+    return make_error(
+        Id::kQuery, where,
+        " is on the upload heap or holds acceleration structures; resolve to a buffer "
+        "of the default or readback heap");
   }
   if (offset % kResolveAlignment != 0 || offset > buffer.size() || bytes > buffer.size() - offset) {
-    return MakeError(Id::kQuery, where, ": bytes ", offset, "..", offset + bytes,
-                     "; the offset must be a multiple of 8, and the buffer has ", buffer.size(),
-                     " bytes");
+    return make_error(Id::kQuery, where, ": bytes ", offset, "..", offset + bytes,
+                      "; the offset must be a multiple of 8, and the buffer has ", buffer.size(),
+                      " bytes");
   }
   return {};
 }
@@ -74,16 +75,16 @@ const QueryHeapDesc& QueryHeap::GetDesc() const {
 }
 
 Result<QueryHeap> Device::CreateQueryHeap(const QueryHeapDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateQueryHeap on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateQueryHeap on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
-  const std::string name = Named("query heap", desc.Name);
+  const std::string name = named("query heap", desc.Name);
   if (desc.Type != QueryHeapType::kTimestamp) {
-    return MakeError(Id::kQueryHeap, name, " has type ", static_cast<uint32_t>(desc.Type),
-                     "; it must be kTimestamp (1)");
+    return make_error(Id::kQueryHeap, name, " has type ", static_cast<uint32_t>(desc.Type),
+                      "; it must be kTimestamp (1)");
   }
   if (desc.Count == 0 || desc.Count > kMaxQueries) {
-    return MakeError(Id::kQueryHeap, name, " has ", desc.Count, " queries; it must have 1 to ",
-                     kMaxQueries);
+    return make_error(Id::kQueryHeap, name, " has ", desc.Count, " queries; it must have 1 to ",
+                      kMaxQueries);
   }
   auto queries = impl_->backend->create_query_heap(desc.Count);
   if (!queries.ok()) return queries.error();
@@ -118,7 +119,7 @@ void CommandList::ResolveQueryData(const QueryHeap& heap, QueryType type, uint32
 }
 
 Result<uint64_t> CommandQueue::GetTimestampFrequency() const {
-  if (!impl_) return MakeError(Id::kNullHandle, "GetTimestampFrequency on an empty queue handle");
+  if (!impl_) return make_error(Id::kNullHandle, "GetTimestampFrequency on an empty queue handle");
   return impl_->device->backend->timestamp_frequency();
 }
 

@@ -25,22 +25,22 @@ const RootParameter* RootSetter::find(uint32_t index, RootParameterType type) {
   if (!list.check_open(call)) return nullptr;
   if (!root.signature) {
     list.fail(
-        MakeError(Id::kRootSignatureNotSet, call, ": call ",
-                  &root == &list.graphics ? "SetGraphicsRootSignature" : "SetComputeRootSignature",
-                  " first"));
+        make_error(Id::kRootSignatureNotSet, call, ": call ",
+                   &root == &list.graphics ? "SetGraphicsRootSignature" : "SetComputeRootSignature",
+                   " first"));
     return nullptr;
   }
   const auto& parameters = root.signature.GetDesc().Parameters;
   if (index >= parameters.size()) {
-    list.fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index,
-                        " does not exist; the root signature has ", parameters.size(),
-                        " parameters"));
+    list.fail(make_error(Id::kRootParameterMismatch, call, ": parameter ", index,
+                         " does not exist; the root signature has ", parameters.size(),
+                         " parameters"));
     return nullptr;
   }
   if (parameters[index].ParameterType != type) {
-    list.fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
-                        static_cast<uint32_t>(parameters[index].ParameterType),
-                        ", but this call sets one of type ", static_cast<uint32_t>(type)));
+    list.fail(make_error(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
+                         static_cast<uint32_t>(parameters[index].ParameterType),
+                         ", but this call sets one of type ", static_cast<uint32_t>(type)));
     return nullptr;
   }
   return &parameters[index];
@@ -48,13 +48,13 @@ const RootParameter* RootSetter::find(uint32_t index, RootParameterType type) {
 
 void RootSetter::set_signature(const RootSignature& signature) {
   if (!list.check_open(call)) return;
-  if (Status s = CheckHandle(list.device, signature, Text(call, ": the signature")); !s.ok()) {
+  if (Status s = CheckHandle(list.device, signature, concat(call, ": the signature")); !s.ok()) {
     return list.fail(s.error());
   }
   if (signature.is_local()) {
-    return list.fail(MakeError(Id::kRootSignatureKind, call,
-                               " takes a global root signature, but this one is local; local "
-                               "arguments belong in shader records"));
+    return list.fail(make_error(Id::kRootSignatureKind, call,
+                                " takes a global root signature, but this one is local; local "
+                                "arguments belong in shader records"));
   }
   if (root.signature && same_definition(root.signature, signature)) return;
   const uint64_t forgotten = root.set_parameters | root.forgotten_parameters;
@@ -69,13 +69,14 @@ void RootSetter::set_constants(uint32_t parameter, uint32_t count, const void* v
   if (!p) return;
   const uint32_t total = p->Constants.Num32BitValues;
   if (dest_offset > total || count > total - dest_offset) {
-    return list.fail(MakeError(Id::kRootConstantsRange, call, ": values ", dest_offset, "..",
-                               uint64_t{dest_offset} + count, " of parameter ", parameter,
-                               ", which has only ", total));
+    return list.fail(make_error(Id::kRootConstantsRange, call, ": values ", dest_offset, "..",
+                                uint64_t{dest_offset} + count, " of parameter ", parameter,
+                                ", which has only ", total));
   }
   if (count != 0 && !values) {
-    return list.fail(MakeError(Id::kRootConstantsRange, call,
-                               ": the pointer to the values of parameter ", parameter, " is null"));
+    return list.fail(make_error(Id::kRootConstantsRange, call,
+                                ": the pointer to the values of parameter ", parameter,
+                                " is null"));
   }
   if (count == 0) return;
   root.note_set(parameter);
@@ -88,15 +89,15 @@ void RootSetter::set_view(uint32_t index, RootParameterType type, GpuVirtualAddr
   const uint32_t alignment = type == RootParameterType::kCbv ? 256 : 4;
   // Address 0 is a null descriptor: an acceleration structure that every ray misses.
   if (address % alignment != 0 || (address != 0 && !list.device->addresses.find(address))) {
-    return list.fail(MakeError(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
-                               list.device->describe_address(address),
-                               "; it must lie in a live buffer, at a multiple of ", alignment));
+    return list.fail(make_error(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
+                                list.device->describe_address(address),
+                                "; it must lie in a live buffer, at a multiple of ", alignment));
   }
   root.note_set(index);
   root.write(root.signature.GetArgumentOffset(index), &address, sizeof address);
   root.views.erase(index);
   if (address != 0) {
-    root.views[index] = use_of(*list.device, address, Text("root parameter ", index));
+    root.views[index] = use_of(*list.device, address, concat("root parameter ", index));
   }
 }
 
@@ -111,10 +112,10 @@ void RootSetter::set_table(uint32_t parameter, GpuDescriptorHandle base) {
   const bool inside = heap && base.ptr >= start && offset % kDescriptorHandleIncrementSize == 0 &&
                       offset / kDescriptorHandleIncrementSize < heap.GetDesc().NumDescriptors;
   if (!inside) {
-    return list.fail(MakeError(Id::kDescriptorTableHandle, call, ": handle ", Hex(base.ptr),
-                               " for parameter ", parameter, " is not in the ",
-                               samplers ? "sampler" : "CBV/SRV/UAV", " heap that is set",
-                               heap ? "" : "; call SetDescriptorHeaps first"));
+    return list.fail(make_error(Id::kDescriptorTableHandle, call, ": handle ", hex(base.ptr),
+                                " for parameter ", parameter, " is not in the ",
+                                samplers ? "sampler" : "CBV/SRV/UAV", " heap that is set",
+                                heap ? "" : "; call SetDescriptorHeaps first"));
   }
   root.note_set(parameter);
   root.write(root.signature.GetArgumentOffset(parameter), &base.ptr, sizeof base.ptr);

@@ -22,7 +22,7 @@ struct Staging {
 
 Result<Staging> make_staging(const Device& device, const Texture& texture, uint32_t subresource,
                              HeapType heap) {
-  if (!texture) return MakeError(Id::kNullHandle, "the texture is an empty handle");
+  if (!texture) return make_error(Id::kNullHandle, "the texture is an empty handle");
   std::vector<PlacedSubresourceFootprint> layouts;
   std::vector<uint32_t> rows;
   std::vector<uint64_t> row_bytes;
@@ -38,7 +38,7 @@ Result<Staging> make_staging(const Device& device, const Texture& texture, uint3
 
 Status check_queue(const Device& device, const CommandQueue& queue) {
   if (!device || !queue) {
-    return MakeError(Id::kNullHandle, device ? "the queue" : "the device", " is an empty handle");
+    return make_error(Id::kNullHandle, device ? "the queue" : "the device", " is an empty handle");
   }
   return {};
 }
@@ -79,7 +79,7 @@ Result<Buffer> CreateDefaultBuffer(const Device& device, const CommandQueue& que
 Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, const CommandQueue& queue,
                                               const Buffer& buffer) {
   if (Status s = check_queue(device, queue); !s.ok()) return s.error();
-  if (!buffer) return MakeError(Id::kNullHandle, "ReadbackBuffer on an empty buffer handle");
+  if (!buffer) return make_error(Id::kNullHandle, "ReadbackBuffer on an empty buffer handle");
   Buffer readable = buffer;
   if (buffer.GetDesc().Heap == HeapType::kDefault) {
     auto staging = device.CreateBuffer({.SizeInBytes = buffer.size(),
@@ -104,9 +104,9 @@ Status UploadTexture(const Device& device, const CommandQueue& queue, const Text
   const uint64_t pitch = row_pitch ? row_pitch : staging->row_bytes;
   const uint64_t needed = (staging->rows - 1) * pitch + staging->row_bytes;
   if (pitch < staging->row_bytes || texels.size() < needed) {
-    return MakeError(Id::kCopyRange, "UploadTexture: ", texels.size(), " bytes in rows of ", pitch,
-                     " for subresource ", subresource, " of ", Named("texture", texture.name()),
-                     ", which has ", staging->rows, " rows of ", staging->row_bytes, " bytes");
+    return make_error(Id::kCopyRange, "UploadTexture: ", texels.size(), " bytes in rows of ", pitch,
+                      " for subresource ", subresource, " of ", named("texture", texture.name()),
+                      ", which has ", staging->rows, " rows of ", staging->row_bytes, " bytes");
   }
   std::byte* out = staging->buffer.data<std::byte>().data();
   for (uint64_t row = 0; row < staging->rows; ++row) {

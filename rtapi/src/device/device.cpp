@@ -108,9 +108,10 @@ ShaderLibrary DeviceImpl::library_to_run(const ShaderLibrary& library) const {
   if (!found.unchecked.empty()) {
     reporter->report(
         kaamos::checks::Id::kCodeNotChecked,
-        Text(Quoted(library.name()), " runs without checks of its code: ", found.unchecked));
+        concat(in_quotes(library.name()), " runs without checks of its code: ", found.unchecked));
   }
-  if (const std::string text = say_interpreted(Quoted(library.name()), found.slow); !text.empty()) {
+  if (const std::string text = say_interpreted(in_quotes(library.name()), found.slow);
+      !text.empty()) {
     reporter->report(kaamos::checks::Id::kCodeInterpreted, text);
   }
   return found.library;
@@ -120,7 +121,8 @@ std::string DeviceImpl::say_interpreted(const std::string& what, const std::stri
   if (reason.empty()) return {};
   std::lock_guard lock(said_mutex_);
   if (!said_.insert(reason).second) return {};
-  return Text(what, ", and what else fails this way, runs about a hundred times slower: ", reason);
+  return concat(what,
+                ", and what else fails this way, runs about a hundred times slower: ", reason);
 }
 
 ShaderIdentifier DeviceImpl::make_identifier(std::string_view name) {
@@ -138,8 +140,8 @@ std::string DeviceImpl::describe_address(GpuVirtualAddress address) const {
   return runtime::describe_address(addresses, address);
 }
 
-std::string Named(const char* kind, const std::string& name) {
-  return name.empty() ? Text("unnamed ", kind) : Text(kind, " ", Quoted(name));
+std::string named(const char* kind, const std::string& name) {
+  return name.empty() ? concat("unnamed ", kind) : concat(kind, " ", in_quotes(name));
 }
 
 }  // namespace detail
@@ -159,7 +161,7 @@ const DeviceDesc& Device::GetDesc() const {
 }
 
 Status Device::GetDeviceRemovedReason() const {
-  if (!impl_) return detail::MakeError(detail::Id::kNullHandle, "the device is an empty handle");
+  if (!impl_) return detail::make_error(detail::Id::kNullHandle, "the device is an empty handle");
   return impl_->removed();
 }
 

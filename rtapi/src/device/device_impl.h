@@ -84,15 +84,15 @@ struct DeviceImpl {
 };
 
 // Returns "buffer \"name\"" or "unnamed buffer".
-std::string Named(const char* kind, const std::string& name);
+std::string named(const char* kind, const std::string& name);
 
 // Fails for an empty handle or another device's object; `what` names the argument.
 template <class Handle>
 Status CheckHandle(const std::shared_ptr<DeviceImpl>& device, const Handle& handle,
                    std::string_view what) {
-  if (!handle) return MakeError(Id::kNullHandle, what, " is an empty handle");
+  if (!handle) return make_error(Id::kNullHandle, what, " is an empty handle");
   if (handle.impl()->device != device) {
-    return MakeError(Id::kForeignObject, what, " belongs to another device");
+    return make_error(Id::kForeignObject, what, " belongs to another device");
   }
   return {};
 }

@@ -14,20 +14,20 @@ using testing::CreateNullDevice;
 using testing::MessageOf;
 
 TEST(ErrorTableTest, IdsAreSortedUniqueAndDescribed) {
-  const auto table = detail::ErrorTable();
+  const auto table = detail::error_table();
   ASSERT_GT(table.size(), 90u);
   for (size_t i = 0; i < table.size(); ++i) {
-    const auto id = static_cast<uint32_t>(table[i].id);
+    const uint32_t id = table[i].number;
     if (i > 0) {
-      EXPECT_LT(table[i - 1].id, table[i].id);
+      EXPECT_LT(table[i - 1].number, table[i].number);
     }
     EXPECT_TRUE((id >= 500 && id < 1000) || (id >= 2750 && id < 2800)) << id;
     EXPECT_NE(std::string(table[i].title), "");
     EXPECT_NE(std::string(table[i].cure), "");
     if (id < 1000) {
-      EXPECT_NE(std::string(table[i].source), "") << id;
+      EXPECT_NE(std::string(table[i].rule), "") << id;
     }
-    const Error error = detail::MakeError(table[i].id, "detail");
+    const Error error = detail::make_error(static_cast<detail::Id>(table[i].number), "detail");
     EXPECT_EQ(error.code, table[i].code);
     EXPECT_EQ(error.message, error.id.text() + " " + table[i].title + ": detail");
   }
@@ -244,7 +244,7 @@ TEST_F(ResourceTest, BlocksHaveTwoOrThreeDimensionsAndNoUnorderedAccess) {
 
 TEST_F(ResourceTest, ForeignAndDeadAddressesAreNamed) {
   detail::Id id = detail::Id::kBuildAddress;
-  EXPECT_EQ(detail::MakeError(id, "x").id.text(), "KA0712");
+  EXPECT_EQ(detail::make_error(id, "x").id.text(), "KA0712");
   auto list = device_.CreateCommandList().value();
   uint64_t dead = 0;
   {

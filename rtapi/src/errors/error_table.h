@@ -4,54 +4,35 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <sstream>
 #include <string>
 
 #include <rtapi/result.h>
 
+#include "runtime/errors/message_table.h"
+#include "runtime/errors/text.h"
+
 namespace rtapi::detail {
+
+using kaamos::errors::concat;
+using kaamos::errors::hex;
+using kaamos::errors::in_quotes;
+using kaamos::errors::public_id;
 
 // The number in KAnnnn.
 enum class Id : uint16_t {
-#define KAAMOS_RTAPI_ERROR(number, name, code, title, rule, cure) name = number,
-#define KAAMOS_RTAPI_WARNING(number, name, title, rule, cure) name = number,
+#define KAAMOS_MESSAGE(number, name, ...) name = number,
 #include "rtapi/src/errors/errors.inc"
-#undef KAAMOS_RTAPI_WARNING
-#undef KAAMOS_RTAPI_ERROR
+#undef KAAMOS_MESSAGE
 };
 
-constexpr ErrorId PublicId(Id id) {
-  return ErrorId{static_cast<uint16_t>(id)};
-}
-
-struct ErrorEntry {
-  Id id;
-  ErrorCode code;
-  const char* title;   // what a message says after the id
-  const char* source;  // the rule: a conformance item or a D3D12 topic
-  const char* cure;
-};
-
-// Sorted by id.
-std::span<const ErrorEntry> ErrorTable();
-
-template <class... Parts>
-std::string Text(const Parts&... parts) {
-  std::ostringstream out;
-  (out << ... << parts);
-  return out.str();
-}
-
-std::string Quoted(std::string_view name);  // "\"name\""
-std::string Hex(uint64_t value);            // "0x1f"
+kaamos::errors::MessageTable error_table();
 
 // "KA0504 <title>: <detail>"
-Error MakeError(Id id, const std::string& detail);
+Error make_error(Id id, const std::string& detail);
 
 template <class... Parts>
-Error MakeError(Id id, const Parts&... parts) {
-  return MakeError(id, Text(parts...));
+Error make_error(Id id, const Parts&... parts) {
+  return make_error(id, concat(parts...));
 }
 
 }  // namespace rtapi::detail

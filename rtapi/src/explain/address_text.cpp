@@ -83,19 +83,20 @@ DescriptorDescription describe_descriptor(const DeviceImpl& device, const Descri
 
 std::string ToText(const AddressDescription& address) {
   if (address.Address == 0) return "address 0";
-  if (!address.Live) return Text("address ", Hex(address.Address), " (in no live buffer)");
-  return Text(Named("buffer", address.Buffer), " + ", address.OffsetInBytes, " (",
-              address.SizeInBytes, " bytes)");
+  if (!address.Live) return concat("address ", hex(address.Address), " (in no live buffer)");
+  return concat(named("buffer", address.Buffer), " + ", address.OffsetInBytes, " (",
+                address.SizeInBytes, " bytes)");
 }
 
 std::string ToText(const DescriptorDescription& d) {
-  std::string text = d.Access.empty() || d.Access == d.Kind ? d.Kind : Text(d.Access, " ", d.Kind);
+  std::string text =
+      d.Access.empty() || d.Access == d.Kind ? d.Kind : concat(d.Access, " ", d.Kind);
   if (d.Kind == "texture") {
-    text += d.Resource.empty() ? " without a name" : Text(" ", Quoted(d.Resource));
+    text += d.Resource.empty() ? " without a name" : concat(" ", in_quotes(d.Resource));
   }
-  if (d.StrideInBytes != 0) text += Text(", stride ", d.StrideInBytes);
-  if (d.Address.Address != 0) text += Text(", ", ToText(d.Address));
-  if (d.SizeInBytes != 0) text += Text(", view of ", d.SizeInBytes, " bytes");
+  if (d.StrideInBytes != 0) text += concat(", stride ", d.StrideInBytes);
+  if (d.Address.Address != 0) text += concat(", ", ToText(d.Address));
+  if (d.SizeInBytes != 0) text += concat(", view of ", d.SizeInBytes, " bytes");
   return text;
 }
 

@@ -69,16 +69,16 @@ Result<Found> FindDispatch(const CommandVector& commands, const ExplainDesc& des
     const auto* command = std::get_if<runtime::DispatchRaysCommand>(&commands[i]);
     if (command != nullptr && seen++ == desc.Dispatch) return Found{command, i};
   }
-  return MakeError(Id::kExplain, "Dispatch is ", desc.Dispatch, ", but the list has only ", seen,
-                   " calls of DispatchRays");
+  return make_error(Id::kExplain, "Dispatch is ", desc.Dispatch, ", but the list has only ", seen,
+                    " calls of DispatchRays");
 }
 
 Status CheckMemory(const DeviceImpl& device) {
   for (const runtime::Allocation& allocation : device.addresses.all()) {
     if (allocation.host != nullptr) continue;
-    Error error = MakeError(Id::kExplain, Named("buffer", allocation.name),
-                            " is in memory that the host cannot read, so its shaders cannot be "
-                            "replayed; use the embree backend");
+    Error error = make_error(Id::kExplain, named("buffer", allocation.name),
+                             " is in memory that the host cannot read, so its shaders cannot be "
+                             "replayed; use the embree backend");
     error.code = ErrorCode::kUnsupported;
     return error;
   }
@@ -124,9 +124,9 @@ Result<PixelExplanation> ExplainPixel(const CommandQueue& queue, const CommandLi
       [&](kaamos::explain::Replay& replay, const runtime::DispatchRaysCommand& command) -> Status {
         const DispatchRaysDesc& d = command.desc;
         if (desc.X >= d.Width || desc.Y >= d.Height || desc.Z >= d.Depth) {
-          return MakeError(Id::kExplain, "index (", desc.X, ", ", desc.Y, ", ", desc.Z,
-                           ") is outside the dispatch (", d.Width, " x ", d.Height, " x ", d.Depth,
-                           ")");
+          return make_error(Id::kExplain, "index (", desc.X, ", ", desc.Y, ", ", desc.Z,
+                            ") is outside the dispatch (", d.Width, " x ", d.Height, " x ", d.Depth,
+                            ")");
         }
         out.Backend = queue.impl()->device->backend->info().Name;
         out.Executor = kReplayed;

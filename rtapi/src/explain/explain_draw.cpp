@@ -28,8 +28,8 @@ Status ExecuteObserved(const CommandQueue& queue, const CommandList& list, const
   DeviceImpl& device = *queue.impl()->device;
   return execute_held(device, *list.impl()->uses, [&]() -> Status {
     if (!device.backend->observe_draws(&observation)) {
-      Error error = MakeError(Id::kExplain, call, ": the ", device.backend->info().Name,
-                              " backend does not rasterize by itself; use the embree backend");
+      Error error = make_error(Id::kExplain, call, ": the ", device.backend->info().Name,
+                               " backend does not rasterize by itself; use the embree backend");
       error.code = ErrorCode::kUnsupported;
       return error;
     }
@@ -47,9 +47,9 @@ std::string TexelText(Format format, const std::array<uint8_t, 16>& bytes) {
   for (uint32_t c = 0; c < info.channels; ++c) {
     if (c != 0) text += " ";
     if (info.type == FormatClass::kUint) {
-      text += Text(texel.bits[c]);
+      text += concat(texel.bits[c]);
     } else if (info.type == FormatClass::kSint) {
-      text += Text(static_cast<int32_t>(texel.bits[c]));
+      text += concat(static_cast<int32_t>(texel.bits[c]));
     } else {
       text += number_text(std::bit_cast<float>(texel.bits[c]));
     }
@@ -65,18 +65,18 @@ std::vector<ExplainedValue> Outputs(const runtime::LinkedGraphics& linked,
     const shader::SignatureElement& element = desc.outputs[i];
     ExplainedValue value;
     value.Name = element.system_value == shader::SystemValue::kTarget
-                     ? Text("SV_Target", element.semantic_index)
+                     ? concat("SV_Target", element.semantic_index)
                      : std::string(element.semantic);
     const bool is_float = element.type == shader::ColumnType::kFloat;
     const bool is_int = element.type == shader::ColumnType::kInt;
     value.Type = is_float ? "float" : is_int ? "int" : "uint";
-    if (element.components > 1) value.Type += Text(uint32_t{element.components});
+    if (element.components > 1) value.Type += concat(uint32_t{element.components});
     for (uint32_t c = 0; c < element.components; ++c) {
       const uint32_t bits = event.outputs[element.first_column + c];
       if (c != 0) value.Text += " ";
       value.Text += is_float ? number_text(std::bit_cast<float>(bits))
-                    : is_int ? Text(static_cast<int32_t>(bits))
-                             : Text(bits);
+                    : is_int ? concat(static_cast<int32_t>(bits))
+                             : concat(bits);
     }
     out.push_back(std::move(value));
   }
@@ -130,13 +130,13 @@ Result<DrawPixelExplanation> ExplainDrawPixel(const CommandQueue& queue, const C
   seen.log.slice = desc.Draws.Slice;
   if (Status s = ExecuteObserved(queue, list, "ExplainDrawPixel", seen); !s.ok()) return s.error();
   if (seen.noted == 0) {
-    return MakeError(Id::kExplain, "none of draws ", desc.Draws.FirstDraw,
-                     " and later was noted; the list has ", seen.next_draw, " draws, ",
-                     seen.left_out, " of these without targets");
+    return make_error(Id::kExplain, "none of draws ", desc.Draws.FirstDraw,
+                      " and later was noted; the list has ", seen.next_draw, " draws, ",
+                      seen.left_out, " of these without targets");
   }
   if (desc.X >= seen.width || desc.Y >= seen.height) {
-    return MakeError(Id::kExplain, "pixel (", desc.X, ", ", desc.Y, ") is outside of the targets (",
-                     seen.width, " x ", seen.height, ")");
+    return make_error(Id::kExplain, "pixel (", desc.X, ", ", desc.Y,
+                      ") is outside of the targets (", seen.width, " x ", seen.height, ")");
   }
   DrawPixelExplanation out;
   out.X = desc.X;

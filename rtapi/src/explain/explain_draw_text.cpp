@@ -41,13 +41,13 @@ const char* func_name(ComparisonFunc func) {
 
 std::string depth_text(const ExplainedTriangle& t) {
   if (!t.DepthTested) {
-    return Text("z ", number_text(t.Z),
-                t.DepthWritten ? ", stored without a test" : ", not tested");
+    return concat("z ", number_text(t.Z),
+                  t.DepthWritten ? ", stored without a test" : ", not tested");
   }
-  return Text("z ", number_text(t.Z), "; depth ", number_text(t.TestedDepth), " ",
-              func_name(t.DepthFunc), " ", number_text(t.StoredDepth),
-              t.TestedLate ? " after the pixel shader" : " before the pixel shader", ": ",
-              t.DepthPassed ? "passed" : "failed", t.DepthWritten ? ", stored" : "");
+  return concat("z ", number_text(t.Z), "; depth ", number_text(t.TestedDepth), " ",
+                func_name(t.DepthFunc), " ", number_text(t.StoredDepth),
+                t.TestedLate ? " after the pixel shader" : " before the pixel shader", ": ",
+                t.DepthPassed ? "passed" : "failed", t.DepthWritten ? ", stored" : "");
 }
 
 // JSON has no infinity and no NaN, so they are written as text.
@@ -60,31 +60,32 @@ Json depth_number(float value) {
 
 std::string ToText(const DrawPixelExplanation& e) {
   std::string out =
-      Text("pixel (", e.X, ", ", e.Y, ") of slice ", e.Slice, " of ", e.Width, " x ", e.Height,
-           " on ", e.Backend, "\n", e.Draws, e.Draws == 1 ? " draw" : " draws");
-  if (e.DrawsLeftOut != 0) out += Text(", ", e.DrawsLeftOut, " left out: targets of another size");
-  out += e.Triangles.empty()
-             ? std::string("; no triangle covers the pixel\n")
-             : Text("; ", e.Triangles.size(), e.Triangles.size() == 1 ? " triangle" : " triangles",
-                    " in the order of drawing:\n");
+      concat("pixel (", e.X, ", ", e.Y, ") of slice ", e.Slice, " of ", e.Width, " x ", e.Height,
+             " on ", e.Backend, "\n", e.Draws, e.Draws == 1 ? " draw" : " draws");
+  if (e.DrawsLeftOut != 0)
+    out += concat(", ", e.DrawsLeftOut, " left out: targets of another size");
+  out += e.Triangles.empty() ? std::string("; no triangle covers the pixel\n")
+                             : concat("; ", e.Triangles.size(),
+                                      e.Triangles.size() == 1 ? " triangle" : " triangles",
+                                      " in the order of drawing:\n");
   for (const ExplainedTriangle& t : e.Triangles) {
-    out += Text("  draw ", t.Draw, " (", t.Command, "), ", Quoted(t.Pipeline), ": instance ",
-                t.InstanceID, ", triangle ", t.PrimitiveID,
-                t.FrontFace ? ", front face: " : ", back face: ", outcome_name(t.Outcome), "\n");
-    out += Text("    weights ", number_text(t.Weights[0]), " ", number_text(t.Weights[1]), " ",
-                number_text(t.Weights[2]), "\n");
+    out += concat("  draw ", t.Draw, " (", t.Command, "), ", in_quotes(t.Pipeline), ": instance ",
+                  t.InstanceID, ", triangle ", t.PrimitiveID,
+                  t.FrontFace ? ", front face: " : ", back face: ", outcome_name(t.Outcome), "\n");
+    out += concat("    weights ", number_text(t.Weights[0]), " ", number_text(t.Weights[1]), " ",
+                  number_text(t.Weights[2]), "\n");
     if (t.Outcome == TriangleOutcome::kCulledByFace) continue;
-    out += Text("    ", depth_text(t), "\n");
+    out += concat("    ", depth_text(t), "\n");
     if (!t.PixelShader.empty()) {
-      out += Text("    pixel ", Quoted(t.PixelShader),
-                  t.Outcome == TriangleOutcome::kDiscarded ? " discarded it" : ":");
+      out += concat("    pixel ", in_quotes(t.PixelShader),
+                    t.Outcome == TriangleOutcome::kDiscarded ? " discarded it" : ":");
       for (size_t i = 0; i < t.Outputs.size(); ++i) {
-        out += Text(i == 0 ? " " : ", ", t.Outputs[i].Name, " = ", t.Outputs[i].Text);
+        out += concat(i == 0 ? " " : ", ", t.Outputs[i].Name, " = ", t.Outputs[i].Text);
       }
       out += "\n";
     }
     for (const ExplainedTexel& texel : t.Texels) {
-      out += Text("    target ", texel.Slot, ": ", texel.Before, " -> ", texel.After, "\n");
+      out += concat("    target ", texel.Slot, ": ", texel.Before, " -> ", texel.After, "\n");
     }
   }
   return out;

@@ -44,15 +44,15 @@ std::string vector_text(const float v[3]) {
 }
 
 std::string record_text(const ExplainedRecord& record) {
-  std::string text = Text(record.Table, " record ", record.Index);
+  std::string text = concat(record.Table, " record ", record.Index);
   if (!record.Arithmetic.empty()) text += " = " + record.Arithmetic;
-  if (!record.Export.empty()) text += Text(", ", Quoted(record.Export));
-  if (!record.Reason.empty()) text += Text(", nothing: ", record.Reason);
+  if (!record.Export.empty()) text += concat(", ", in_quotes(record.Export));
+  if (!record.Reason.empty()) text += concat(", nothing: ", record.Reason);
   return text;
 }
 
 void Writer::write_shader(const ExplainedShader& shader, int indent) {
-  std::string title = Text(stage_name(shader.Stage), " ", Quoted(shader.Name));
+  std::string title = concat(stage_name(shader.Stage), " ", in_quotes(shader.Name));
   if (!shader.Result.empty()) title += ": " + shader.Result;
   write_line(indent, title);
   write_line(indent + 1, record_text(shader.Record));
@@ -67,43 +67,43 @@ void Writer::write_shader(const ExplainedShader& shader, int indent) {
 }
 
 void Writer::write_candidate(const ExplainedCandidate& c, int indent) {
-  std::string text = Text("t ", number_text(c.T), ": instance ", c.InstanceIndex, " (ID ",
-                          c.InstanceID, "), geometry ", c.GeometryIndex, ", ",
-                          c.Procedural ? "box " : "triangle ", c.PrimitiveIndex);
+  std::string text = concat("t ", number_text(c.T), ": instance ", c.InstanceIndex, " (ID ",
+                            c.InstanceID, "), geometry ", c.GeometryIndex, ", ",
+                            c.Procedural ? "box " : "triangle ", c.PrimitiveIndex);
   if (!c.Procedural) text += c.FrontFace ? ", front face" : ", back face";
-  text += Text(": ", outcome_name(c.Outcome));
-  if (!c.Reason.empty()) text += Text(" (", c.Reason, ")");
+  text += concat(": ", outcome_name(c.Outcome));
+  if (!c.Reason.empty()) text += concat(" (", c.Reason, ")");
   write_line(indent, text);
   for (const ExplainedShader& shader : c.Shaders) write_shader(shader, indent + 1);
 }
 
 void Writer::write_trace_ray(const ExplainedCall& call, int indent) {
   const bool query = call.Kind == ExplainedCallKind::kRayQuery;
-  write_line(indent, query ? std::string("RayQuery") : Text("TraceRay, depth ", call.Depth));
+  write_line(indent, query ? std::string("RayQuery") : concat("TraceRay, depth ", call.Depth));
   write_line(indent + 1, "scene: " + ToText(call.Scene));
   write_line(indent + 1,
-             Text("flags: ", kaamos::explain::ray_flags_text(static_cast<uint32_t>(call.Flags)),
-                  "; mask ", Hex(call.InstanceInclusionMask)));
-  write_line(indent + 1, Text("ray: origin ", vector_text(call.Origin), ", direction ",
-                              vector_text(call.Direction), ", t ", number_text(call.TMin), " to ",
-                              number_text(call.TMax)));
+             concat("flags: ", kaamos::explain::ray_flags_text(static_cast<uint32_t>(call.Flags)),
+                    "; mask ", hex(call.InstanceInclusionMask)));
+  write_line(indent + 1, concat("ray: origin ", vector_text(call.Origin), ", direction ",
+                                vector_text(call.Direction), ", t ", number_text(call.TMin), " to ",
+                                number_text(call.TMax)));
   if (!query) {
-    write_line(indent + 1,
-               Text("records: ray contribution ", call.RayContributionToHitGroupIndex,
-                    ", geometry multiplier ", call.MultiplierForGeometryContributionToHitGroupIndex,
-                    ", miss index ", call.MissShaderIndex));
+    write_line(indent + 1, concat("records: ray contribution ", call.RayContributionToHitGroupIndex,
+                                  ", geometry multiplier ",
+                                  call.MultiplierForGeometryContributionToHitGroupIndex,
+                                  ", miss index ", call.MissShaderIndex));
   }
   if (!call.Before.empty()) write_line(indent + 1, "payload before: " + values_text(call.Before));
   const size_t count = call.Candidates.size() + call.CandidatesLeftOut;
   write_line(indent + 1, count == 0 ? std::string("no candidates")
-                                    : Text(count, count == 1 ? " candidate" : " candidates",
-                                           ", front to back:"));
+                                    : concat(count, count == 1 ? " candidate" : " candidates",
+                                             ", front to back:"));
   for (const ExplainedCandidate& candidate : call.Candidates)
     write_candidate(candidate, indent + 2);
   if (call.CandidatesLeftOut != 0)
-    write_line(indent + 2, Text("and ", call.CandidatesLeftOut, " more"));
+    write_line(indent + 2, concat("and ", call.CandidatesLeftOut, " more"));
   write_line(indent + 1,
-             call.Hit ? Text("hit at t ", number_text(call.HitT)) : std::string("miss"));
+             call.Hit ? concat("hit at t ", number_text(call.HitT)) : std::string("miss"));
   if (!call.Note.empty()) write_line(indent + 1, "note: " + call.Note);
   for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
   if (!call.After.empty()) write_line(indent + 1, "payload after: " + values_text(call.After));
@@ -115,8 +115,8 @@ void Writer::write_call(const ExplainedCall& call, int indent) {
     case ExplainedCallKind::kRayQuery:
       return write_trace_ray(call, indent);
     case ExplainedCallKind::kReportHit:
-      write_line(indent, Text("ReportHit, t ", number_text(call.HitT), ", kind ", call.HitKind,
-                              ": ", call.Note));
+      write_line(indent, concat("ReportHit, t ", number_text(call.HitT), ", kind ", call.HitKind,
+                                ": ", call.Note));
       for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
       return;
     case ExplainedCallKind::kCallShader:
@@ -132,13 +132,14 @@ void Writer::write_call(const ExplainedCall& call, int indent) {
 }  // namespace
 
 std::string ToText(const PixelExplanation& e) {
-  std::string out = Text("pixel (", e.Index[0], ", ", e.Index[1], ", ", e.Index[2], ") of ",
-                         e.Dimensions[0], " x ", e.Dimensions[1], " x ", e.Dimensions[2], " on ",
-                         e.Backend, "\n", e.Executor, "\n");
+  std::string out = concat("pixel (", e.Index[0], ", ", e.Index[1], ", ", e.Index[2], ") of ",
+                           e.Dimensions[0], " x ", e.Dimensions[1], " x ", e.Dimensions[2], " on ",
+                           e.Backend, "\n", e.Executor, "\n");
   Writer writer(out);
   if (e.RayGeneration.empty()) out += "the ray generation record runs nothing\n";
   for (const ExplainedShader& shader : e.RayGeneration) writer.write_shader(shader, 0);
-  if (!e.Removal.empty()) out += Text("ended: ", e.Removal, "; the dispatch removes the device\n");
+  if (!e.Removal.empty())
+    out += concat("ended: ", e.Removal, "; the dispatch removes the device\n");
   return out;
 }
 

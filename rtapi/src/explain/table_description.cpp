@@ -46,13 +46,13 @@ void add_names(const LinkedShader* shader, uint32_t offset, std::vector<std::str
 
 std::string register_of(shader::RegisterClass register_class, uint32_t index, uint32_t space,
                         uint32_t count = 1) {
-  std::string text = Text("tubs"[static_cast<uint32_t>(register_class) & 3], index);
+  std::string text = concat("tubs"[static_cast<uint32_t>(register_class) & 3], index);
   if (count == kUnboundedDescriptors) {
     text += "..";
   } else if (count > 1) {
-    text += Text("..", index + count - 1);
+    text += concat("..", index + count - 1);
   }
-  return space == 0 ? text : Text(text, ", space", space);
+  return space == 0 ? text : concat(text, ", space", space);
 }
 
 std::vector<std::string> registers_of(const RootParameter& parameter) {
@@ -151,8 +151,8 @@ void Describer::decode(const TableKind& kind, const GpuVirtualAddressRangeAndStr
   for (uint64_t i = 0; i < shown; ++i) {
     table.Records.push_back(decode_record(kind, table, i));
     if (table.Records.back().State == TableRecordState::kUnreadable) {
-      add_problem(Text(kind.name, " table: record ", i, " lies at ",
-                       ToText(table.Records.back().Address), ", which cannot be read"));
+      add_problem(concat(kind.name, " table: record ", i, " lies at ",
+                         ToText(table.Records.back().Address), ", which cannot be read"));
       table.RecordsLeftOut += shown - i - 1;
       break;
     }
@@ -175,9 +175,9 @@ TableRecord Describer::decode_record(const TableKind& kind, const DescribedTable
   const LinkedRecord* record = pipeline_.identifiers.find(bytes);
   if (record == nullptr) {
     out.State = TableRecordState::kUnknown;
-    add_problem(Text(kind.name, " table: record ", index,
-                     " holds no identifier of this state object. Was it written, and with an "
-                     "identifier of this state object?"));
+    add_problem(concat(kind.name, " table: record ", index,
+                       " holds no identifier of this state object. Was it written, and with an "
+                       "identifier of this state object?"));
     return out;
   }
   out.State = record->kind == kind.kind ? TableRecordState::kKnown : TableRecordState::kWrongTable;
@@ -188,8 +188,8 @@ TableRecord Describer::decode_record(const TableKind& kind, const DescribedTable
   out.ClosestHitShader = name(record->closest_hit);
   out.IntersectionShader = name(record->intersection);
   if (out.State == TableRecordState::kWrongTable) {
-    add_problem(Text(kind.name, " table: record ", index, " names ", Quoted(record->name),
-                     ", which belongs in another table; nothing runs for it"));
+    add_problem(concat(kind.name, " table: record ", index, " names ", in_quotes(record->name),
+                       ", which belongs in another table; nothing runs for it"));
     return out;
   }
   decode_arguments(table, *record, bytes, readable, out);
@@ -203,15 +203,15 @@ void Describer::decode_arguments(const DescribedTable& table, const LinkedRecord
   out.ArgumentBytes = signature.GetArgumentBytes();
   const uint64_t needed = kIdentifierBytes + out.ArgumentBytes;
   if (table.StrideInBytes != 0 && table.StrideInBytes < needed) {
-    add_problem(Text(table.Name, " table: record ", out.Index, " (", Quoted(record.name),
-                     ") takes ", needed, " bytes, the stride is ", table.StrideInBytes,
-                     ": it reaches into the next record. Make the stride at least ",
-                     align_up(needed, kRaytracingShaderRecordByteAlignment)));
+    add_problem(concat(table.Name, " table: record ", out.Index, " (", in_quotes(record.name),
+                       ") takes ", needed, " bytes, the stride is ", table.StrideInBytes,
+                       ": it reaches into the next record. Make the stride at least ",
+                       align_up(needed, kRaytracingShaderRecordByteAlignment)));
   }
   if (out.Index * table.StrideInBytes + needed > table.SizeInBytes) {
-    add_problem(Text(table.Name, " table: record ", out.Index, " (", Quoted(record.name),
-                     ") takes ", needed, " bytes and reaches past the table's ",
-                     table.SizeInBytes));
+    add_problem(concat(table.Name, " table: record ", out.Index, " (", in_quotes(record.name),
+                       ") takes ", needed, " bytes and reaches past the table's ",
+                       table.SizeInBytes));
   }
   for (uint32_t i = 0; i < signature.GetDesc().Parameters.size(); ++i) {
     const RootParameter& parameter = signature.GetDesc().Parameters[i];
@@ -222,17 +222,17 @@ void Describer::decode_arguments(const DescribedTable& table, const LinkedRecord
     if (offset + size > readable) break;
     out.Arguments.push_back(decode_argument(record, i, bytes + offset));
     const TableArgument& argument = out.Arguments.back();
-    const std::string where = Text(
-        table.Name, " table: record ", out.Index, " (", Quoted(record.name), "), argument ",
+    const std::string where = concat(
+        table.Name, " table: record ", out.Index, " (", in_quotes(record.name), "), argument ",
         argument.Registers.empty() ? std::string("without registers") : argument.Registers.front());
     if (argument.Type == RootParameterType::kDescriptorTable) {
       if (!argument.HandleIsLive) {
-        add_problem(Text(where, ": ", Hex(argument.Handle),
-                         " is no slot of a live shader-visible descriptor heap"));
+        add_problem(concat(where, ": ", hex(argument.Handle),
+                           " is no slot of a live shader-visible descriptor heap"));
       }
     } else if (argument.Type != RootParameterType::k32BitConstants && !argument.Address.Live &&
                argument.Address.Address != 0) {
-      add_problem(Text(where, ": ", ToText(argument.Address)));
+      add_problem(concat(where, ": ", ToText(argument.Address)));
     }
   }
 }
@@ -298,9 +298,9 @@ void Describer::add_reach(DescribedTable& table, uint64_t index, const TableReac
     if (to.ReachCount++ < desc_.MaxReachesPerRecord) to.ReachedBy.push_back(reach);
   } else if (table.RecordsLeftOut == 0 && out_of_table_++ == 0) {
     first_out_of_table_ =
-        Text("hit group table: instance ", reach.InstanceIndex, ", geometry ", reach.GeometryIndex,
-             ", ray type ", reach.RayType, " asks for record ", index, ", the table has ",
-             table.Records.size());
+        concat("hit group table: instance ", reach.InstanceIndex, ", geometry ",
+               reach.GeometryIndex, ", ray type ", reach.RayType, " asks for record ", index,
+               ", the table has ", table.Records.size());
   }
 }
 
@@ -313,8 +313,8 @@ void Describer::add_miss_reaches() {
       table->Records[record].ReachedBy.push_back({0, 0, 0, type});
       ++table->Records[record].ReachCount;
     } else if (table->RecordsLeftOut == 0) {
-      add_problem(Text("miss table: ray type ", type, " asks for record ", index,
-                       ", the table has ", table->Records.size()));
+      add_problem(concat("miss table: ray type ", type, " asks for record ", index,
+                         ", the table has ", table->Records.size()));
     }
   }
 }
@@ -323,9 +323,9 @@ Status Describer::add_hit_reaches() {
   if (desc_.TopLevel == 0) return {};
   const auto top = device_.backend->find_structure(desc_.TopLevel);
   if (top == nullptr || top->instances == nullptr) {
-    return MakeError(Id::kTableDescription, "there is no top level at ",
-                     ToText(describe_where(device_, desc_.TopLevel)),
-                     "; it was never built, or has been overwritten");
+    return make_error(Id::kTableDescription, "there is no top level at ",
+                      ToText(describe_where(device_, desc_.TopLevel)),
+                      "; it was never built, or has been overwritten");
   }
   DescribedTable* table = find(kHitGroup.name);
   if (table == nullptr) return {};
@@ -346,10 +346,10 @@ Status Describer::add_hit_reaches() {
     }
   }
   if (out_of_table_ != 0) {
-    add_problem(Text(first_out_of_table_,
-                     out_of_table_ == 1 ? "" : Text(" (and ", out_of_table_ - 1, " more)"),
-                     "; nothing runs for it. Do SizeInBytes, StrideInBytes and the contributions "
-                     "agree?"));
+    add_problem(concat(first_out_of_table_,
+                       out_of_table_ == 1 ? "" : concat(" (and ", out_of_table_ - 1, " more)"),
+                       "; nothing runs for it. Do SizeInBytes, StrideInBytes and the contributions "
+                       "agree?"));
   }
   return {};
 }
@@ -359,15 +359,16 @@ Status Describer::add_hit_reaches() {
 Result<TableDescription> DescribeShaderTables(const Device& device, const StateObject& state_object,
                                               const TableDescriptionDesc& desc) {
   if (!device)
-    return MakeError(Id::kNullHandle, "DescribeShaderTables: the device is an empty handle");
+    return make_error(Id::kNullHandle, "DescribeShaderTables: the device is an empty handle");
   if (Status s = CheckHandle(device.impl(), state_object, "DescribeShaderTables: the state object");
       !s.ok()) {
     return s.error();
   }
   const StateObjectImpl& state = *state_object.impl();
   if (state.linked == nullptr || state.type != StateObjectType::kRaytracingPipeline) {
-    return MakeError(Id::kTableDescription,
-                     "the state object is a collection, but tables hold identifiers of a pipeline");
+    return make_error(
+        Id::kTableDescription,
+        "the state object is a collection, but tables hold identifiers of a pipeline");
   }
   const std::lock_guard lock(device.impl()->execute_mutex);
   return Describer(*device.impl(), *state.linked, desc).run();

@@ -41,8 +41,8 @@ std::string constant_text(uint32_t bits) {
   float value;
   std::memcpy(&value, &bits, sizeof value);
   const float size = value < 0 ? -value : value;
-  if (size >= 1e-6f && size <= 1e9f) return Text(bits, " (", value, ")");
-  return Text(bits);
+  if (size >= 1e-6f && size <= 1e9f) return concat(bits, " (", value, ")");
+  return concat(bits);
 }
 
 std::string argument_text(const TableArgument& argument) {
@@ -54,9 +54,9 @@ std::string argument_text(const TableArgument& argument) {
     }
     case RootParameterType::kDescriptorTable:
       if (!argument.HandleIsLive) {
-        return Text("descriptor table at ", Hex(argument.Handle), " (in no live heap)");
+        return concat("descriptor table at ", hex(argument.Handle), " (in no live heap)");
       }
-      return Text("descriptor table at ", Named("heap", argument.Heap), " slot ", argument.Slot);
+      return concat("descriptor table at ", named("heap", argument.Heap), " slot ", argument.Slot);
     case RootParameterType::kCbv:
       return "root CBV, " + ToText(argument.Address);
     case RootParameterType::kSrv:
@@ -76,14 +76,14 @@ std::string record_title(const DescribedTable& table, const TableRecord& record)
     case TableRecordState::kUnreadable:
       return "cannot be read";
     case TableRecordState::kWrongTable:
-      return Text(Quoted(record.Export), ", which belongs in another table: nothing runs");
+      return concat(in_quotes(record.Export), ", which belongs in another table: nothing runs");
     case TableRecordState::kKnown:
       break;
   }
-  std::string text = Quoted(record.Export);
+  std::string text = in_quotes(record.Export);
   if (table.Name != "hit group") return text;
   const auto add = [&](const char* what, const std::string& name) {
-    if (!name.empty()) text += Text(", ", what, " ", Quoted(name));
+    if (!name.empty()) text += concat(", ", what, " ", in_quotes(name));
   };
   add("intersection", record.IntersectionShader);
   add("any-hit", record.AnyHitShader);
@@ -93,42 +93,42 @@ std::string record_title(const DescribedTable& table, const TableRecord& record)
 
 std::string ray_type_text(const TableDescription& d, uint32_t type) {
   const std::string& name = d.RayTypes[type].Name;
-  return name.empty() ? Text("ray type ", type) : Text("ray type ", type, " ", Quoted(name));
+  return name.empty() ? concat("ray type ", type) : concat("ray type ", type, " ", in_quotes(name));
 }
 
 std::string reach_text(const TableDescription& d, const DescribedTable& table,
                        const TableReach& reach) {
   if (table.Name != "hit group") return ray_type_text(d, reach.RayType);
-  return Text("instance ", reach.InstanceIndex, " (ID ", reach.InstanceID, "), geometry ",
-              reach.GeometryIndex, ", ", ray_type_text(d, reach.RayType));
+  return concat("instance ", reach.InstanceIndex, " (ID ", reach.InstanceID, "), geometry ",
+                reach.GeometryIndex, ", ", ray_type_text(d, reach.RayType));
 }
 
 void add_record(const TableDescription& d, const DescribedTable& table, const TableRecord& record,
                 std::string& out) {
-  out += Text("  record ", record.Index, " at + ", record.Index * table.StrideInBytes, ": ",
-              record_title(table, record), "\n");
+  out += concat("  record ", record.Index, " at + ", record.Index * table.StrideInBytes, ": ",
+                record_title(table, record), "\n");
   for (const TableArgument& argument : record.Arguments) {
-    out += Text("    + ", argument.OffsetInBytes, " ", join(argument.Registers, " | "));
-    if (!argument.Names.empty()) out += Text(" ", Quoted(join(argument.Names, "\", \"")));
-    out += Text(": ", argument_text(argument), "\n");
+    out += concat("    + ", argument.OffsetInBytes, " ", join(argument.Registers, " | "));
+    if (!argument.Names.empty()) out += concat(" ", in_quotes(join(argument.Names, "\", \"")));
+    out += concat(": ", argument_text(argument), "\n");
     for (const DescriptorDescription& descriptor : argument.Descriptors) {
-      out += Text("      slot ", descriptor.Slot, ": ", ToText(descriptor), "\n");
+      out += concat("      slot ", descriptor.Slot, ": ", ToText(descriptor), "\n");
     }
     if (argument.DescriptorsLeftOut != 0) {
-      out += Text("      and ", argument.DescriptorsLeftOut, " more\n");
+      out += concat("      and ", argument.DescriptorsLeftOut, " more\n");
     }
   }
   for (const TableReach& reach : record.ReachedBy) {
-    out += Text("    reached by ", reach_text(d, table, reach), "\n");
+    out += concat("    reached by ", reach_text(d, table, reach), "\n");
   }
   if (record.ReachCount > record.ReachedBy.size()) {
-    out += Text("    and ", record.ReachCount - record.ReachedBy.size(), " more\n");
+    out += concat("    and ", record.ReachCount - record.ReachedBy.size(), " more\n");
   }
 }
 
 Json to_json_value(const AddressDescription& address) {
   Json json;
-  json["address"] = Hex(address.Address);
+  json["address"] = hex(address.Address);
   json["live"] = address.Live;
   if (!address.Live) return json;
   json["buffer"] = address.Buffer;
@@ -169,7 +169,7 @@ Json to_json_value(const TableArgument& argument) {
   if (argument.Type == RootParameterType::k32BitConstants) {
     json["values"] = argument.Constants;
   } else if (argument.Type == RootParameterType::kDescriptorTable) {
-    json["handle"] = Hex(argument.Handle);
+    json["handle"] = hex(argument.Handle);
     json["live"] = argument.HandleIsLive;
     json["heap"] = argument.Heap;
     json["slot"] = argument.Slot;
@@ -217,13 +217,13 @@ std::string ToText(const TableDescription& d) {
   std::string out;
   for (const DescribedTable& table : d.Tables) {
     const size_t count = table.Records.size() + table.RecordsLeftOut;
-    out += Text(table.Name, " table: ", count, count == 1 ? " record" : " records");
-    if (table.StrideInBytes != 0) out += Text(" every ", table.StrideInBytes, " bytes");
-    out += Text(" at ", ToText(table.Address), "\n");
+    out += concat(table.Name, " table: ", count, count == 1 ? " record" : " records");
+    if (table.StrideInBytes != 0) out += concat(" every ", table.StrideInBytes, " bytes");
+    out += concat(" at ", ToText(table.Address), "\n");
     for (const TableRecord& record : table.Records) add_record(d, table, record, out);
-    if (table.RecordsLeftOut != 0) out += Text("  and ", table.RecordsLeftOut, " more\n");
+    if (table.RecordsLeftOut != 0) out += concat("  and ", table.RecordsLeftOut, " more\n");
   }
-  for (const std::string& problem : d.Problems) out += Text("problem: ", problem, "\n");
+  for (const std::string& problem : d.Problems) out += concat("problem: ", problem, "\n");
   return out;
 }
 

@@ -44,9 +44,10 @@ Result<DefinitionPtr> find_explicit(const std::vector<const ExplicitAssociation*
   for (const ExplicitAssociation* a : candidates) {
     if (a->definition->category != category || (a->library_scope < 0) != in_state_object) continue;
     if (first && !same_definition(*first->definition, *a->definition)) {
-      return MakeError(Id::kAssociationConflict, Quoted(subject.name), " is associated with two ",
-                       category_name(category), "s: ", first->definition->where, " (by ",
-                       first->where, ") and ", a->definition->where, " (by ", a->where, ")");
+      return make_error(Id::kAssociationConflict, in_quotes(subject.name),
+                        " is associated with two ", category_name(category),
+                        "s: ", first->definition->where, " (by ", first->where, ") and ",
+                        a->definition->where, " (by ", a->where, ")");
     }
     if (!first) first = a;
   }
@@ -79,10 +80,10 @@ Result<Associated> resolve(const Parts& parts,
   const Associated& given = subject.associations[static_cast<size_t>(category)];
   if (given.definition) {  // set by its collection, so final
     if (*own && !same_definition(**own, *given.definition)) {
-      return MakeError(Id::kAssociationConflict, "the collection of ", Quoted(subject.name),
-                       " already set its ", category_name(category), " (", given.definition->where,
-                       "), so ", (*own)->where,
-                       " cannot replace it; associate it when you create the collection");
+      return make_error(Id::kAssociationConflict, "the collection of ", in_quotes(subject.name),
+                        " already set its ", category_name(category), " (", given.definition->where,
+                        "), so ", (*own)->where,
+                        " cannot replace it; associate it when you create the collection");
     }
     return given;
   }
@@ -115,9 +116,9 @@ Status check_names_exist(const Parts& parts) {
           continue;
         }
       }
-      return MakeError(Id::kAssociationUnknownExport, a.where, " associates ",
-                       category_name(a.definition->category), " with ", Quoted(name),
-                       ", which this state object does not export");
+      return make_error(Id::kAssociationUnknownExport, a.where, " associates ",
+                        category_name(a.definition->category), " with ", in_quotes(name),
+                        ", which this state object does not export");
     }
   }
   return {};

@@ -39,8 +39,8 @@ DescriptorKind kind_of(BindingType type) {
 }
 
 std::string describe(const BindingDesc& b) {
-  return Text(Quoted(b.name), " (", register_text(b.register_class, b.register_index, b.space),
-              ")");
+  return concat(in_quotes(b.name), " (", register_text(b.register_class, b.register_index, b.space),
+                ")");
 }
 
 // Finds the range of a signature that contains the binding's first register and is visible.
@@ -78,9 +78,9 @@ Status fill_table(const BindingDesc& binding, const RegisterRange& range,
   const uint64_t available = range.end - binding.register_index;
   const bool unbounded = binding.count == shader::kUnbounded;
   if (!unbounded && binding.count > available) {
-    return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding), " needs ",
-                     binding.count, " registers, but parameter ", range.parameter, " has only ",
-                     available, " from there on");
+    return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding), " needs ",
+                      binding.count, " registers, but parameter ", range.parameter, " has only ",
+                      available, " from there on");
   }
   slot.source = SlotSource::kDescriptorTable;
   slot.descriptor_index =
@@ -99,10 +99,10 @@ Status fill_root_descriptor(const BindingDesc& binding, const RegisterRange& ran
                       binding.type == BindingType::kStructuredBuffer ||
                       binding.type == BindingType::kAccelerationStructure;
   if (!buffer || binding.count != 1) {
-    return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding),
-                     binding.count != 1 ? " is an array" : " is a texture or typed buffer",
-                     ", which root descriptor ", range.parameter,
-                     " cannot hold; bind it through a descriptor table");
+    return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding),
+                      binding.count != 1 ? " is an array" : " is a texture or typed buffer",
+                      ", which root descriptor ", range.parameter,
+                      " cannot hold; bind it through a descriptor table");
   }
   slot.source = SlotSource::kRootDescriptor;
   if (binding.type == BindingType::kConstantBuffer) slot.size_bytes = binding.size_bytes;
@@ -129,8 +129,8 @@ Status fill_slot(const RootSignature& signature, const BindingDesc& binding,
   }
   if (range.static_sampler) {
     if (binding.count != 1) {
-      return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding),
-                       " is an array, but a static sampler covers a single register");
+      return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding),
+                        " is an array, but a static sampler covers a single register");
     }
     slot.source = SlotSource::kStaticSampler;
     slot.static_sampler = &signature.impl()->static_samplers[range.parameter];
@@ -144,9 +144,9 @@ Status fill_slot(const RootSignature& signature, const BindingDesc& binding,
       return fill_table(binding, range, parameter, where, slot);
     case RootParameterType::k32BitConstants:
       if (binding.count != 1) {
-        return MakeError(Id::kBindingMismatch, where, ": resource ", describe(binding),
-                         " is an array, which root constants (parameter ", range.parameter,
-                         ") cannot hold");
+        return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding),
+                          " is an array, which root constants (parameter ", range.parameter,
+                          ") cannot hold");
       }
       slot.source = SlotSource::kRootConstants;
       slot.size_bytes = parameter.Constants.Num32BitValues * 4;
@@ -161,15 +161,15 @@ Status check_heap_access(const shader::ExportDesc& code, const RootSignature& gl
   const RootSignatureFlags flags = global.GetDesc().Flags;
   if ((code.flags & shader::kExportUsesViewHeap) &&
       !HasAny(flags, RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed)) {
-    return MakeError(Id::kBindingMissing, where,
-                     ": uses ResourceDescriptorHeap, so its global root signature needs the flag "
-                     "kCbvSrvUavHeapDirectlyIndexed");
+    return make_error(Id::kBindingMissing, where,
+                      ": uses ResourceDescriptorHeap, so its global root signature needs the flag "
+                      "kCbvSrvUavHeapDirectlyIndexed");
   }
   if ((code.flags & shader::kExportUsesSamplerHeap) &&
       !HasAny(flags, RootSignatureFlags::kSamplerHeapDirectlyIndexed)) {
-    return MakeError(Id::kBindingMissing, where,
-                     ": uses SamplerDescriptorHeap, so its global root signature needs the flag "
-                     "kSamplerHeapDirectlyIndexed");
+    return make_error(Id::kBindingMissing, where,
+                      ": uses SamplerDescriptorHeap, so its global root signature needs the flag "
+                      "kSamplerHeapDirectlyIndexed");
   }
   return {};
 }
@@ -191,9 +191,9 @@ Result<std::vector<BindingSlot>> resolve_bindings(
       range = find(global, binding, stage);
     }
     if (!range) {
-      return MakeError(
+      return make_error(
           Id::kBindingMissing, where, ": resource ", describe(binding), " of ",
-          Quoted(library.name ? library.name : ""), " is ",
+          in_quotes(library.name ? library.name : ""), " is ",
           global && local ? "in neither its global nor its local root signature"
           : global ? "not in its global root signature, or not visible to this stage; it has no "
                      "local one"
@@ -214,12 +214,12 @@ Status check_root_signatures_disjoint(const RootSignature& global, const RootSig
   for (const RegisterRange& a : get_register_ranges(local.GetDesc())) {
     for (const RegisterRange& b : outer) {
       if (!overlap(a, b)) continue;
-      return MakeError(Id::kRootSignaturesOverlap, where, ": register ",
-                       register_text(a.register_class, std::max(a.first, b.first), a.space),
-                       " is in its local root signature (",
-                       a.static_sampler ? "sampler " : "parameter ", a.parameter,
-                       ") and in its global one (", b.static_sampler ? "sampler " : "parameter ",
-                       b.parameter, ")");
+      return make_error(Id::kRootSignaturesOverlap, where, ": register ",
+                        register_text(a.register_class, std::max(a.first, b.first), a.space),
+                        " is in its local root signature (",
+                        a.static_sampler ? "sampler " : "parameter ", a.parameter,
+                        ") and in its global one (", b.static_sampler ? "sampler " : "parameter ",
+                        b.parameter, ")");
     }
   }
   return {};
@@ -229,17 +229,17 @@ Status check_tier(const DeviceImpl& device, const shader::ExportDesc& code,
                   const std::string& where) {
   if (device.desc.Tier >= RaytracingTier::kTier1_1) return {};
   if ((code.flags & shader::kExportUsesRayQuery) != 0) {
-    return MakeError(Id::kShaderTier, where,
-                     " uses RayQuery, but the device was created with tier 1.0");
+    return make_error(Id::kShaderTier, where,
+                      " uses RayQuery, but the device was created with tier 1.0");
   }
   constexpr uint32_t kSkipFlags = 0x300;
   for (uint32_t i = 0; i < code.trace_call_count; ++i) {
     const shader::TraceCall& call = code.trace_calls[i];
     if ((call.known & shader::kKnowsRayFlags) == 0 || (call.ray_flags & kSkipFlags) == 0) continue;
-    return MakeError(Id::kShaderTier, where, " calls TraceRay with ray flags ", Hex(call.ray_flags),
-                     " (", call.file ? call.file : "", ":", call.line,
-                     "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES "
-                     "need tier 1.1, but the device was created with tier 1.0");
+    return make_error(Id::kShaderTier, where, " calls TraceRay with ray flags ",
+                      hex(call.ray_flags), " (", call.file ? call.file : "", ":", call.line,
+                      "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES "
+                      "need tier 1.1, but the device was created with tier 1.0");
   }
   return {};
 }

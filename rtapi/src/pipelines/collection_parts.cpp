@@ -9,24 +9,24 @@ namespace rtapi::detail {
 Status Gatherer::gather(const ExistingCollectionDesc& sub, size_t i) {
   const std::string where = where_of(i);
   if (parts_.is_collection()) {
-    return MakeError(Id::kCollectionNested, where,
-                     " is an existing collection; only a pipeline may include collections");
+    return make_error(Id::kCollectionNested, where,
+                      " is an existing collection; only a pipeline may include collections");
   }
   if (!sub.pExistingCollection) {
-    return MakeError(Id::kNullHandle, where, ": pExistingCollection is empty");
+    return make_error(Id::kNullHandle, where, ": pExistingCollection is empty");
   }
   if (Status s = CheckHandle(parts_.device, *sub.pExistingCollection, where); !s.ok()) return s;
   const StateObjectImpl& collection = *sub.pExistingCollection->impl();
   if (collection.type != StateObjectType::kCollection) {
-    return MakeError(Id::kCollectionNested, where,
-                     " is a pipeline; only collections can be "
-                     "included. Use AddToStateObject to extend a pipeline");
+    return make_error(Id::kCollectionNested, where,
+                      " is a pipeline; only collections can be "
+                      "included. Use AddToStateObject to extend a pipeline");
   }
   const auto additions = StateObjectFlags::kAllowStateObjectAdditions;
   if (HasAny(parts_.flags, additions) && !HasAny(collection.flags, additions)) {
-    return MakeError(Id::kCollectionWithoutAdditions, where,
-                     ": the pipeline has flag 0x4 "
-                     "(kAllowStateObjectAdditions), so the collection needs it too");
+    return make_error(Id::kCollectionWithoutAdditions, where,
+                      ": the pipeline has flag 0x4 "
+                      "(kAllowStateObjectAdditions), so the collection needs it too");
   }
   return import_collection(collection, sub.Exports, where);
 }
@@ -86,8 +86,8 @@ Status Gatherer::list_collection_exports(const StateObjectImpl& collection,
       }
     }
     if (!found) {
-      return MakeError(Id::kExportNotFound, where, ": the collection has no export ",
-                       Quoted(source));
+      return make_error(Id::kExportNotFound, where, ": the collection has no export ",
+                        in_quotes(source));
     }
   }
   return {};

@@ -32,9 +32,9 @@ Status Gatherer::define_root_signature(const RootSignature& signature, bool loca
     return s;
   }
   if (signature.is_local() != local) {
-    return MakeError(Id::kRootSignatureKind, where, " takes a ", local ? "local" : "global",
-                     " root signature, but this one was created ", local ? "without" : "with",
-                     " the flag kLocalRootSignature");
+    return make_error(Id::kRootSignatureKind, where, " takes a ", local ? "local" : "global",
+                      " root signature, but this one was created ", local ? "without" : "with",
+                      " the flag kLocalRootSignature");
   }
   Definition d;
   d.category = local ? Category::kLocalRootSignature : Category::kGlobalRootSignature;
@@ -47,8 +47,8 @@ Status Gatherer::define_root_signature(const RootSignature& signature, bool loca
 Status Gatherer::define_shader_config(const RaytracingShaderConfig& config,
                                       const std::string& where, DefinitionPtr& out) {
   if (config.MaxAttributeSizeInBytes > kRaytracingMaxAttributeSizeInBytes) {
-    return MakeError(Id::kAttributeSizeLimit, where, ": MaxAttributeSizeInBytes is ",
-                     config.MaxAttributeSizeInBytes, "; it must be 0 to 32");
+    return make_error(Id::kAttributeSizeLimit, where, ": MaxAttributeSizeInBytes is ",
+                      config.MaxAttributeSizeInBytes, "; it must be 0 to 32");
   }
   Definition d;
   d.category = Category::kShaderConfig;
@@ -61,23 +61,23 @@ Status Gatherer::define_shader_config(const RaytracingShaderConfig& config,
 Status Gatherer::define_pipeline_config(const RaytracingPipelineConfig1& config, bool config1,
                                         const std::string& where, DefinitionPtr& out) {
   if (config.MaxTraceRecursionDepth > kRaytracingMaxDeclarableTraceRecursionDepth) {
-    return MakeError(Id::kRecursionDepth, where, ": MaxTraceRecursionDepth is ",
-                     config.MaxTraceRecursionDepth, "; it must be 0 to 31");
+    return make_error(Id::kRecursionDepth, where, ": MaxTraceRecursionDepth is ",
+                      config.MaxTraceRecursionDepth, "; it must be 0 to 31");
   }
   if (config1 && parts_.device->desc.Tier < RaytracingTier::kTier1_1) {
-    return MakeError(Id::kPipelineConfig1Tier, where,
-                     " is a RaytracingPipelineConfig1, but this device was created with tier 1.0");
+    return make_error(Id::kPipelineConfig1Tier, where,
+                      " is a RaytracingPipelineConfig1, but this device was created with tier 1.0");
   }
   const auto known =
       RaytracingPipelineFlags::kSkipTriangles | RaytracingPipelineFlags::kSkipProceduralPrimitives;
   if ((config.Flags & ~known) != RaytracingPipelineFlags::kNone) {
-    return MakeError(Id::kConfigFlags, where, ": undefined pipeline flags ",
-                     Hex(static_cast<uint32_t>(config.Flags)),
-                     "; only 0x100 and 0x200 are defined");
+    return make_error(Id::kConfigFlags, where, ": undefined pipeline flags ",
+                      hex(static_cast<uint32_t>(config.Flags)),
+                      "; only 0x100 and 0x200 are defined");
   }
   if (config.Flags == known) {
-    return MakeError(Id::kConfigFlags, where,
-                     ": kSkipTriangles and kSkipProceduralPrimitives cannot both be set");
+    return make_error(Id::kConfigFlags, where,
+                      ": kSkipTriangles and kSkipProceduralPrimitives cannot both be set");
   }
   Definition d;
   d.category = Category::kPipelineConfig;
@@ -89,23 +89,23 @@ Status Gatherer::define_pipeline_config(const RaytracingPipelineConfig1& config,
 
 Status Gatherer::add_hit_group(const HitGroupDesc& group, int scope, const std::string& where) {
   if (group.HitGroupExport.empty()) {
-    return MakeError(Id::kExportUnnamed, where, ": HitGroupExport is empty");
+    return make_error(Id::kExportUnnamed, where, ": HitGroupExport is empty");
   }
-  const std::string name = Text(where, ", hit group ", Quoted(group.HitGroupExport));
+  const std::string name = concat(where, ", hit group ", in_quotes(group.HitGroupExport));
   const bool has_intersection = !group.IntersectionShaderImport.empty();
   if (group.Type != HitGroupType::kTriangles && group.Type != HitGroupType::kProceduralPrimitive) {
-    return MakeError(Id::kHitGroupShape, name, ": type ", static_cast<uint32_t>(group.Type),
-                     "; it must be kTriangles (0) or kProceduralPrimitive (1)");
+    return make_error(Id::kHitGroupShape, name, ": type ", static_cast<uint32_t>(group.Type),
+                      "; it must be kTriangles (0) or kProceduralPrimitive (1)");
   }
   if (group.Type == HitGroupType::kTriangles && has_intersection) {
-    return MakeError(Id::kHitGroupShape, name,
-                     ": a triangle hit group cannot have an intersection shader, but this one "
-                     "imports ",
-                     Quoted(group.IntersectionShaderImport));
+    return make_error(Id::kHitGroupShape, name,
+                      ": a triangle hit group cannot have an intersection shader, but this one "
+                      "imports ",
+                      in_quotes(group.IntersectionShaderImport));
   }
   if (group.Type == HitGroupType::kProceduralPrimitive && !has_intersection) {
-    return MakeError(Id::kHitGroupShape, name,
-                     ": a procedural hit group needs an intersection shader");
+    return make_error(Id::kHitGroupShape, name,
+                      ": a procedural hit group needs an intersection shader");
   }
   auto subject = std::make_shared<Subject>();
   subject->name = group.HitGroupExport;

@@ -53,14 +53,14 @@ const char* type_name(ColumnType type) {
 std::string describe(const SignatureElement& e) {
   std::string type = type_name(e.type);
   if (e.components > 1) type += std::to_string(e.components);
-  return Text(e.semantic, e.semantic_index, " (", type, ", ", e.file ? e.file : "", ":", e.line,
-              ")");
+  return concat(e.semantic, e.semantic_index, " (", type, ", ", e.file ? e.file : "", ":", e.line,
+                ")");
 }
 
 std::string list_semantics(std::span<const InputElementDesc> elements) {
   std::string out;
   for (const InputElementDesc& e : elements) {
-    out += Text(out.empty() ? "" : ", ", e.SemanticName, e.SemanticIndex);
+    out += concat(out.empty() ? "" : ", ", e.SemanticName, e.SemanticIndex);
   }
   return out.empty() ? "nothing" : out;
 }
@@ -79,28 +79,28 @@ ColumnType column_type_of(Format format) {
 
 Status check_element(const InputElementDesc& e, size_t index, uint32_t offset) {
   const std::string where =
-      Text("InputLayout[", index, "] (", e.SemanticName, e.SemanticIndex, ")");
+      concat("InputLayout[", index, "] (", e.SemanticName, e.SemanticIndex, ")");
   const FormatInfo info = GetFormatInfo(e.Format);
   if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless || info.srgb ||
       IsDepthFormat(e.Format)) {
-    return MakeError(Id::kInputLayout, where, " has DXGI format ", static_cast<uint32_t>(e.Format),
-                     ", which vertices cannot have");
+    return make_error(Id::kInputLayout, where, " has DXGI format ", static_cast<uint32_t>(e.Format),
+                      ", which vertices cannot have");
   }
   if (e.InputSlot >= kIAVertexInputResourceSlotCount) {
-    return MakeError(Id::kInputLayout, where, " is in slot ", e.InputSlot, "; there are 0 to 31");
+    return make_error(Id::kInputLayout, where, " is in slot ", e.InputSlot, "; there are 0 to 31");
   }
   const uint32_t alignment = std::min<uint32_t>(4, info.bytes);
   if (offset % alignment != 0 || offset + info.bytes > kMaxElementEnd) {
-    return MakeError(Id::kInputLayout, where, " is at byte ", offset, "; it must be a multiple of ",
-                     alignment, " and end by byte 2048");
+    return make_error(Id::kInputLayout, where, " is at byte ", offset,
+                      "; it must be a multiple of ", alignment, " and end by byte 2048");
   }
   if (e.InputSlotClass > InputClassification::kPerInstanceData) {
-    return MakeError(Id::kInputLayout, where, " has class ",
-                     static_cast<uint32_t>(e.InputSlotClass), "; it must be 0 or 1");
+    return make_error(Id::kInputLayout, where, " has class ",
+                      static_cast<uint32_t>(e.InputSlotClass), "; it must be 0 or 1");
   }
   if (e.InputSlotClass == InputClassification::kPerVertexData && e.InstanceDataStepRate != 0) {
-    return MakeError(Id::kInputLayout, where, " changes with the vertex, but has a step rate of ",
-                     e.InstanceDataStepRate, "; it must be 0");
+    return make_error(Id::kInputLayout, where, " changes with the vertex, but has a step rate of ",
+                      e.InstanceDataStepRate, "; it must be 0");
   }
   return {};
 }
@@ -124,12 +124,12 @@ Result<std::vector<uint32_t>> offsets_of(std::span<const InputElementDesc> eleme
     for (size_t k = 0; k < i; ++k) {
       const InputElementDesc& other = elements[k];
       if (other.SemanticIndex == e.SemanticIndex && same_name(other.SemanticName, e.SemanticName)) {
-        return MakeError(Id::kInputLayout, "InputLayout has ", e.SemanticName, e.SemanticIndex,
-                         " twice, as elements ", k, " and ", i);
+        return make_error(Id::kInputLayout, "InputLayout has ", e.SemanticName, e.SemanticIndex,
+                          " twice, as elements ", k, " and ", i);
       }
       if (other.InputSlot == e.InputSlot && other.InputSlotClass != e.InputSlotClass) {
-        return MakeError(Id::kInputLayout, "InputLayout elements ", k, " and ", i, " are in slot ",
-                         e.InputSlot, ", one with the vertex and one with the instance");
+        return make_error(Id::kInputLayout, "InputLayout elements ", k, " and ", i, " are in slot ",
+                          e.InputSlot, ", one with the vertex and one with the instance");
       }
     }
   }
@@ -153,13 +153,13 @@ Status link_vertex_input(const GraphicsPipelineStateDesc& desc, std::span<const 
     return e.SemanticIndex == input.semantic_index && same_name(e.SemanticName, input.semantic);
   });
   if (it == elements.end()) {
-    return MakeError(Id::kInputLayout, "vertex shader ", Quoted(linked.vertex.name), " reads ",
-                     describe(input), "; the input layout has ", list_semantics(elements));
+    return make_error(Id::kInputLayout, "vertex shader ", in_quotes(linked.vertex.name), " reads ",
+                      describe(input), "; the input layout has ", list_semantics(elements));
   }
   if (column_type_of(it->Format) != input.type) {
-    return MakeError(Id::kInputLayout, "vertex shader ", Quoted(linked.vertex.name), " reads ",
-                     describe(input), ", but DXGI format ", static_cast<uint32_t>(it->Format),
-                     " of the element gives ", type_name(column_type_of(it->Format)));
+    return make_error(Id::kInputLayout, "vertex shader ", in_quotes(linked.vertex.name), " reads ",
+                      describe(input), ", but DXGI format ", static_cast<uint32_t>(it->Format),
+                      " of the element gives ", type_name(column_type_of(it->Format)));
   }
   runtime::LinkedElement element;
   element.slot = it->InputSlot;
@@ -201,19 +201,19 @@ Status link_vertex_outputs(LinkedGraphics& linked) {
     }
   }
   if (columns.position == runtime::kNoColumn) {
-    return MakeError(Id::kStageLinkage, "vertex shader ", Quoted(linked.vertex.name),
-                     " writes no SV_Position, which rasterization needs");
+    return make_error(Id::kStageLinkage, "vertex shader ", in_quotes(linked.vertex.name),
+                      " writes no SV_Position, which rasterization needs");
   }
   const size_t distances = columns.clip_distances.size() + columns.cull_distances.size();
   if (distances > kMaxClipAndCullDistances) {
-    return MakeError(Id::kStageLinkage, "vertex shader ", Quoted(linked.vertex.name), " writes ",
-                     columns.clip_distances.size(), " clip and ", columns.cull_distances.size(),
-                     " cull distances; together at most 8");
+    return make_error(Id::kStageLinkage, "vertex shader ", in_quotes(linked.vertex.name),
+                      " writes ", columns.clip_distances.size(), " clip and ",
+                      columns.cull_distances.size(), " cull distances; together at most 8");
   }
   const uint32_t vectors = linked.vertex.code->graphics->output_count;
   if (vectors > kMaxInterstageVectors) {
-    return MakeError(Id::kStageLinkage, "vertex shader ", Quoted(linked.vertex.name), " writes ",
-                     vectors, " vectors; at most 32");
+    return make_error(Id::kStageLinkage, "vertex shader ", in_quotes(linked.vertex.name),
+                      " writes ", vectors, " vectors; at most 32");
   }
   return {};
 }
@@ -245,12 +245,12 @@ bool link_pixel_system_value(const SignatureElement& input, runtime::PixelSystem
 Status link_pixel_input(const SignatureElement& input, LinkedGraphics& linked) {
   if (link_pixel_system_value(input, linked.pixel_columns)) return {};
   const std::string reads =
-      Text("pixel shader ", Quoted(linked.pixel.name), " reads ", describe(input));
+      concat("pixel shader ", in_quotes(linked.pixel.name), " reads ", describe(input));
   for (const SignatureElement& output : outputs_of(linked.vertex)) {
     if (!same_semantic(output, input)) continue;
     if (output.type != input.type || output.components < input.components) {
-      return MakeError(Id::kStageLinkage, reads, "; vertex shader ", Quoted(linked.vertex.name),
-                       " writes ", describe(output));
+      return make_error(Id::kStageLinkage, reads, "; vertex shader ", in_quotes(linked.vertex.name),
+                        " writes ", describe(output));
     }
     linked.varyings.push_back(
         {output.first_column, input.first_column, input.components, input.interpolation});
@@ -261,8 +261,8 @@ Status link_pixel_input(const SignatureElement& input, LinkedGraphics& linked) {
       input.system_value == SystemValue::kViewportArrayIndex) {
     return {};
   }
-  return MakeError(Id::kStageLinkage, reads, ", which vertex shader ", Quoted(linked.vertex.name),
-                   " does not write");
+  return make_error(Id::kStageLinkage, reads, ", which vertex shader ",
+                    in_quotes(linked.vertex.name), " does not write");
 }
 
 // Native D3D12 links by registers, which follow the order of declaration. [RAS-21]
@@ -272,20 +272,20 @@ void warn_of_order(const DeviceImpl& device, const LinkedGraphics& linked) {
       [](const auto& a, const auto& b) { return a.vertex_column < b.vertex_column; });
   if (in_order) return;
   device.report(MessageSeverity::kWarning,
-                MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name),
-                          ": pixel shader ", Quoted(linked.pixel.name),
-                          " declares its inputs in another order than vertex shader ",
-                          Quoted(linked.vertex.name),
-                          " its outputs; Direct3D 12 itself links them by position and refuses "
-                          "that"));
+                make_error(Id::kGraphicsWarning, named("graphics pipeline", linked.name),
+                           ": pixel shader ", in_quotes(linked.pixel.name),
+                           " declares its inputs in another order than vertex shader ",
+                           in_quotes(linked.vertex.name),
+                           " its outputs; Direct3D 12 itself links them by position and refuses "
+                           "that"));
 }
 
 }  // namespace
 
 Status link_input_layout(const GraphicsPipelineStateDesc& desc, LinkedGraphics& linked) {
   if (desc.InputLayout.size() > kIAVertexInputResourceSlotCount) {
-    return MakeError(Id::kInputLayout, "InputLayout has ", desc.InputLayout.size(),
-                     " elements; at most 32");
+    return make_error(Id::kInputLayout, "InputLayout has ", desc.InputLayout.size(),
+                      " elements; at most 32");
   }
   auto offsets = offsets_of(desc.InputLayout);
   if (!offsets.ok()) return offsets.error();
@@ -317,16 +317,16 @@ Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
     if (slot >= linked.target_count || format == Format::kUnknown) {
       device.report(
           MessageSeverity::kWarning,
-          MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name),
-                    ": pixel shader ", Quoted(linked.pixel.name), " writes ", describe(e),
-                    ", but RTVFormats has no target in that slot: the output is dropped"));
+          make_error(Id::kGraphicsWarning, named("graphics pipeline", linked.name),
+                     ": pixel shader ", in_quotes(linked.pixel.name), " writes ", describe(e),
+                     ", but RTVFormats has no target in that slot: the output is dropped"));
       continue;
     }
     if (column_type_of(format) != e.type) {
-      return MakeError(Id::kTargetOutput, "pixel shader ", Quoted(linked.pixel.name), " writes ",
-                       describe(e), "; RTVFormats[", slot, "] is DXGI format ",
-                       static_cast<uint32_t>(format), ", which takes ",
-                       type_name(column_type_of(format)));
+      return make_error(Id::kTargetOutput, "pixel shader ", in_quotes(linked.pixel.name),
+                        " writes ", describe(e), "; RTVFormats[", slot, "] is DXGI format ",
+                        static_cast<uint32_t>(format), ", which takes ",
+                        type_name(column_type_of(format)));
     }
   }
   return {};

@@ -25,23 +25,23 @@ using runtime::LinkedGraphics;
 constexpr const char* kZeroed = "; was the description zeroed? Begin with a default one";
 
 Status unsupported(const std::string& what) {
-  return MakeError(Id::kGraphicsUnsupported, what);
+  return make_error(Id::kGraphicsUnsupported, what);
 }
 
 Status check_rasterizer(const RasterizerDesc& desc) {
   if (desc.FillMode == FillMode::kWireframe) return unsupported("FillMode is kWireframe");
   if (desc.FillMode != FillMode::kSolid) {
-    return MakeError(Id::kGraphicsDesc, "FillMode is ", static_cast<uint32_t>(desc.FillMode),
-                     "; it must be kSolid (3)", kZeroed);
+    return make_error(Id::kGraphicsDesc, "FillMode is ", static_cast<uint32_t>(desc.FillMode),
+                      "; it must be kSolid (3)", kZeroed);
   }
   if (desc.CullMode < CullMode::kNone || desc.CullMode > CullMode::kBack) {
-    return MakeError(Id::kGraphicsDesc, "CullMode is ", static_cast<uint32_t>(desc.CullMode),
-                     "; it must be 1 to 3", kZeroed);
+    return make_error(Id::kGraphicsDesc, "CullMode is ", static_cast<uint32_t>(desc.CullMode),
+                      "; it must be 1 to 3", kZeroed);
   }
   if (!std::isfinite(desc.DepthBiasClamp) || !std::isfinite(desc.SlopeScaledDepthBias)) {
-    return MakeError(Id::kGraphicsDesc, "DepthBiasClamp is ", desc.DepthBiasClamp,
-                     " and SlopeScaledDepthBias ", desc.SlopeScaledDepthBias,
-                     "; both must be finite");
+    return make_error(Id::kGraphicsDesc, "DepthBiasClamp is ", desc.DepthBiasClamp,
+                      " and SlopeScaledDepthBias ", desc.SlopeScaledDepthBias,
+                      "; both must be finite");
   }
   return {};
 }
@@ -50,12 +50,12 @@ Status check_depth(const DepthStencilDesc& desc) {
   if (desc.StencilEnable) return unsupported("StencilEnable is true: there is no stencil test");
   if (!desc.DepthEnable) return {};
   if (desc.DepthFunc < ComparisonFunc::kNever || desc.DepthFunc > ComparisonFunc::kAlways) {
-    return MakeError(Id::kGraphicsDesc, "DepthFunc is ", static_cast<uint32_t>(desc.DepthFunc),
-                     "; it must be 1 to 8", kZeroed);
+    return make_error(Id::kGraphicsDesc, "DepthFunc is ", static_cast<uint32_t>(desc.DepthFunc),
+                      "; it must be 1 to 8", kZeroed);
   }
   if (desc.DepthWriteMask > DepthWriteMask::kAll) {
-    return MakeError(Id::kGraphicsDesc, "DepthWriteMask is ",
-                     static_cast<uint32_t>(desc.DepthWriteMask), "; it must be 0 or 1");
+    return make_error(Id::kGraphicsDesc, "DepthWriteMask is ",
+                      static_cast<uint32_t>(desc.DepthWriteMask), "; it must be 0 or 1");
   }
   return {};
 }
@@ -73,11 +73,11 @@ bool is_color_blend(Blend blend) {
 }
 
 Status check_blend(const RenderTargetBlendDesc& desc, uint32_t slot) {
-  const std::string where = Text("RenderTarget[", slot, "]");
+  const std::string where = concat("RenderTarget[", slot, "]");
   if (desc.LogicOpEnable) return unsupported(where + " has LogicOpEnable");
   if (static_cast<uint32_t>(desc.RenderTargetWriteMask) > 15) {
-    return MakeError(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
-                     static_cast<uint32_t>(desc.RenderTargetWriteMask), "; it must be 0 to 15");
+    return make_error(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
+                      static_cast<uint32_t>(desc.RenderTargetWriteMask), "; it must be 0 to 15");
   }
   if (!desc.BlendEnable) return {};
   const std::pair<const char*, Blend> factors[] = {{"SrcBlend", desc.SrcBlend},
@@ -86,38 +86,38 @@ Status check_blend(const RenderTargetBlendDesc& desc, uint32_t slot) {
                                                    {"DestBlendAlpha", desc.DestBlendAlpha}};
   for (const auto& [name, factor] : factors) {
     if (reads_second_source(factor)) {
-      return unsupported(Text(where, ".", name, " reads a second source of colours"));
+      return unsupported(concat(where, ".", name, " reads a second source of colours"));
     }
     if (!is_blend(factor)) {
-      return MakeError(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
-                       "; it must be 1 to 11, 14 or 15", kZeroed);
+      return make_error(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
+                        "; it must be 1 to 11, 14 or 15", kZeroed);
     }
     const bool of_alpha = std::string_view(name).ends_with("Alpha");
     if (of_alpha && is_color_blend(factor)) {
-      return MakeError(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
-                       ", a colour; alpha takes the factor of the same name with Alpha");
+      return make_error(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
+                        ", a colour; alpha takes the factor of the same name with Alpha");
     }
   }
   const auto is_op = [](BlendOp op) { return op >= BlendOp::kAdd && op <= BlendOp::kMax; };
   if (is_op(desc.BlendOp) && is_op(desc.BlendOpAlpha)) return {};
-  return MakeError(Id::kGraphicsDesc, where, " has BlendOp ", static_cast<uint32_t>(desc.BlendOp),
-                   " and BlendOpAlpha ", static_cast<uint32_t>(desc.BlendOpAlpha),
-                   "; they must be 1 to 5", kZeroed);
+  return make_error(Id::kGraphicsDesc, where, " has BlendOp ", static_cast<uint32_t>(desc.BlendOp),
+                    " and BlendOpAlpha ", static_cast<uint32_t>(desc.BlendOpAlpha),
+                    "; they must be 1 to 5", kZeroed);
 }
 
 Status check_topology(const GraphicsPipelineStateDesc& desc) {
   const auto type = desc.PrimitiveTopologyType;
   if (type == PrimitiveTopologyType::kUndefined || type > PrimitiveTopologyType::kPatch) {
-    return MakeError(Id::kGraphicsDesc, "PrimitiveTopologyType is ", static_cast<uint32_t>(type),
-                     "; it must be kTriangle (3)");
+    return make_error(Id::kGraphicsDesc, "PrimitiveTopologyType is ", static_cast<uint32_t>(type),
+                      "; it must be kTriangle (3)");
   }
   if (type != PrimitiveTopologyType::kTriangle) {
-    return unsupported(Text("PrimitiveTopologyType is ", static_cast<uint32_t>(type),
-                            "; only kTriangle (3) is drawn"));
+    return unsupported(concat("PrimitiveTopologyType is ", static_cast<uint32_t>(type),
+                              "; only kTriangle (3) is drawn"));
   }
   if (desc.IBStripCutValue > IndexBufferStripCutValue::k0xFFFFFFFF) {
-    return MakeError(Id::kGraphicsDesc, "IBStripCutValue is ",
-                     static_cast<uint32_t>(desc.IBStripCutValue), "; it must be 0 to 2");
+    return make_error(Id::kGraphicsDesc, "IBStripCutValue is ",
+                      static_cast<uint32_t>(desc.IBStripCutValue), "; it must be 0 to 2");
   }
   return {};
 }
@@ -126,8 +126,8 @@ Status check_topology(const GraphicsPipelineStateDesc& desc) {
 Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
                     LinkedGraphics& linked) {
   if (desc.RTVFormats.size() > kSimultaneousRenderTargetCount) {
-    return MakeError(Id::kGraphicsDesc, "RTVFormats has ", desc.RTVFormats.size(),
-                     " formats; at most 8");
+    return make_error(Id::kGraphicsDesc, "RTVFormats has ", desc.RTVFormats.size(),
+                      " formats; at most 8");
   }
   linked.target_count = static_cast<uint32_t>(desc.RTVFormats.size());
   if (desc.BlendState.AlphaToCoverageEnable) return unsupported("AlphaToCoverageEnable is true");
@@ -141,21 +141,21 @@ Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
     const FormatInfo info = GetFormatInfo(format);
     const bool blend = linked.blend[i].BlendEnable;
     if (blend && (info.type == FormatClass::kUint || info.type == FormatClass::kSint)) {
-      return MakeError(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
-                       static_cast<uint32_t>(format), ", whose integers cannot be blended");
+      return make_error(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
+                        static_cast<uint32_t>(format), ", whose integers cannot be blended");
     }
     if (!device.backend->supports_target(format, blend)) {
       const bool only_blend = blend && device.backend->supports_target(format, false);
-      return MakeError(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
-                       static_cast<uint32_t>(format), ", which this backend cannot ",
-                       only_blend ? "blend" : "draw to");
+      return make_error(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
+                        static_cast<uint32_t>(format), ", which this backend cannot ",
+                        only_blend ? "blend" : "draw to");
     }
   }
   linked.depth_format = desc.DSVFormat;
   if (desc.DSVFormat != Format::kUnknown &&
       (!IsDepthFormat(desc.DSVFormat) || !device.backend->supports_target(desc.DSVFormat, false))) {
-    return MakeError(Id::kTargetFormat, "DSVFormat is DXGI format ",
-                     static_cast<uint32_t>(desc.DSVFormat), "; it must be a depth format");
+    return make_error(Id::kTargetFormat, "DSVFormat is DXGI format ",
+                      static_cast<uint32_t>(desc.DSVFormat), "; it must be a depth format");
   }
   return {};
 }
@@ -169,17 +169,17 @@ Result<const shader::ExportDesc*> find_shader(const ShaderLibrary& library, cons
   for (uint32_t i = 0; i < table.export_count; ++i) {
     const auto& e = table.exports[i];
     if (e.stage != stage || !e.graphics) continue;
-    known += Text(known.empty() ? "" : ", ", Quoted(e.name));
+    known += concat(known.empty() ? "" : ", ", in_quotes(e.name));
     if (!name.empty() && name != e.name) continue;
     if (found) {
-      return MakeError(Id::kGraphicsShader, Quoted(library.name()), " has several ", kind,
-                       " shaders; name one of ", known, " in EntryPoint");
+      return make_error(Id::kGraphicsShader, in_quotes(library.name()), " has several ", kind,
+                        " shaders; name one of ", known, " in EntryPoint");
     }
     found = &e;
   }
   if (found) return found;
-  return MakeError(Id::kGraphicsShader, Quoted(library.name()), " has no ", kind, " shader ",
-                   Quoted(name), "; it has ", known.empty() ? "none" : known);
+  return make_error(Id::kGraphicsShader, in_quotes(library.name()), " has no ", kind, " shader ",
+                    in_quotes(name), "; it has ", known.empty() ? "none" : known);
 }
 
 Status link_shader(const DeviceImpl& device, const RootSignature& signature,
@@ -189,14 +189,15 @@ Status link_shader(const DeviceImpl& device, const RootSignature& signature,
   const ShaderLibrary library = device.library_to_run(given.Library);
   auto code = find_shader(library, given.EntryPoint, stage, vertex ? "vertex" : "pixel");
   if (!code.ok()) return code.error();
-  const std::string where = Text(vertex ? "vertex" : "pixel", " shader ", Quoted((*code)->name));
+  const std::string where =
+      concat(vertex ? "vertex" : "pixel", " shader ", in_quotes((*code)->name));
   if (Status s = check_tier(device, **code, where); !s.ok()) return s;
   const RootSignatureFlags denied = vertex ? RootSignatureFlags::kDenyVertexShaderRootAccess
                                            : RootSignatureFlags::kDenyPixelShaderRootAccess;
   if ((*code)->binding_count > 0 && HasAny(signature.GetDesc().Flags, denied)) {
-    return MakeError(Id::kStageRootAccess, where, " has ", (*code)->binding_count,
-                     " resources, but the root signature has kDeny", vertex ? "Vertex" : "Pixel",
-                     "ShaderRootAccess");
+    return make_error(Id::kStageRootAccess, where, " has ", (*code)->binding_count,
+                      " resources, but the root signature has kDeny", vertex ? "Vertex" : "Pixel",
+                      "ShaderRootAccess");
   }
   const auto& table = *library.impl()->desc;
   auto slots = resolve_bindings(table, **code, signature, RootSignature(), where,
@@ -215,7 +216,7 @@ Status link_shader(const DeviceImpl& device, const RootSignature& signature,
 
 Status link_shaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc,
                     LinkedGraphics& linked) {
-  if (!desc.VS.Library) return MakeError(Id::kNullHandle, "VS.Library is an empty library handle");
+  if (!desc.VS.Library) return make_error(Id::kNullHandle, "VS.Library is an empty library handle");
   if (Status s =
           link_shader(device, desc.pRootSignature, desc.VS, shader::Stage::kVertex, linked.vertex);
       !s.ok()) {
@@ -231,8 +232,8 @@ Status link_shaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
   }
   if (!desc.InputLayout.empty() && !HasAny(desc.pRootSignature.GetDesc().Flags,
                                            RootSignatureFlags::kAllowInputAssemblerInputLayout)) {
-    return MakeError(Id::kStageRootAccess, "InputLayout has ", desc.InputLayout.size(),
-                     " elements, but the root signature lacks kAllowInputAssemblerInputLayout");
+    return make_error(Id::kStageRootAccess, "InputLayout has ", desc.InputLayout.size(),
+                      " elements, but the root signature lacks kAllowInputAssemblerInputLayout");
   }
   if (Status s = link_input_layout(desc, linked); !s.ok()) return s;
   if (Status s = link_stages(device, linked); !s.ok()) return s;
@@ -243,8 +244,8 @@ void warn_of_sample_mask(const DeviceImpl& device, const LinkedGraphics& linked)
   if ((linked.sample_mask & 1) != 0) return;
   device.report(
       MessageSeverity::kWarning,
-      MakeError(Id::kGraphicsWarning, Named("graphics pipeline", linked.name), ": SampleMask is ",
-                Hex(linked.sample_mask), ", so that nothing is drawn; set it to 0xFFFFFFFF"));
+      make_error(Id::kGraphicsWarning, named("graphics pipeline", linked.name), ": SampleMask is ",
+                 hex(linked.sample_mask), ", so that nothing is drawn; set it to 0xFFFFFFFF"));
 }
 
 }  // namespace
@@ -255,14 +256,14 @@ using namespace detail;
 
 Result<PipelineState> Device::CreateGraphicsPipelineState(
     const GraphicsPipelineStateDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateGraphicsPipelineState on an empty device");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateGraphicsPipelineState on an empty device");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
     return s.error();
   }
   if (desc.pRootSignature.is_local()) {
-    return MakeError(Id::kRootSignatureKind,
-                     "a graphics pipeline needs a global root signature, but this one is local");
+    return make_error(Id::kRootSignatureKind,
+                      "a graphics pipeline needs a global root signature, but this one is local");
   }
   if (Status s = check_rasterizer(desc.RasterizerState); !s.ok()) return s.error();
   if (Status s = check_depth(desc.DepthStencilState); !s.ok()) return s.error();

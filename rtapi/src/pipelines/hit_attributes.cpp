@@ -42,8 +42,8 @@ const char* stage_name(Stage stage) {
 }
 
 std::string describe(const Subject& s) {
-  return s.is_group() ? Text("hit group ", Quoted(s.name))
-                      : Text(stage_name(s.code->stage), " shader ", Quoted(s.name));
+  return s.is_group() ? concat("hit group ", in_quotes(s.name))
+                      : concat(stage_name(s.code->stage), " shader ", in_quotes(s.name));
 }
 
 // A shader that reads no attributes may declare any in a procedural group, as with the drivers of
@@ -55,19 +55,19 @@ Status check_attributes(const DeviceImpl& device, const Subject& group) {
   for (const SubjectPtr& m : group.members) {
     if (!m || m->code->attribute_bytes == 0) continue;
     if (triangles && m->code->attribute_bytes != 8) {
-      return MakeError(Id::kAttributesDisagree, describe(group), ": ", describe(*m), " takes ",
-                       m->code->attribute_bytes,
-                       " bytes of attributes, but triangles pass "
-                       "BuiltInTriangleIntersectionAttributes (8 bytes)");
+      return make_error(Id::kAttributesDisagree, describe(group), ": ", describe(*m), " takes ",
+                        m->code->attribute_bytes,
+                        " bytes of attributes, but triangles pass "
+                        "BuiltInTriangleIntersectionAttributes (8 bytes)");
     }
     if (!triangles && ignores_attributes(*m)) {
       unread.push_back(m.get());
       continue;
     }
     if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
-      return MakeError(Id::kAttributesDisagree, describe(group), ": ", describe(*first), " has ",
-                       first->code->attribute_bytes, " bytes of attributes, but ", describe(*m),
-                       " has ", m->code->attribute_bytes);
+      return make_error(Id::kAttributesDisagree, describe(group), ": ", describe(*first), " has ",
+                        first->code->attribute_bytes, " bytes of attributes, but ", describe(*m),
+                        " has ", m->code->attribute_bytes);
     }
     first = m.get();
   }
@@ -77,10 +77,10 @@ Status check_attributes(const DeviceImpl& device, const Subject& group) {
     if (m->code->attribute_bytes == first->code->attribute_bytes) continue;
     device.report(
         MessageSeverity::kWarning,
-        MakeError(Id::kAttributesUnread, describe(group), ": ", describe(*m), " declares ",
-                  m->code->attribute_bytes, " bytes of attributes and reads none of them, and ",
-                  describe(*first), " has ", first->code->attribute_bytes,
-                  "; DXR wants one type in a hit group"));
+        make_error(Id::kAttributesUnread, describe(group), ": ", describe(*m), " declares ",
+                   m->code->attribute_bytes, " bytes of attributes and reads none of them, and ",
+                   describe(*first), " has ", first->code->attribute_bytes,
+                   "; DXR wants one type in a hit group"));
   }
   return {};
 }

@@ -32,14 +32,14 @@ std::vector<std::string> split_names(const char* list) {
 Status Gatherer::gather(const DxilLibraryDesc& sub, size_t i) {
   const std::string where = where_of(i);
   if (!sub.DXILLibrary) {
-    return MakeError(Id::kNullHandle, where, ": DXILLibrary is an empty handle");
+    return make_error(Id::kNullHandle, where, ": DXILLibrary is an empty handle");
   }
   const std::string& target = sub.DXILLibrary.target();
   unsigned major = 0, minor = 0;
   const bool lib = std::sscanf(target.c_str(), "lib_%u_%u", &major, &minor) == 2;
   if (!lib || major < 6 || (major == 6 && minor < 3)) {
-    return MakeError(Id::kLibraryTarget, where, ": ", Quoted(sub.DXILLibrary.name()),
-                     " was compiled for ", Quoted(target), "; it must be lib_6_3 or later");
+    return make_error(Id::kLibraryTarget, where, ": ", in_quotes(sub.DXILLibrary.name()),
+                      " was compiled for ", in_quotes(target), "; it must be lib_6_3 or later");
   }
   const int scope = static_cast<int>(parts_.libraries.size());
   parts_.libraries.push_back(sub.DXILLibrary);
@@ -82,7 +82,7 @@ Status Gatherer::gather_exports(const DxilLibraryDesc& sub, int scope, const std
   }
   for (const ExportDesc& wanted : sub.Exports) {
     if (wanted.Name.empty()) {
-      return MakeError(Id::kExportUnnamed, where, ": an ExportDesc has an empty Name");
+      return make_error(Id::kExportUnnamed, where, ": an ExportDesc has an empty Name");
     }
     const std::string& source = wanted.ExportToRename.empty() ? wanted.Name : wanted.ExportToRename;
     std::vector<const shader::ExportDesc*> found;
@@ -96,13 +96,13 @@ Status Gatherer::gather_exports(const DxilLibraryDesc& sub, int scope, const std
     }
     const bool renames = !wanted.ExportToRename.empty() && wanted.ExportToRename != wanted.Name;
     if (found.size() > 1 && renames) {
-      return MakeError(Id::kExportAmbiguous, where, ": ", Quoted(source), " of ",
-                       Quoted(sub.DXILLibrary.name()), " has ", found.size(),
-                       " overloads; use the mangled name to rename one");
+      return make_error(Id::kExportAmbiguous, where, ": ", in_quotes(source), " of ",
+                        in_quotes(sub.DXILLibrary.name()), " has ", found.size(),
+                        " overloads; use the mangled name to rename one");
     }
     if (found.empty() && !is_subobject(table, source)) {
-      return MakeError(Id::kExportNotFound, where, ": ", Quoted(sub.DXILLibrary.name()),
-                       " has no export ", Quoted(source), "; it has ", list_exports(table));
+      return make_error(Id::kExportNotFound, where, ": ", in_quotes(sub.DXILLibrary.name()),
+                        " has no export ", in_quotes(source), "; it has ", list_exports(table));
     }
     for (const auto* e : found) {
       add_shader(*e, sub.DXILLibrary, scope, renames ? wanted.Name : std::string());
@@ -121,7 +121,7 @@ bool Gatherer::is_subobject(const shader::LibraryDesc& table, const std::string&
 std::string Gatherer::list_exports(const shader::LibraryDesc& table) {
   std::string list;
   for (uint32_t i = 0; i < table.export_count && i < 12; ++i) {
-    list += Text(i ? ", " : "", Quoted(table.exports[i].name));
+    list += concat(i ? ", " : "", in_quotes(table.exports[i].name));
   }
   if (table.export_count > 12) list += ", ...";
   return list.empty() ? "none" : list;
@@ -133,7 +133,7 @@ Status Gatherer::gather_library_subobjects(const DxilLibraryDesc& sub, int scope
     const auto& s = table.subobjects[i];
     if (!is_listed(sub, s.name)) continue;
     const std::string name = s.name ? s.name : "";
-    const std::string where = Text(Quoted(name), " of ", Quoted(sub.DXILLibrary.name()));
+    const std::string where = concat(in_quotes(name), " of ", in_quotes(sub.DXILLibrary.name()));
     DefinitionPtr definition;
     Status status;
     switch (static_cast<StateSubobjectType>(s.type)) {
@@ -170,8 +170,8 @@ Status Gatherer::gather_library_subobjects(const DxilLibraryDesc& sub, int scope
             {scope, s.strings[0] ? s.strings[0] : "", split_names(s.strings[1]), where});
         break;
       default:
-        status = MakeError(Id::kLibrarySubobject, where, ": type ", s.type,
-                           " cannot be declared in HLSL");
+        status = make_error(Id::kLibrarySubobject, where, ": type ", s.type,
+                            " cannot be declared in HLSL");
     }
     if (!status.ok()) return status;
     if (definition) library_definitions_[static_cast<size_t>(scope)][name] = definition;
@@ -182,12 +182,12 @@ Status Gatherer::gather_library_subobjects(const DxilLibraryDesc& sub, int scope
 Status Gatherer::define_from_text(const char* text, bool local, const std::string& where,
                                   DefinitionPtr& out) {
   auto desc = ParseRootSignature(text ? text : "");
-  if (!desc.ok()) return MakeError(Id::kLibrarySubobject, where, ": ", desc.error().message);
+  if (!desc.ok()) return make_error(Id::kLibrarySubobject, where, ": ", desc.error().message);
   // Like DXC, set the flag for LocalRootSignature subobjects, whatever the string says.
   if (local) desc->Flags |= RootSignatureFlags::kLocalRootSignature;
   auto signature = make_root_signature(parts_.device, *desc);
   if (!signature.ok()) {
-    return MakeError(Id::kLibrarySubobject, where, ": ", signature.error().message);
+    return make_error(Id::kLibrarySubobject, where, ": ", signature.error().message);
   }
   return define_root_signature(*signature, local, where, out);
 }

@@ -16,8 +16,8 @@ namespace rtapi {
 namespace {
 
 using detail::Id;
-using detail::MakeError;
-using detail::Quoted;
+using detail::in_quotes;
+using detail::make_error;
 
 struct Held {
   const char* name;
@@ -45,7 +45,7 @@ std::vector<Held> held_by(const kaamos::shader::LibraryDesc& table) {
 std::string list_of(const std::vector<Held>& all) {
   std::string list;
   for (const Held& one : all) {
-    list += (list.empty() ? "" : ", ") + Quoted(one.name) + (one.is_local ? " (local)" : "");
+    list += (list.empty() ? "" : ", ") + in_quotes(one.name) + (one.is_local ? " (local)" : "");
   }
   return list.empty() ? "none" : list;
 }
@@ -57,31 +57,31 @@ Result<Held> find(const ShaderLibrary& library, std::string_view name) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Held& one) { return name == one.name; });
     if (found != all.end()) return *found;
-    return MakeError(Id::kLibraryRootSignature, Quoted(library.name()), " has no root signature ",
-                     Quoted(name), "; it has ", list_of(all));
+    return make_error(Id::kLibraryRootSignature, in_quotes(library.name()),
+                      " has no root signature ", in_quotes(name), "; it has ", list_of(all));
   }
   const Held* only = nullptr;
   for (const Held& one : all) {
     if (one.is_local || (only != nullptr && std::string_view(only->text) == one.text)) continue;
     if (only != nullptr) {
-      return MakeError(Id::kLibraryRootSignature, Quoted(library.name()),
-                       " has several global root signatures: ", list_of(all),
-                       ". Pass the name of one");
+      return make_error(Id::kLibraryRootSignature, in_quotes(library.name()),
+                        " has several global root signatures: ", list_of(all),
+                        ". Pass the name of one");
     }
     only = &one;
   }
   if (only != nullptr) return *only;
-  return MakeError(Id::kLibraryRootSignature, Quoted(library.name()),
-                   " has no global root signature; it has ", list_of(all));
+  return make_error(Id::kLibraryRootSignature, in_quotes(library.name()),
+                    " has no global root signature; it has ", list_of(all));
 }
 
 }  // namespace
 
 Result<RootSignature> Device::CreateRootSignature(const ShaderLibrary& library,
                                                   std::string_view name) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateRootSignature on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateRootSignature on an empty device handle");
   if (!library) {
-    return MakeError(Id::kNullHandle, "CreateRootSignature with an empty library handle");
+    return make_error(Id::kNullHandle, "CreateRootSignature with an empty library handle");
   }
   const auto held = find(library, name);
   if (!held) return held.error();
@@ -93,8 +93,8 @@ Result<RootSignature> Device::CreateRootSignature(const ShaderLibrary& library,
     if (made) return made;
     desc = made.error();
   }
-  return MakeError(Id::kLibraryRootSignature, "root signature ", Quoted(held->name), " of ",
-                   Quoted(library.name()), ": ", desc.error().message);
+  return make_error(Id::kLibraryRootSignature, "root signature ", in_quotes(held->name), " of ",
+                    in_quotes(library.name()), ": ", desc.error().message);
 }
 
 }  // namespace rtapi

@@ -33,7 +33,7 @@ class FunctionLinker {
       Plan ignored;
       if (Status status = visit(*s, ignored); !status.ok()) {
         const bool may_wait = parts_.may_stay_unresolved() || s->hidden;
-        if (status.error().id == PublicId(Id::kFunctionUnresolved) && may_wait) continue;
+        if (status.error().id == public_id(Id::kFunctionUnresolved) && may_wait) continue;
         return status;
       }
       if (s->code->stage == Stage::kLibrary) continue;
@@ -86,8 +86,8 @@ class FunctionLinker {
   }
 
   static std::string caller_text(const Subject& s) {
-    return Text(s.code->stage == Stage::kLibrary ? "function " : "shader ", Quoted(s.name), " of ",
-                Quoted(s.library.name()));
+    return concat(s.code->stage == Stage::kLibrary ? "function " : "shader ", in_quotes(s.name),
+                  " of ", in_quotes(s.library.name()));
   }
 
   Result<SubjectPtr> find_definition(const Subject& user, const shader::ImportDesc& import) const {
@@ -104,23 +104,24 @@ class FunctionLinker {
       if (!is_meant && s->name == import.name) other = s;
     }
     if (!found && other) {
-      return MakeError(Id::kFunctionDiffers, caller_text(user), " calls ", Quoted(import.signature),
-                       ", but ", Quoted(other->library.name()), " exports ",
-                       other->code->signature ? Text("function ", Quoted(other->code->signature))
-                                              : Text("shader ", Quoted(other->name)),
-                       " under that name; declare it with the types of its definition");
+      return make_error(
+          Id::kFunctionDiffers, caller_text(user), " calls ", in_quotes(import.signature), ", but ",
+          in_quotes(other->library.name()), " exports ",
+          other->code->signature ? concat("function ", in_quotes(other->code->signature))
+                                 : concat("shader ", in_quotes(other->name)),
+          " under that name; declare it with the types of its definition");
     }
     if (!found) {
-      return MakeError(Id::kFunctionUnresolved, caller_text(user), " calls ",
-                       Quoted(import.signature),
-                       ", which has no body there, and no library of this ",
-                       parts_.is_collection() ? "collection" : "state object", " exports it");
+      return make_error(Id::kFunctionUnresolved, caller_text(user), " calls ",
+                        in_quotes(import.signature),
+                        ", which has no body there, and no library of this ",
+                        parts_.is_collection() ? "collection" : "state object", " exports it");
     }
     if (!found->referable && found->collection_scope != user.collection_scope) {
-      return MakeError(Id::kFunctionNotReferable, caller_text(user), " calls ",
-                       Quoted(import.signature),
-                       " of a collection that lacks flag 0x2 "
-                       "(kAllowExternalDependenciesOnLocalDefinitions)");
+      return make_error(Id::kFunctionNotReferable, caller_text(user), " calls ",
+                        in_quotes(import.signature),
+                        " of a collection that lacks flag 0x2 "
+                        "(kAllowExternalDependenciesOnLocalDefinitions)");
     }
     return found;
   }
@@ -147,16 +148,16 @@ class FunctionLinker {
     const std::string where = caller_text(*subjects[0]);
     for (const ShaderLibrary& library : plan.link.libraries) {
       if (library.impl()->desc->source) continue;
-      return MakeError(Id::kFunctionNoSource, where, " is linked with ", Quoted(library.name()),
-                       ", which carries no source; compile that without -no-source");
+      return make_error(Id::kFunctionNoSource, where, " is linked with ", in_quotes(library.name()),
+                        ", which carries no source; compile that without -no-source");
     }
     const ModuleLibrary linked = linked_library(plan.link, parts_.device->desc.Backend == "vulkan");
     if (!linked.library) {
-      return MakeError(Id::kFunctionLink, where, " cannot be linked:\n", linked.error);
+      return make_error(Id::kFunctionLink, where, " cannot be linked:\n", linked.error);
     }
     if (const std::string text = parts_.device->say_interpreted(where, linked.slow);
         !text.empty()) {
-      parts_.device->report(MessageSeverity::kWarning, MakeError(Id::kFunctionInterpreted, text));
+      parts_.device->report(MessageSeverity::kWarning, make_error(Id::kFunctionInterpreted, text));
     }
     const shader::LibraryDesc& table = *linked.library.impl()->desc;
     for (const SubjectPtr& s : subjects) {
@@ -165,8 +166,8 @@ class FunctionLinker {
         return std::string_view(e.name) == s->code->name && e.stage == s->code->stage;
       });
       if (code == end) {
-        return MakeError(Id::kFunctionLink, where, " cannot be linked: ", Quoted(s->code->name),
-                         " is not in its source");
+        return make_error(Id::kFunctionLink, where, " cannot be linked: ", in_quotes(s->code->name),
+                          " is not in its source");
       }
       s->written = s->code;
       s->written_library = s->library;

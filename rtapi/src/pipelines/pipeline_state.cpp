@@ -21,22 +21,23 @@ Result<const shader::ExportDesc*> find_kernel(const ComputePipelineStateDesc& de
   for (uint32_t i = 0; i < table.export_count; ++i) {
     const auto& e = table.exports[i];
     if (e.stage != shader::Stage::kCompute) continue;
-    known += Text(known.empty() ? "" : ", ", Quoted(e.name));
+    known += concat(known.empty() ? "" : ", ", in_quotes(e.name));
     if (!desc.EntryPoint.empty() && desc.EntryPoint != e.name) continue;
     if (found) {
-      return MakeError(Id::kComputeEntryPoint, "EntryPoint is ", Quoted(desc.EntryPoint), ", but ",
-                       Quoted(desc.CS.name()), " has several compute shaders; name one of them");
+      return make_error(Id::kComputeEntryPoint, "EntryPoint is ", in_quotes(desc.EntryPoint),
+                        ", but ", in_quotes(desc.CS.name()),
+                        " has several compute shaders; name one of them");
     }
     found = &e;
   }
   if (found && found->import_count != 0) {
-    return MakeError(Id::kComputeUnlinked, Quoted(found->name), " of ", Quoted(desc.CS.name()),
-                     " calls ", Quoted(table.imports[found->imports[0]].signature),
-                     ", which has no body there");
+    return make_error(
+        Id::kComputeUnlinked, in_quotes(found->name), " of ", in_quotes(desc.CS.name()), " calls ",
+        in_quotes(table.imports[found->imports[0]].signature), ", which has no body there");
   }
   if (found) return found;
-  return MakeError(Id::kComputeEntryPoint, Quoted(desc.CS.name()), " has no compute shader ",
-                   Quoted(desc.EntryPoint), "; it has ", known.empty() ? "none" : known);
+  return make_error(Id::kComputeEntryPoint, in_quotes(desc.CS.name()), " has no compute shader ",
+                    in_quotes(desc.EntryPoint), "; it has ", known.empty() ? "none" : known);
 }
 
 Status check_thread_group(const shader::ExportDesc& kernel) {
@@ -44,9 +45,9 @@ Status check_thread_group(const shader::ExportDesc& kernel) {
   const bool ok = n[0] >= 1 && n[1] >= 1 && n[2] >= 1 && n[0] <= 1024 && n[1] <= 1024 &&
                   n[2] <= 64 && uint64_t{n[0]} * n[1] * n[2] <= 1024;
   if (ok) return {};
-  return MakeError(Id::kComputeEntryPoint, Quoted(kernel.name), " has [numthreads(", n[0], ", ",
-                   n[1], ", ", n[2],
-                   ")]; x and y may be 1 to 1024, z 1 to 64, and their product at most 1024");
+  return make_error(Id::kComputeEntryPoint, in_quotes(kernel.name), " has [numthreads(", n[0], ", ",
+                    n[1], ", ", n[2],
+                    ")]; x and y may be 1 to 1024, z 1 to 64, and their product at most 1024");
 }
 
 }  // namespace
@@ -57,22 +58,22 @@ const std::string& PipelineState::name() const {
 
 Result<PipelineState> Device::CreateComputePipelineState(
     const ComputePipelineStateDesc& given) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateComputePipelineState on an empty device");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateComputePipelineState on an empty device");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   ComputePipelineStateDesc desc = given;
   if (desc.CS) desc.CS = impl_->library_to_run(desc.CS);
-  if (!desc.CS) return MakeError(Id::kNullHandle, "CS is an empty shader library handle");
+  if (!desc.CS) return make_error(Id::kNullHandle, "CS is an empty shader library handle");
   if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
     return s.error();
   }
   if (desc.pRootSignature.is_local()) {
-    return MakeError(Id::kRootSignatureKind,
-                     "a compute pipeline needs a global root signature, but this one is local");
+    return make_error(Id::kRootSignatureKind,
+                      "a compute pipeline needs a global root signature, but this one is local");
   }
   auto kernel = find_kernel(desc);
   if (!kernel.ok()) return kernel.error();
   if (Status s = check_thread_group(**kernel); !s.ok()) return s.error();
-  const std::string where = Text("compute shader ", Quoted((*kernel)->name));
+  const std::string where = concat("compute shader ", in_quotes((*kernel)->name));
   if (Status s = check_tier(*impl_, **kernel, where); !s.ok()) return s.error();
   const auto& table = *desc.CS.impl()->desc;
   auto slots = resolve_bindings(table, **kernel, desc.pRootSignature, RootSignature(), where);

@@ -45,50 +45,50 @@ RegisterClass class_of(RootParameterType type) {
 
 Status check_space(uint32_t space, const std::string& where) {
   if (space < kReservedSpaces) return {};
-  return MakeError(Id::kRootParameterInvalid, where, ": space ", space,
-                   " is reserved; it must be 0 to 4294967279");
+  return make_error(Id::kRootParameterInvalid, where, ": space ", space,
+                    " is reserved; it must be 0 to 4294967279");
 }
 
 // Checks the ranges of a table and replaces append offsets by real ones.
 Status check_table(RootDescriptorTable& table, const std::string& where) {
   if (table.Ranges.empty()) {
-    return MakeError(Id::kRangeInvalid, where, " is a descriptor table without ranges");
+    return make_error(Id::kRangeInvalid, where, " is a descriptor table without ranges");
   }
   bool samplers = false, views = false;
   uint64_t next = 0;  // where an appended range would start
   bool after_unbounded = false;
   for (size_t i = 0; i < table.Ranges.size(); ++i) {
     DescriptorRange& range = table.Ranges[i];
-    const std::string here = Text(where, ", range ", i);
+    const std::string here = concat(where, ", range ", i);
     if (range.RangeType > DescriptorRangeType::kSampler) {
-      return MakeError(Id::kRangeInvalid, here, ": type ", static_cast<uint32_t>(range.RangeType),
-                       "; it must be 0 to 3");
+      return make_error(Id::kRangeInvalid, here, ": type ", static_cast<uint32_t>(range.RangeType),
+                        "; it must be 0 to 3");
     }
     (range.RangeType == DescriptorRangeType::kSampler ? samplers : views) = true;
     if (Status s = check_space(range.RegisterSpace, here); !s.ok()) return s;
     const bool unbounded = range.NumDescriptors == kUnboundedDescriptors;
     if (range.NumDescriptors == 0 ||
         (!unbounded && uint64_t{range.BaseShaderRegister} + range.NumDescriptors > kRegisterEnd)) {
-      return MakeError(Id::kRangeInvalid, here, ": ", range.NumDescriptors,
-                       " descriptors from register ", range.BaseShaderRegister,
-                       "; a range needs at least one, and must end by register 2^32-1");
+      return make_error(Id::kRangeInvalid, here, ": ", range.NumDescriptors,
+                        " descriptors from register ", range.BaseShaderRegister,
+                        "; a range needs at least one, and must end by register 2^32-1");
     }
     if (range.OffsetInDescriptorsFromTableStart == kDescriptorRangeOffsetAppend) {
       if (after_unbounded || next > 0xFFFFFFFEu) {
-        return MakeError(Id::kRangeInvalid, here,
-                         ": appended after an unbounded range; give it an explicit offset");
+        return make_error(Id::kRangeInvalid, here,
+                          ": appended after an unbounded range; give it an explicit offset");
       }
       range.OffsetInDescriptorsFromTableStart = static_cast<uint32_t>(next);
     }
     after_unbounded = unbounded;
     next = uint64_t{range.OffsetInDescriptorsFromTableStart} + range.NumDescriptors;
     if (!unbounded && next > 0xFFFFFFFFu) {
-      return MakeError(Id::kRangeInvalid, here, ": ends past descriptor 2^32-1 of the table");
+      return make_error(Id::kRangeInvalid, here, ": ends past descriptor 2^32-1 of the table");
     }
   }
   if (samplers && views) {
-    return MakeError(Id::kTableMixesSamplers, where,
-                     " mixes samplers with other descriptors; split it into two tables");
+    return make_error(Id::kTableMixesSamplers, where,
+                      " mixes samplers with other descriptors; split it into two tables");
   }
   return {};
 }
@@ -96,21 +96,21 @@ Status check_table(RootDescriptorTable& table, const std::string& where) {
 Status check_visibility(ShaderVisibility visibility, bool local, const std::string& where) {
   if (visibility == ShaderVisibility::kAll) return {};
   if (!local && visibility <= ShaderVisibility::kMesh) return {};
-  return MakeError(Id::kRootSignatureVisibility, where, " has visibility ",
-                   static_cast<uint32_t>(visibility), "; it must be ",
-                   local ? "kAll, as in every local root signature" : "0 to 7");
+  return make_error(Id::kRootSignatureVisibility, where, " has visibility ",
+                    static_cast<uint32_t>(visibility), "; it must be ",
+                    local ? "kAll, as in every local root signature" : "0 to 7");
 }
 
 Status check_parameter(RootParameter& parameter, uint32_t index, bool local) {
-  const std::string where = Text("parameter ", index);
+  const std::string where = concat("parameter ", index);
   if (Status s = check_visibility(parameter.ShaderVisibility, local, where); !s.ok()) return s;
   switch (parameter.ParameterType) {
     case RootParameterType::kDescriptorTable:
       return check_table(parameter.DescriptorTable, where);
     case RootParameterType::k32BitConstants:
       if (parameter.Constants.Num32BitValues == 0) {
-        return MakeError(Id::kRootConstantsCount, where,
-                         " has Num32BitValues 0; it must be at least 1");
+        return make_error(Id::kRootConstantsCount, where,
+                          " has Num32BitValues 0; it must be at least 1");
       }
       return check_space(parameter.Constants.RegisterSpace, where);
     case RootParameterType::kCbv:
@@ -118,19 +118,19 @@ Status check_parameter(RootParameter& parameter, uint32_t index, bool local) {
     case RootParameterType::kUav:
       return check_space(parameter.Descriptor.RegisterSpace, where);
   }
-  return MakeError(Id::kRootParameterInvalid, where, " has type ",
-                   static_cast<uint32_t>(parameter.ParameterType), "; it must be 0 to 4");
+  return make_error(Id::kRootParameterInvalid, where, " has type ",
+                    static_cast<uint32_t>(parameter.ParameterType), "; it must be 0 to 4");
 }
 
 Status check_flags(RootSignatureFlags flags) {
   const auto bits = static_cast<uint32_t>(flags);
   if (bits & ~kDefinedFlags) {
-    return MakeError(Id::kLocalRootSignatureFlags, "flags ", Hex(bits), " have undefined bits");
+    return make_error(Id::kLocalRootSignatureFlags, "flags ", hex(bits), " have undefined bits");
   }
   if (HasAny(flags, RootSignatureFlags::kLocalRootSignature) &&
       flags != RootSignatureFlags::kLocalRootSignature) {
-    return MakeError(Id::kLocalRootSignatureFlags, "flags ", Hex(bits),
-                     ": kLocalRootSignature (0x80) cannot be combined with other flags");
+    return make_error(Id::kLocalRootSignatureFlags, "flags ", hex(bits),
+                      ": kLocalRootSignature (0x80) cannot be combined with other flags");
   }
   return {};
 }
@@ -138,12 +138,12 @@ Status check_flags(RootSignatureFlags flags) {
 Status check_static_samplers(const RootSignatureDesc& desc) {
   for (size_t i = 0; i < desc.StaticSamplers.size(); ++i) {
     const StaticSamplerDesc& sampler = desc.StaticSamplers[i];
-    const std::string where = Text("static sampler ", i);
+    const std::string where = concat("static sampler ", i);
     const bool local = HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature);
     if (Status s = check_visibility(sampler.ShaderVisibility, local, where); !s.ok()) return s;
     if (sampler.BorderColor > StaticBorderColor::kOpaqueWhite) {
-      return MakeError(Id::kStaticSamplerInvalid, where, ": BorderColor is ",
-                       static_cast<uint32_t>(sampler.BorderColor), "; it must be 0 to 2");
+      return make_error(Id::kStaticSamplerInvalid, where, ": BorderColor is ",
+                        static_cast<uint32_t>(sampler.BorderColor), "; it must be 0 to 2");
     }
     if (Status s = check_space(sampler.RegisterSpace, where); !s.ok()) return s;
     if (Status s = check_sampler(to_sampler_desc(sampler), Id::kStaticSamplerInvalid, where);
@@ -161,11 +161,11 @@ Status check_overlaps(const RootSignatureDesc& desc) {
       if (!overlap(ranges[k], ranges[i])) continue;
       const RegisterRange& a = ranges[k];
       const RegisterRange& b = ranges[i];
-      return MakeError(Id::kRootSignatureOverlap,
-                       register_text(b.register_class, std::max(a.first, b.first), b.space),
-                       " is bound by ", a.static_sampler ? "static sampler " : "parameter ",
-                       a.parameter, " and by ", b.static_sampler ? "static sampler " : "parameter ",
-                       b.parameter);
+      return make_error(Id::kRootSignatureOverlap,
+                        register_text(b.register_class, std::max(a.first, b.first), b.space),
+                        " is bound by ", a.static_sampler ? "static sampler " : "parameter ",
+                        a.parameter, " and by ",
+                        b.static_sampler ? "static sampler " : "parameter ", b.parameter);
     }
   }
   return {};
@@ -206,13 +206,14 @@ uint64_t lay_out(const RootSignatureDesc& desc, std::vector<uint32_t>& offsets) 
 Status check_size(const RootSignatureDesc& desc, uint64_t argument_bytes) {
   if (HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature)) {
     if (argument_bytes <= kMaxLocalRootArgumentBytes) return {};
-    return MakeError(Id::kLocalRootSignatureTooLarge, "its arguments take ", argument_bytes,
-                     " bytes; at most 4064 fit in a record, whose stride is at most 4096");
+    return make_error(Id::kLocalRootSignatureTooLarge, "its arguments take ", argument_bytes,
+                      " bytes; at most 4064 fit in a record, whose stride is at most 4096");
   }
   const uint64_t cost = root_cost(desc);
   if (cost <= kMaxRootCost) return {};
-  return MakeError(Id::kRootSignatureTooLarge, "it costs ", cost,
-                   " DWORDs of at most 64 (a table costs 1, a root descriptor 2, each constant 1)");
+  return make_error(
+      Id::kRootSignatureTooLarge, "it costs ", cost,
+      " DWORDs of at most 64 (a table costs 1, a root descriptor 2, each constant 1)");
 }
 
 }  // namespace
@@ -255,8 +256,8 @@ bool overlap(const RegisterRange& a, const RegisterRange& b) {
 std::string register_text(RegisterClass register_class, uint32_t index, uint32_t space) {
   static constexpr char kLetters[] = {'t', 'u', 'b', 's'};
   const auto i = static_cast<uint32_t>(register_class);
-  std::string text = Text(i < 4 ? kLetters[i] : '?', index);
-  return space ? Text(text, ", space", space) : text;
+  std::string text = concat(i < 4 ? kLetters[i] : '?', index);
+  return space ? concat(text, ", space", space) : text;
 }
 
 bool same_sampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b) {
@@ -366,12 +367,12 @@ Status CheckRootSignature(const RootSignatureDesc& desc) {
 }
 
 Result<RootSignature> Device::CreateRootSignature(const RootSignatureDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateRootSignature on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateRootSignature on an empty device handle");
   return make_root_signature(impl_, desc);
 }
 
 Result<RootSignature> Device::CreateRootSignature(std::string_view text) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateRootSignature on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateRootSignature on an empty device handle");
   auto desc = ParseRootSignature(text);
   if (!desc.ok()) return desc.error();
   return make_root_signature(impl_, *desc);

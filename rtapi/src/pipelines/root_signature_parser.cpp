@@ -18,8 +18,8 @@ namespace rtapi {
 namespace {
 
 using detail::Id;
-using detail::MakeError;
-using detail::Quoted;
+using detail::in_quotes;
+using detail::make_error;
 
 struct Keyword {
   const char* name;
@@ -136,10 +136,10 @@ class Parser {
     if (!error_) {
       const size_t end = std::min(text_.size(), position + 24);
       const std::string found = position < text_.size()
-                                    ? Quoted(text_.substr(position, end - position))
+                                    ? in_quotes(text_.substr(position, end - position))
                                     : std::string("the end");
-      error_ = MakeError(Id::kRootSignatureSyntax, "column ", position + 1, ": ", what, ", found ",
-                         found);
+      error_ = make_error(Id::kRootSignatureSyntax, "column ", position + 1, ": ", what, ", found ",
+                          found);
     }
     return false;
   }
@@ -210,7 +210,7 @@ class Parser {
         return true;
       }
     }
-    return fail(detail::Text("expected a ", kind, ", such as ", keywords[0].name));
+    return fail(detail::concat("expected a ", kind, ", such as ", keywords[0].name));
   }
 
   // Reads 0, or names joined by '|'.

@@ -31,9 +31,9 @@ Status write_argument(const RootSignature& signature, uint32_t index, const Loca
   const RootParameter& parameter = signature.GetDesc().Parameters[index];
   const size_t wanted = wanted_kind(parameter.ParameterType);
   if (argument.value().index() != wanted) {
-    return MakeError(Id::kTableArgumentKind, where, ": argument ", index, " is ",
-                     kKinds[argument.value().index()], ", but the local root signature expects ",
-                     kKinds[wanted]);
+    return make_error(Id::kTableArgumentKind, where, ": argument ", index, " is ",
+                      kKinds[argument.value().index()], ", but the local root signature expects ",
+                      kKinds[wanted]);
   }
   const void* source = nullptr;
   size_t bytes = 8;
@@ -41,9 +41,9 @@ Status write_argument(const RootSignature& signature, uint32_t index, const Loca
     bytes = constants->size();
     source = constants->data();
     if (bytes != size_t{parameter.Constants.Num32BitValues} * 4) {
-      return MakeError(Id::kTableArgumentSize, where, ": argument ", index, " has ", bytes,
-                       " bytes, but the local root signature expects ",
-                       size_t{parameter.Constants.Num32BitValues} * 4);
+      return make_error(Id::kTableArgumentSize, where, ": argument ", index, " has ", bytes,
+                        " bytes, but the local root signature expects ",
+                        size_t{parameter.Constants.Num32BitValues} * 4);
     }
   } else if (const auto* address = std::get_if<GpuVirtualAddress>(&argument.value())) {
     source = address;
@@ -59,22 +59,22 @@ Status write_argument(const RootSignature& signature, uint32_t index, const Loca
 Result<uint32_t> ShaderTable::AddRecord(std::string_view export_name,
                                         std::span<const LocalArgument> arguments) {
   const std::string where =
-      Text(Quoted(name_), ", record ", records_.size(), " (", export_name, ")");
+      concat(in_quotes(name_), ", record ", records_.size(), " (", export_name, ")");
   const auto* linked = state_object_ ? state_object_.impl()->find_record(export_name) : nullptr;
   if (!linked) {
     std::string known;
     for (const auto& n : state_object_.GetIdentifiableExports()) {
-      known += Text(known.empty() ? "" : ", ", n);
+      known += concat(known.empty() ? "" : ", ", n);
     }
-    return MakeError(Id::kTableUnknownExport, where, ": the state object has the exports ",
-                     known.empty() ? "(none)" : known);
+    return make_error(Id::kTableUnknownExport, where, ": the state object has the exports ",
+                      known.empty() ? "(none)" : known);
   }
   const RootSignature signature = state_object_.GetLocalRootSignature(export_name);
   const size_t count = signature.GetDesc().Parameters.size();
   if (arguments.size() != count) {
-    return MakeError(Id::kTableArgumentCount, where, ": ", arguments.size(),
-                     " arguments; its local root signature has ", count, " parameters",
-                     signature ? "" : " (it has none)");
+    return make_error(Id::kTableArgumentCount, where, ": ", arguments.size(),
+                      " arguments; its local root signature has ", count, " parameters",
+                      signature ? "" : " (it has none)");
   }
   std::vector<std::byte> record(kIdentifierBytes + signature.GetArgumentBytes());
   std::memcpy(record.data(), linked->identifier.data(), kIdentifierBytes);

@@ -42,14 +42,14 @@ uint64_t StateObject::GetPipelineStackSize() const {
 }
 
 Status StateObject::SetPipelineStackSize(uint64_t bytes) {
-  if (!impl_) return MakeError(Id::kNullHandle, "SetPipelineStackSize on an empty state object");
+  if (!impl_) return make_error(Id::kNullHandle, "SetPipelineStackSize on an empty state object");
   if (impl_->type == StateObjectType::kCollection) {
-    return MakeError(Id::kPipelineStackSize, "a collection has no pipeline stack");
+    return make_error(Id::kPipelineStackSize, "a collection has no pipeline stack");
   }
   if (bytes >= 0xFFFFFFFFu) {
-    return MakeError(Id::kPipelineStackSize, bytes,
-                     " bytes is too large; it must be below 0xFFFFFFFF. The stack stays at ",
-                     impl_->stack_bytes.load(), " bytes");
+    return make_error(Id::kPipelineStackSize, bytes,
+                      " bytes is too large; it must be below 0xFFFFFFFF. The stack stays at ",
+                      impl_->stack_bytes.load(), " bytes");
   }
   impl_->stack_bytes = bytes;
   return {};
@@ -83,19 +83,19 @@ Result<std::shared_ptr<StateObjectImpl>> make_state_object(
 Status check_addition(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& addition,
                       const StateObject& parent) {
   if (device->desc.Tier < RaytracingTier::kTier1_1) {
-    return MakeError(Id::kAdditionNotAllowed, "AddToStateObject needs tier 1.1");
+    return make_error(Id::kAdditionNotAllowed, "AddToStateObject needs tier 1.1");
   }
   if (Status s = CheckHandle(device, parent, "the parent"); !s.ok()) return s;
   if (parent.impl()->type != StateObjectType::kRaytracingPipeline ||
       addition.Type != StateObjectType::kRaytracingPipeline) {
-    return MakeError(Id::kAdditionNotAllowed, "parent and addition must be pipelines, but the ",
-                     parent.impl()->type == StateObjectType::kCollection ? "parent" : "addition",
-                     " is a collection");
+    return make_error(Id::kAdditionNotAllowed, "parent and addition must be pipelines, but the ",
+                      parent.impl()->type == StateObjectType::kCollection ? "parent" : "addition",
+                      " is a collection");
   }
   if (!HasAny(parent.impl()->flags, StateObjectFlags::kAllowStateObjectAdditions)) {
-    return MakeError(Id::kAdditionNotAllowed,
-                     "the parent lacks flag 0x4 "
-                     "(kAllowStateObjectAdditions) in its state object config");
+    return make_error(Id::kAdditionNotAllowed,
+                      "the parent lacks flag 0x4 "
+                      "(kAllowStateObjectAdditions) in its state object config");
   }
   return {};
 }
@@ -111,17 +111,17 @@ Status check_added_names(const StateObjectImpl& added, const StateObjectImpl& pa
   }
   for (const SubjectPtr& s : added.subjects) {
     if (!counts(*s) || taken.count(s->name) == 0) continue;
-    return MakeError(Id::kAdditionDuplicate, "the parent already exports ", Quoted(s->name),
-                     "; rename it, or leave it out of the export list");
+    return make_error(Id::kAdditionDuplicate, "the parent already exports ", in_quotes(s->name),
+                      "; rename it, or leave it out of the export list");
   }
   return {};
 }
 
 Status check_added(const StateObjectImpl& added, const StateObjectImpl& parent) {
   if (!HasAny(added.flags, StateObjectFlags::kAllowStateObjectAdditions)) {
-    return MakeError(Id::kAdditionNotAllowed,
-                     "the addition lacks flag 0x4 "
-                     "(kAllowStateObjectAdditions) in its state object config");
+    return make_error(Id::kAdditionNotAllowed,
+                      "the addition lacks flag 0x4 "
+                      "(kAllowStateObjectAdditions) in its state object config");
   }
   const runtime::LinkedPipeline& a = *added.linked;
   const runtime::LinkedPipeline& p = *parent.linked;
@@ -129,10 +129,10 @@ Status check_added(const StateObjectImpl& added, const StateObjectImpl& parent) 
       (a.max_payload_bytes != p.max_payload_bytes ||
        a.max_attribute_bytes != p.max_attribute_bytes ||
        a.max_recursion_depth != p.max_recursion_depth || a.flags != p.flags)) {
-    return MakeError(Id::kAdditionConfigsDiffer, "the addition has payload ", a.max_payload_bytes,
-                     ", attributes ", a.max_attribute_bytes, ", recursion ", a.max_recursion_depth,
-                     ", but the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes,
-                     ", ", p.max_recursion_depth);
+    return make_error(Id::kAdditionConfigsDiffer, "the addition has payload ", a.max_payload_bytes,
+                      ", attributes ", a.max_attribute_bytes, ", recursion ", a.max_recursion_depth,
+                      ", but the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes,
+                      ", ", p.max_recursion_depth);
   }
   return check_added_names(added, parent);
 }
@@ -140,7 +140,7 @@ Status check_added(const StateObjectImpl& added, const StateObjectImpl& parent) 
 }  // namespace
 
 Result<StateObject> Device::CreateStateObject(const StateObjectDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateStateObject on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateStateObject on an empty device handle");
   auto made = make_state_object(impl_, desc, true);
   if (!made.ok()) return made.error();
   return StateObject(std::move(*made));
@@ -148,7 +148,7 @@ Result<StateObject> Device::CreateStateObject(const StateObjectDesc& desc) const
 
 Result<StateObject> Device::AddToStateObject(const StateObjectDesc& addition,
                                              const StateObject& parent) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "AddToStateObject on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "AddToStateObject on an empty device handle");
   if (Status s = check_addition(impl_, addition, parent); !s.ok()) return s.error();
   // The addition must be valid by itself, since it sees nothing of the parent.
   auto added = make_state_object(impl_, addition, false);

@@ -23,7 +23,7 @@ class Gatherer {
   Result<Parts> run();
 
  private:
-  static std::string where_of(size_t index) { return Text("subobject ", index); }
+  static std::string where_of(size_t index) { return concat("subobject ", index); }
   Status gather_configs();
   Status take_flags(StateObjectFlags value, const std::string& where,
                     std::optional<StateObjectFlags>& flags);

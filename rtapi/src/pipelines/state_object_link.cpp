@@ -64,7 +64,7 @@ class Linker {
     if (!parts_.may_stay_unresolved()) return false;
     for (Id id : {Id::kHitGroupUnresolved, Id::kShaderConfigMissing, Id::kPipelineConfigMissing,
                   Id::kBindingMissing, Id::kDefaultAmbiguous, Id::kFunctionUnresolved}) {
-      if (error.id == PublicId(id)) return true;
+      if (error.id == public_id(id)) return true;
     }
     return false;
   }
@@ -81,9 +81,9 @@ class Linker {
       auto found = find_shader(*names[i], group);
       if (!found.ok()) return found.error();
       if ((*found)->code->stage != kStages[i]) {
-        return MakeError(Id::kHitGroupStage, describe(group), " imports ", Quoted(*names[i]),
-                         " as its ", stage_name(kStages[i]), " shader, but it is a ",
-                         stage_name((*found)->code->stage), " shader");
+        return make_error(Id::kHitGroupStage, describe(group), " imports ", in_quotes(*names[i]),
+                          " as its ", stage_name(kStages[i]), " shader, but it is a ",
+                          stage_name((*found)->code->stage), " shader");
       }
       group.members[i] = *found;
     }
@@ -100,19 +100,19 @@ class Linker {
         break;
       }
       if (found) {
-        return MakeError(Id::kExportAmbiguous, describe(group), " imports ", Quoted(name),
-                         ", which has several overloads; use the mangled name");
+        return make_error(Id::kExportAmbiguous, describe(group), " imports ", in_quotes(name),
+                          ", which has several overloads; use the mangled name");
       }
       found = s;
     }
     if (!found) {
-      return MakeError(Id::kHitGroupUnresolved, describe(group), " imports ", Quoted(name),
-                       ", which this state object does not export");
+      return make_error(Id::kHitGroupUnresolved, describe(group), " imports ", in_quotes(name),
+                        ", which this state object does not export");
     }
     if (!found->referable && found->collection_scope != group.collection_scope) {
-      return MakeError(Id::kCollectionNotReferable, describe(group), " imports ", Quoted(name),
-                       " from a collection that lacks flag 0x2 "
-                       "(kAllowExternalDependenciesOnLocalDefinitions)");
+      return make_error(Id::kCollectionNotReferable, describe(group), " imports ", in_quotes(name),
+                        " from a collection that lacks flag 0x2 "
+                        "(kAllowExternalDependenciesOnLocalDefinitions)");
     }
     return found;
   }
@@ -141,11 +141,11 @@ class Linker {
         continue;
       }
       if (result && !same_definition(*result, *associated.definition)) {
-        return MakeError(Id::kHitGroupAssociationMismatch, describe(group), ": ", describe(*first),
-                         " has ", category_name(static_cast<Category>(category)), " ",
-                         result->where, ", but ", describe(*subject), " has ",
-                         associated.definition->where,
-                         "; a hit group and its shaders must have the same");
+        return make_error(Id::kHitGroupAssociationMismatch, describe(group), ": ", describe(*first),
+                          " has ", category_name(static_cast<Category>(category)), " ",
+                          result->where, ", but ", describe(*subject), " has ",
+                          associated.definition->where,
+                          "; a hit group and its shaders must have the same");
       }
       if (!result) {
         result = associated.definition;
@@ -199,11 +199,11 @@ class Linker {
       std::copy_if(list->begin(), list->end(), std::back_inserter(candidates), is_category);
     }
     if (candidates.size() > 1) {
-      return MakeError(Id::kDefaultAmbiguous, describe(s), " has no ", category_name(c), ": ",
-                       candidates[0]->where, " and ", candidates[1]->where,
-                       " differ, so neither is the default; associate one of them explicitly");
+      return make_error(Id::kDefaultAmbiguous, describe(s), " has no ", category_name(c), ": ",
+                        candidates[0]->where, " and ", candidates[1]->where,
+                        " differ, so neither is the default; associate one of them explicitly");
     }
-    return MakeError(
+    return make_error(
         c == Category::kShaderConfig ? Id::kShaderConfigMissing : Id::kPipelineConfigMissing,
         describe(s), " has no ", category_name(c), " associated with it, explicitly or by default");
   }
@@ -211,19 +211,19 @@ class Linker {
   Status different_configs(const Subject& s, Category c, const Definition& a,
                            const Definition& b) const {
     if (c == Category::kShaderConfig) {
-      return MakeError(Id::kShaderConfigsDiffer, describe(s), " has a payload of ",
-                       b.shader_config.MaxPayloadSizeInBytes, " and attributes of ",
-                       b.shader_config.MaxAttributeSizeInBytes, " bytes (", b.where,
-                       "), but another export has ", a.shader_config.MaxPayloadSizeInBytes, " and ",
-                       a.shader_config.MaxAttributeSizeInBytes, " (", a.where,
-                       "); all exports must have the same");
+      return make_error(Id::kShaderConfigsDiffer, describe(s), " has a payload of ",
+                        b.shader_config.MaxPayloadSizeInBytes, " and attributes of ",
+                        b.shader_config.MaxAttributeSizeInBytes, " bytes (", b.where,
+                        "), but another export has ", a.shader_config.MaxPayloadSizeInBytes,
+                        " and ", a.shader_config.MaxAttributeSizeInBytes, " (", a.where,
+                        "); all exports must have the same");
     }
-    return MakeError(Id::kPipelineConfigsDiffer, describe(s), " has recursion depth ",
-                     b.pipeline_config.MaxTraceRecursionDepth, ", flags ",
-                     Hex(static_cast<uint32_t>(b.pipeline_config.Flags)), " (", b.where,
-                     "), but another export has ", a.pipeline_config.MaxTraceRecursionDepth, ", ",
-                     Hex(static_cast<uint32_t>(a.pipeline_config.Flags)), " (", a.where,
-                     "); all exports must have the same");
+    return make_error(Id::kPipelineConfigsDiffer, describe(s), " has recursion depth ",
+                      b.pipeline_config.MaxTraceRecursionDepth, ", flags ",
+                      hex(static_cast<uint32_t>(b.pipeline_config.Flags)), " (", b.where,
+                      "), but another export has ", a.pipeline_config.MaxTraceRecursionDepth, ", ",
+                      hex(static_cast<uint32_t>(a.pipeline_config.Flags)), " (", a.where,
+                      "); all exports must have the same");
   }
 
   // --- records ---
@@ -280,11 +280,12 @@ class Linker {
     for (size_t i = 0; i < 3; ++i) {
       if (!group.members[i]) {
         if (names[i]->empty()) continue;
-        return MakeError(Id::kHitGroupUnresolved, describe(group), " imports ", Quoted(*names[i]),
-                         ", which this state object does not export");
+        return make_error(Id::kHitGroupUnresolved, describe(group), " imports ",
+                          in_quotes(*names[i]), ", which this state object does not export");
       }
       const Subject& member = *group.members[i];
-      auto linked = link_shader(member, effective, Text(describe(member), " in ", describe(group)));
+      auto linked =
+          link_shader(member, effective, concat(describe(member), " in ", describe(group)));
       if (!linked.ok()) return linked.error();
       *slots[i] = *linked;
     }
@@ -298,14 +299,14 @@ class Linker {
     // [DXR: Payload access qualifiers, Payload size]
     const bool bounded = !(s.code->flags & shader::kExportQualifiedPayload);
     if (bounded && s.code->payload_bytes > config.MaxPayloadSizeInBytes) {
-      return MakeError(Id::kPayloadTooLarge, where, " has a payload of ", s.code->payload_bytes,
-                       " bytes, but MaxPayloadSizeInBytes of ", d->where, " is ",
-                       config.MaxPayloadSizeInBytes);
+      return make_error(Id::kPayloadTooLarge, where, " has a payload of ", s.code->payload_bytes,
+                        " bytes, but MaxPayloadSizeInBytes of ", d->where, " is ",
+                        config.MaxPayloadSizeInBytes);
     }
     if (s.code->attribute_bytes > config.MaxAttributeSizeInBytes) {
-      return MakeError(Id::kAttributesTooLarge, where, " has attributes of ",
-                       s.code->attribute_bytes, " bytes, but MaxAttributeSizeInBytes of ", d->where,
-                       " is ", config.MaxAttributeSizeInBytes);
+      return make_error(Id::kAttributesTooLarge, where, " has attributes of ",
+                        s.code->attribute_bytes, " bytes, but MaxAttributeSizeInBytes of ",
+                        d->where, " is ", config.MaxAttributeSizeInBytes);
     }
     return {};
   }
@@ -334,10 +335,10 @@ class Linker {
         if (own.strength != Strength::kExplicit || !own.definition) continue;
         const DefinitionPtr& callers_own = effective[static_cast<size_t>(c)];
         if (callers_own && same_definition(*callers_own, *own.definition)) continue;
-        return MakeError(Id::kCallGraphSignatures, "function ", Quoted(f->name), " has ",
-                         category_name(c), " ", own.definition->where, ", but its caller ", where,
-                         " has ", callers_own ? callers_own->where : "none",
-                         "; a function must have the same as its callers, or none of its own");
+        return make_error(Id::kCallGraphSignatures, "function ", in_quotes(f->name), " has ",
+                          category_name(c), " ", own.definition->where, ", but its caller ", where,
+                          " has ", callers_own ? callers_own->where : "none",
+                          "; a function must have the same as its callers, or none of its own");
       }
     }
     return {};
@@ -346,9 +347,9 @@ class Linker {
   Result<const LinkedShader*> link_shader(const Subject& s, const Effective& effective,
                                           const std::string& where) {
     if (s.code->import_count != 0) {
-      return MakeError(Id::kFunctionUnresolved, where, " calls ",
-                       Quoted(s.library.impl()->desc->imports[s.code->imports[0]].signature),
-                       ", which has no body");
+      return make_error(Id::kFunctionUnresolved, where, " calls ",
+                        in_quotes(s.library.impl()->desc->imports[s.code->imports[0]].signature),
+                        ", which has no body");
     }
     if (Status st = check_sizes(s, effective, where); !st.ok()) return st.error();
     if (Status st = check_call_graph(s, effective, where); !st.ok()) return st.error();
@@ -392,11 +393,11 @@ class Linker {
             auto [it, is_new] = local_samplers.emplace(
                 std::pair(sampler.RegisterSpace, sampler.ShaderRegister), &sampler);
             if (!is_new && !same_sampler(*it->second, sampler)) {
-              return MakeError(Id::kStaticSamplerConflict,
-                               "two local root signatures define static sampler ",
-                               register_text(shader::RegisterClass::kSampler,
-                                             sampler.ShaderRegister, sampler.RegisterSpace),
-                               " differently (one is for ", Quoted(s->name), "); they must agree");
+              return make_error(
+                  Id::kStaticSamplerConflict, "two local root signatures define static sampler ",
+                  register_text(shader::RegisterClass::kSampler, sampler.ShaderRegister,
+                                sampler.RegisterSpace),
+                  " differently (one is for ", in_quotes(s->name), "); they must agree");
             }
           }
           const bool known = std::any_of(unique.begin(), unique.end(),
@@ -406,8 +407,8 @@ class Linker {
       }
     }
     if (unique.size() <= kMaxStaticSamplers) return {};
-    return MakeError(Id::kStaticSamplerCount, "the state object has ", unique.size(),
-                     " static samplers; at most ", kMaxStaticSamplers, " are allowed");
+    return make_error(Id::kStaticSamplerCount, "the state object has ", unique.size(),
+                      " static samplers; at most ", kMaxStaticSamplers, " are allowed");
   }
 
   // --- the result ---

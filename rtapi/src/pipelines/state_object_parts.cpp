@@ -65,9 +65,9 @@ Gatherer::Gatherer(const std::shared_ptr<DeviceImpl>& device, const StateObjectD
 Result<Parts> Gatherer::run() {
   if (desc_.Type != StateObjectType::kCollection &&
       desc_.Type != StateObjectType::kRaytracingPipeline) {
-    return MakeError(Id::kStateObjectInvalidSubobject, "state object type ",
-                     static_cast<uint32_t>(desc_.Type),
-                     "; it must be kCollection (0) or kRaytracingPipeline (3)");
+    return make_error(Id::kStateObjectInvalidSubobject, "state object type ",
+                      static_cast<uint32_t>(desc_.Type),
+                      "; it must be kCollection (0) or kRaytracingPipeline (3)");
   }
   definitions_.resize(desc_.Subobjects.size());
   // Read the flags first: they decide whether a collection may be included.
@@ -100,10 +100,10 @@ Status Gatherer::gather_configs() {
     for (uint32_t i = 0; i < table.subobject_count; ++i) {
       const auto& s = table.subobjects[i];
       if (s.type != 0 || !is_listed(*library, s.name)) continue;
-      if (Status st = take_flags(
-              static_cast<StateObjectFlags>(s.values[0]),
-              Text(Quoted(s.name ? s.name : ""), " of ", Quoted(library->DXILLibrary.name())),
-              flags);
+      if (Status st = take_flags(static_cast<StateObjectFlags>(s.values[0]),
+                                 concat(in_quotes(s.name ? s.name : ""), " of ",
+                                        in_quotes(library->DXILLibrary.name())),
+                                 flags);
           !st.ok()) {
         return st;
       }
@@ -116,13 +116,13 @@ Status Gatherer::gather_configs() {
 Status Gatherer::take_flags(StateObjectFlags value, const std::string& where,
                             std::optional<StateObjectFlags>& flags) {
   if ((value & ~kDefinedObjectFlags) != StateObjectFlags::kNone) {
-    return MakeError(Id::kConfigFlags, where, ": undefined state object flags ",
-                     Hex(static_cast<uint32_t>(value)), "; only 0x1, 0x2 and 0x4 are defined");
+    return make_error(Id::kConfigFlags, where, ": undefined state object flags ",
+                      hex(static_cast<uint32_t>(value)), "; only 0x1, 0x2 and 0x4 are defined");
   }
   if (flags && *flags != value) {
-    return MakeError(Id::kAssociationConflict, where, ": a second state object config has flags ",
-                     Hex(static_cast<uint32_t>(value)), ", but the first has ",
-                     Hex(static_cast<uint32_t>(*flags)));
+    return make_error(Id::kAssociationConflict, where, ": a second state object config has flags ",
+                      hex(static_cast<uint32_t>(value)), ", but the first has ",
+                      hex(static_cast<uint32_t>(*flags)));
   }
   flags = value;
   return {};
@@ -130,8 +130,8 @@ Status Gatherer::take_flags(StateObjectFlags value, const std::string& where,
 
 Status Gatherer::gather(const NodeMask& mask, size_t i) {
   if (mask.Mask <= 1) return {};
-  return MakeError(Id::kStateObjectInvalidSubobject, where_of(i), ": node mask ", Hex(mask.Mask),
-                   "; there is a single node, so it must be 0 or 1");
+  return make_error(Id::kStateObjectInvalidSubobject, where_of(i), ": node mask ", hex(mask.Mask),
+                    "; there is a single node, so it must be 0 or 1");
 }
 
 Status Gatherer::gather(const GlobalRootSignature& sub, size_t i) {
@@ -164,9 +164,9 @@ Status Gatherer::check_names() {
     const std::string key = s->mangled.empty() ? s->name : s->mangled;
     auto [it, is_new] = seen.emplace(key, s.get());
     if (!is_new) {
-      return MakeError(Id::kExportDuplicate, Quoted(s->name), " is exported twice",
-                       origin(*it->second), origin(*s),
-                       "; rename one of them in its export list, or leave it out");
+      return make_error(Id::kExportDuplicate, in_quotes(s->name), " is exported twice",
+                        origin(*it->second), origin(*s),
+                        "; rename one of them in its export list, or leave it out");
     }
   }
   // A hit group and a shader must not share a name: nothing could tell them apart.
@@ -177,23 +177,24 @@ Status Gatherer::check_names() {
   for (const SubjectPtr& s : parts_.subjects) {
     if (s->hidden || !s->is_group()) continue;
     if (auto it = shaders.find(s->name); it != shaders.end()) {
-      return MakeError(Id::kExportDuplicate, "hit group ", Quoted(s->name),
-                       " has the same name as a shader", origin(*it->second));
+      return make_error(Id::kExportDuplicate, "hit group ", in_quotes(s->name),
+                        " has the same name as a shader", origin(*it->second));
     }
   }
   return {};
 }
 
 std::string Gatherer::origin(const Subject& s) const {
-  if (s.collection_scope >= 0) return Text(", from collection ", s.collection_scope);
+  if (s.collection_scope >= 0) return concat(", from collection ", s.collection_scope);
   if (s.library_scope < 0) return {};
-  return Text(", from ", Quoted(parts_.libraries[static_cast<size_t>(s.library_scope)].name()));
+  return concat(", from ",
+                in_quotes(parts_.libraries[static_cast<size_t>(s.library_scope)].name()));
 }
 Status Gatherer::gather_association(const StateSubobject& sub, size_t i) {
   if (const auto* a = std::get_if<SubobjectToExportsAssociation>(&sub)) {
     if (a->SubobjectToAssociate >= desc_.Subobjects.size()) {
-      return MakeError(Id::kAssociationBadSubobject, where_of(i), " associates subobject ",
-                       a->SubobjectToAssociate, ", but there are only ", desc_.Subobjects.size());
+      return make_error(Id::kAssociationBadSubobject, where_of(i), " associates subobject ",
+                        a->SubobjectToAssociate, ", but there are only ", desc_.Subobjects.size());
     }
     const auto type = GetSubobjectType(desc_.Subobjects[a->SubobjectToAssociate]);
     if (type == StateSubobjectType::kNodeMask || type == StateSubobjectType::kStateObjectConfig) {
@@ -201,17 +202,17 @@ Status Gatherer::gather_association(const StateSubobject& sub, size_t i) {
     }
     const DefinitionPtr& definition = definitions_[a->SubobjectToAssociate];
     if (!definition) {
-      return MakeError(Id::kAssociationBadSubobject, where_of(i), " associates subobject ",
-                       a->SubobjectToAssociate, " of type ", static_cast<uint32_t>(type),
-                       "; only configs and root signatures can be associated with exports");
+      return make_error(Id::kAssociationBadSubobject, where_of(i), " associates subobject ",
+                        a->SubobjectToAssociate, " of type ", static_cast<uint32_t>(type),
+                        "; only configs and root signatures can be associated with exports");
     }
     associate(definition, a->Exports, -1, where_of(i));
   } else if (const auto* d = std::get_if<DxilSubobjectToExportsAssociation>(&sub)) {
     const DefinitionPtr definition = find_in_libraries(d->SubobjectToAssociate);
     if (!definition && !parts_.is_collection()) {
-      return MakeError(Id::kAssociationBadSubobject, where_of(i), " associates ",
-                       Quoted(d->SubobjectToAssociate),
-                       ", which no included library declares as a config or root signature");
+      return make_error(Id::kAssociationBadSubobject, where_of(i), " associates ",
+                        in_quotes(d->SubobjectToAssociate),
+                        ", which no included library declares as a config or root signature");
     }
     if (definition) associate(definition, d->Exports, -1, where_of(i));
   }

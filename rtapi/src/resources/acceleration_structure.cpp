@@ -44,7 +44,7 @@ const VertexFormatInfo* find_vertex_format(Format format) {
 }
 
 std::string geometry_text(size_t index) {
-  return Text("geometry ", index);
+  return concat("geometry ", index);
 }
 
 // The purpose that a description is checked for. Sizes depend on no address; at most on whether one
@@ -54,25 +54,25 @@ enum class Purpose { kSize, kBuild };
 Status check_addresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_unit,
                        const std::string& where) {
   if (t.VertexBuffer.StartAddress % vertex_unit != 0) {
-    return MakeError(Id::kVertexBufferAlignment, where, ": vertices are at ",
-                     Hex(t.VertexBuffer.StartAddress),
-                     "; this format needs an address that is a multiple of ", vertex_unit);
+    return make_error(Id::kVertexBufferAlignment, where, ": vertices are at ",
+                      hex(t.VertexBuffer.StartAddress),
+                      "; this format needs an address that is a multiple of ", vertex_unit);
   }
   const bool none = t.IndexFormat == Format::kUnknown;
   if (!none && t.IndexBuffer == 0) {
-    return MakeError(Id::kIndexBuffer, where, ": IndexCount is ", t.IndexCount, " and the format ",
-                     static_cast<uint32_t>(t.IndexFormat),
-                     ", but there is no index buffer; without one the format must be kUnknown and "
-                     "the count 0");
+    return make_error(Id::kIndexBuffer, where, ": IndexCount is ", t.IndexCount, " and the format ",
+                      static_cast<uint32_t>(t.IndexFormat),
+                      ", but there is no index buffer; without one the format must be kUnknown and "
+                      "the count 0");
   }
   const uint32_t index_bytes = t.IndexFormat == Format::kR16Uint ? 2 : 4;
   if (!none && t.IndexBuffer % index_bytes != 0) {
-    return MakeError(Id::kIndexBuffer, where, ": indices at ", Hex(t.IndexBuffer),
-                     "; the address must be a multiple of ", index_bytes);
+    return make_error(Id::kIndexBuffer, where, ": indices at ", hex(t.IndexBuffer),
+                      "; the address must be a multiple of ", index_bytes);
   }
   if (t.Transform3x4 % kRaytracingTransform3x4ByteAlignment != 0) {
-    return MakeError(Id::kTransformAlignment, where, ": Transform3x4 is at ", Hex(t.Transform3x4),
-                     "; its address must be a multiple of 16");
+    return make_error(Id::kTransformAlignment, where, ": Transform3x4 is at ", hex(t.Transform3x4),
+                      "; its address must be a multiple of 16");
   }
   return {};
 }
@@ -82,30 +82,30 @@ Status check_triangles(const DeviceImpl& device, const RaytracingGeometryTriangl
   const std::string where = geometry_text(index);
   const VertexFormatInfo* format = find_vertex_format(t.VertexFormat);
   if (!format || (format->tier_1_1 && device.desc.Tier < RaytracingTier::kTier1_1)) {
-    return MakeError(Id::kVertexFormat, where, ": vertex format ",
-                     static_cast<uint32_t>(t.VertexFormat),
-                     format ? " needs tier 1.1; this device was created with tier 1.0"
-                            : " is not one of DXR's vertex formats");
+    return make_error(Id::kVertexFormat, where, ": vertex format ",
+                      static_cast<uint32_t>(t.VertexFormat),
+                      format ? " needs tier 1.1; this device was created with tier 1.0"
+                             : " is not one of DXR's vertex formats");
   }
   // Only the low 32 bits of the stride count. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
   const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
   const uint32_t unit = format->component_bytes;
   if (stride % unit != 0 || (format->stride && t.VertexCount > 1 && stride != format->stride)) {
-    return MakeError(Id::kVertexBufferAlignment, where, ": vertices have stride ", stride,
-                     "; this format needs ",
-                     format->stride ? std::string("a stride of 4")
-                                    : Text("a stride that is a multiple of ", unit));
+    return make_error(Id::kVertexBufferAlignment, where, ": vertices have stride ", stride,
+                      "; this format needs ",
+                      format->stride ? std::string("a stride of 4")
+                                     : concat("a stride that is a multiple of ", unit));
   }
   const bool none = t.IndexFormat == Format::kUnknown;
   if (!none && t.IndexFormat != Format::kR16Uint && t.IndexFormat != Format::kR32Uint) {
-    return MakeError(Id::kIndexBuffer, where, ": index format ",
-                     static_cast<uint32_t>(t.IndexFormat),
-                     "; it must be kR16Uint, kR32Uint, or kUnknown without an index buffer");
+    return make_error(Id::kIndexBuffer, where, ": index format ",
+                      static_cast<uint32_t>(t.IndexFormat),
+                      "; it must be kR16Uint, kR32Uint, or kUnknown without an index buffer");
   }
   if (none && (t.IndexBuffer != 0 || t.IndexCount != 0)) {
-    return MakeError(Id::kIndexBuffer, where, ": index format is kUnknown, but ",
-                     t.IndexBuffer ? std::string("an index buffer is given")
-                                   : Text("IndexCount is ", t.IndexCount));
+    return make_error(Id::kIndexBuffer, where, ": index format is kUnknown, but ",
+                      t.IndexBuffer ? std::string("an index buffer is given")
+                                    : concat("IndexCount is ", t.IndexCount));
   }
   return purpose == Purpose::kBuild ? check_addresses(t, unit, where) : Status();
 }
@@ -116,9 +116,9 @@ Status check_aabbs(const RaytracingGeometryAabbsDesc& a, size_t index, Purpose p
       a.AABBs.StrideInBytes % kRaytracingAabbByteAlignment == 0) {
     return {};
   }
-  return MakeError(Id::kAabbAlignment, geometry_text(index), ": AABBs at ",
-                   Hex(a.AABBs.StartAddress), " with stride ", a.AABBs.StrideInBytes,
-                   "; both must be multiples of 8");
+  return make_error(Id::kAabbAlignment, geometry_text(index), ": AABBs at ",
+                    hex(a.AABBs.StartAddress), " with stride ", a.AABBs.StrideInBytes,
+                    "; both must be multiples of 8");
 }
 
 uint64_t primitive_count(const RaytracingGeometryDesc& g) {
@@ -136,34 +136,35 @@ const RaytracingGeometryDesc* geometry_at(const BuildRaytracingAccelerationStruc
 Status check_geometries(const DeviceImpl& device,
                         const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (inputs.NumDescs > kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure) {
-    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " geometries; at most 2^24 are allowed");
+    return make_error(Id::kGeometryLimits, inputs.NumDescs,
+                      " geometries; at most 2^24 are allowed");
   }
   if (inputs.NumDescs != 0 && inputs.pGeometryDescs == nullptr) {
-    return MakeError(Id::kGeometryDescsNull, "NumDescs is ", inputs.NumDescs,
-                     ", but the pointer to the geometry descs is null");
+    return make_error(Id::kGeometryDescsNull, "NumDescs is ", inputs.NumDescs,
+                      ", but the pointer to the geometry descs is null");
   }
   uint64_t primitives = 0;
   RaytracingGeometryType type = RaytracingGeometryType::kTriangles;
   for (uint32_t i = 0; i < inputs.NumDescs; ++i) {
     const RaytracingGeometryDesc* g = geometry_at(inputs, i);
-    if (!g) return MakeError(Id::kGeometryDescsNull, geometry_text(i), " is a null pointer");
+    if (!g) return make_error(Id::kGeometryDescsNull, geometry_text(i), " is a null pointer");
     if (g->Type > RaytracingGeometryType::kProceduralPrimitiveAabbs) {
-      return MakeError(Id::kBuildInputs, geometry_text(i), " has type ",
-                       static_cast<uint32_t>(g->Type), "; it must be 0 or 1");
+      return make_error(Id::kBuildInputs, geometry_text(i), " has type ",
+                        static_cast<uint32_t>(g->Type), "; it must be 0 or 1");
     }
     if (i == 0) type = g->Type;
     if (g->Type != type) {
-      return MakeError(Id::kGeometryMixed, geometry_text(i), " holds ",
-                       type == RaytracingGeometryType::kTriangles
-                           ? "AABBs but geometry 0 holds triangles"
-                           : "triangles but geometry 0 holds AABBs",
-                       "; all geometries of a bottom level must be of one kind");
+      return make_error(Id::kGeometryMixed, geometry_text(i), " holds ",
+                        type == RaytracingGeometryType::kTriangles
+                            ? "AABBs but geometry 0 holds triangles"
+                            : "triangles but geometry 0 holds AABBs",
+                        "; all geometries of a bottom level must be of one kind");
     }
     const auto known =
         RaytracingGeometryFlags::kOpaque | RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
     if ((g->Flags & ~known) != RaytracingGeometryFlags::kNone) {
-      return MakeError(Id::kBuildInputs, geometry_text(i), " has undefined flags ",
-                       Hex(static_cast<uint32_t>(g->Flags)));
+      return make_error(Id::kBuildInputs, geometry_text(i), " has undefined flags ",
+                        hex(static_cast<uint32_t>(g->Flags)));
     }
     Status s = type == RaytracingGeometryType::kTriangles
                    ? check_triangles(device, g->Triangles, i, purpose)
@@ -173,7 +174,7 @@ Status check_geometries(const DeviceImpl& device,
     primitives = std::min(primitives, UINT64_MAX - count) + count;
   }
   if (primitives > kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
-    return MakeError(Id::kGeometryLimits, primitives, " primitives; at most 2^29 are allowed");
+    return make_error(Id::kGeometryLimits, primitives, " primitives; at most 2^29 are allowed");
   }
   return {};
 }
@@ -184,13 +185,13 @@ Status check_live(const DeviceImpl& device, GpuVirtualAddress address, uint64_t 
   if (bytes == 0) return {};
   const uint64_t available = device.addresses.bytes_from(address);
   if (available == 0) {
-    return MakeError(Id::kBuildAddress, what, ": needs ", bytes, " bytes at ",
-                     device.describe_address(address));
+    return make_error(Id::kBuildAddress, what, ": needs ", bytes, " bytes at ",
+                      device.describe_address(address));
   }
   if (available < bytes) {
-    return MakeError(Id::kBuildMemoryTooSmall, what, ": needs ", bytes, " bytes from ",
-                     device.describe_address(address), ", but the buffer has only ", available,
-                     " left there");
+    return make_error(Id::kBuildMemoryTooSmall, what, ": needs ", bytes, " bytes from ",
+                      device.describe_address(address), ", but the buffer has only ", available,
+                      " left there");
   }
   return {};
 }
@@ -229,9 +230,9 @@ Status check_instance_memory(const DeviceImpl& device,
   const bool array = inputs.DescsLayout == ElementsLayout::kArray;
   const uint32_t alignment = array ? kRaytracingInstanceDescsByteAlignment : 8;
   if (inputs.NumDescs != 0 && inputs.InstanceDescs % alignment != 0) {
-    return MakeError(Id::kInstanceDescs, array ? "instance descs" : "instance desc pointers",
-                     " at ", device.describe_address(inputs.InstanceDescs),
-                     "; the address must be a multiple of ", alignment);
+    return make_error(Id::kInstanceDescs, array ? "instance descs" : "instance desc pointers",
+                      " at ", device.describe_address(inputs.InstanceDescs),
+                      "; the address must be a multiple of ", alignment);
   }
   return check_live(device, inputs.InstanceDescs,
                     uint64_t{inputs.NumDescs} * (array ? sizeof(RaytracingInstanceDesc) : 8),
@@ -243,14 +244,14 @@ Status check_scratch(const DeviceImpl& device, const BuildRaytracingAcceleration
   if (bytes == 0) return {};
   const GpuVirtualAddress scratch = desc.ScratchAccelerationStructureData;
   if (scratch % kRaytracingAccelerationStructureByteAlignment != 0) {
-    return MakeError(Id::kAccelerationStructureAlignment, "scratch is at ",
-                     device.describe_address(scratch), "; its address must be a multiple of 256");
+    return make_error(Id::kAccelerationStructureAlignment, "scratch is at ",
+                      device.describe_address(scratch), "; its address must be a multiple of 256");
   }
   const auto allocation = device.addresses.find(scratch);
   if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kAccelerationStructureMemory, "scratch is in ",
-                     Named("buffer", allocation->name),
-                     ", which was created without kAllowUnorderedAccess");
+    return make_error(Id::kAccelerationStructureMemory, "scratch is in ",
+                      named("buffer", allocation->name),
+                      ", which was created without kAllowUnorderedAccess");
   }
   return check_live(device, scratch, bytes, "scratch");
 }
@@ -258,25 +259,25 @@ Status check_scratch(const DeviceImpl& device, const BuildRaytracingAcceleration
 Status check_inputs(const DeviceImpl& device,
                     const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (inputs.Type > StructureType::kBottomLevel) {
-    return MakeError(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
-                     "; it must be kTopLevel (0) or kBottomLevel (1)");
+    return make_error(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
+                      "; it must be kTopLevel (0) or kBottomLevel (1)");
   }
   if (inputs.DescsLayout > ElementsLayout::kArrayOfPointers) {
-    return MakeError(Id::kBuildInputs, "DescsLayout is ", static_cast<uint32_t>(inputs.DescsLayout),
-                     "; it must be 0 or 1");
+    return make_error(Id::kBuildInputs, "DescsLayout is ",
+                      static_cast<uint32_t>(inputs.DescsLayout), "; it must be 0 or 1");
   }
   if (static_cast<uint32_t>(inputs.Flags) & ~0x3Fu) {
-    return MakeError(Id::kBuildInputs, "Flags are ", Hex(static_cast<uint32_t>(inputs.Flags)),
-                     "; only the bits of 0x3f are defined");
+    return make_error(Id::kBuildInputs, "Flags are ", hex(static_cast<uint32_t>(inputs.Flags)),
+                      "; only the bits of 0x3f are defined");
   }
   if (HasAny(inputs.Flags, BuildFlags::kPreferFastTrace) &&
       HasAny(inputs.Flags, BuildFlags::kPreferFastBuild)) {
-    return MakeError(Id::kBuildFlagsExclusive,
-                     "kPreferFastTrace and kPreferFastBuild are both set");
+    return make_error(Id::kBuildFlagsExclusive,
+                      "kPreferFastTrace and kPreferFastBuild are both set");
   }
   if (inputs.Type == StructureType::kBottomLevel) return check_geometries(device, inputs, purpose);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
-    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
+    return make_error(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
   }
   return {};
 }
@@ -300,18 +301,18 @@ std::vector<RaytracingGeometryDesc> copy_geometry_descs(
 Status check_structure_address(const DeviceImpl& device, GpuVirtualAddress address,
                                std::string_view what) {
   if (address == 0 || address % kRaytracingAccelerationStructureByteAlignment != 0) {
-    return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
-                     device.describe_address(address),
-                     "; its address must be a multiple of 256 and not 0");
+    return make_error(Id::kAccelerationStructureAlignment, what, " is at ",
+                      device.describe_address(address),
+                      "; its address must be a multiple of 256 and not 0");
   }
   const auto allocation = device.addresses.find(address);
   if (!allocation) {
-    return MakeError(Id::kBuildAddress, what, " is at ", device.describe_address(address));
+    return make_error(Id::kBuildAddress, what, " is at ", device.describe_address(address));
   }
   if (!allocation->acceleration_structure) {
-    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
-                     Named("buffer", allocation->name),
-                     "; create it with InitialState kRaytracingAccelerationStructure");
+    return make_error(Id::kAccelerationStructureMemory, what, " is in ",
+                      named("buffer", allocation->name),
+                      "; create it with InitialState kRaytracingAccelerationStructure");
   }
   return {};
 }
@@ -324,9 +325,9 @@ Status check_build_addresses(const DeviceImpl& device,
   Status s = check_structure_address(device, desc.DestAccelerationStructureData, "dest");
   if (!s.ok()) return s;
   if (!update && desc.SourceAccelerationStructureData != 0) {
-    return MakeError(Id::kBuildUpdate, "source is ",
-                     device.describe_address(desc.SourceAccelerationStructureData),
-                     ", but it must be 0 without kPerformUpdate");
+    return make_error(Id::kBuildUpdate, "source is ",
+                      device.describe_address(desc.SourceAccelerationStructureData),
+                      ", but it must be 0 without kPerformUpdate");
   }
   if (update) {
     s = check_structure_address(device, desc.SourceAccelerationStructureData, "source");
@@ -354,20 +355,20 @@ Status check_build_addresses(const DeviceImpl& device,
 Status check_structure_bytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
                              bool written, std::string_view what) {
   if (address % kRaytracingAccelerationStructureByteAlignment != 0) {
-    return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
-                     device.describe_address(address), "; its address must be a multiple of 256");
+    return make_error(Id::kAccelerationStructureAlignment, what, " is at ",
+                      device.describe_address(address), "; its address must be a multiple of 256");
   }
   const auto allocation = device.addresses.find(address);
   if (allocation && allocation->acceleration_structure) {
-    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
-                     Named("buffer", allocation->name),
-                     ", which holds acceleration structures; serialized and decoded data need a "
-                     "plain buffer");
+    return make_error(Id::kAccelerationStructureMemory, what, " is in ",
+                      named("buffer", allocation->name),
+                      ", which holds acceleration structures; serialized and decoded data need a "
+                      "plain buffer");
   }
   if (allocation && written && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
-                     Named("buffer", allocation->name),
-                     ", which was created without kAllowUnorderedAccess");
+    return make_error(Id::kAccelerationStructureMemory, what, " is in ",
+                      named("buffer", allocation->name),
+                      ", which was created without kAllowUnorderedAccess");
   }
   return check_live(device, address, bytes, std::string(what));
 }
@@ -377,18 +378,18 @@ Status check_postbuild_info(const DeviceImpl& device,
                             size_t count) {
   using Type = RaytracingAccelerationStructurePostbuildInfoType;
   if (desc.InfoType > Type::kCurrentSize) {
-    return MakeError(Id::kPostbuildInfo, "InfoType is ", static_cast<uint32_t>(desc.InfoType),
-                     "; it must be 0 to 3");
+    return make_error(Id::kPostbuildInfo, "InfoType is ", static_cast<uint32_t>(desc.InfoType),
+                      "; it must be 0 to 3");
   }
   if (desc.DestBuffer % 8 != 0) {
-    return MakeError(Id::kPostbuildInfo, "DestBuffer is at ",
-                     device.describe_address(desc.DestBuffer),
-                     "; its address must be a multiple of 8");
+    return make_error(Id::kPostbuildInfo, "DestBuffer is at ",
+                      device.describe_address(desc.DestBuffer),
+                      "; its address must be a multiple of 8");
   }
   const auto allocation = device.addresses.find(desc.DestBuffer);
   if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kPostbuildInfo, "DestBuffer is in ", Named("buffer", allocation->name),
-                     ", which was created without kAllowUnorderedAccess");
+    return make_error(Id::kPostbuildInfo, "DestBuffer is in ", named("buffer", allocation->name),
+                      ", which was created without kAllowUnorderedAccess");
   }
   return check_live(device, desc.DestBuffer,
                     count * (desc.InfoType == Type::kSerialization ? 16 : 8), "postbuild info");
@@ -408,9 +409,9 @@ Result<RaytracingAccelerationStructurePrebuildInfo>
 Device::GetRaytracingAccelerationStructurePrebuildInfo(
     const BuildRaytracingAccelerationStructureInputs& inputs) const {
   if (!impl_)
-    return MakeError(Id::kNullHandle,
-                     "GetRaytracingAccelerationStructurePrebuildInfo "
-                     "on an empty device handle");
+    return make_error(Id::kNullHandle,
+                      "GetRaytracingAccelerationStructurePrebuildInfo "
+                      "on an empty device handle");
   if (Status s = check_inputs(*impl_, inputs, Purpose::kSize); !s.ok()) return s.error();
   const bool top = inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
   return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, copy_geometry_descs(inputs),

@@ -22,25 +22,25 @@ bool holds_targets(DescriptorHeapType type) {
 }
 
 Status check_heap(const DescriptorHeapDesc& desc) {
-  const std::string name = Named("descriptor heap", desc.Name);
+  const std::string name = named("descriptor heap", desc.Name);
   const bool samplers = desc.Type == DescriptorHeapType::kSampler;
   if (desc.Type > DescriptorHeapType::kDsv) {
-    return MakeError(Id::kHeapType, name, " has type ", static_cast<uint32_t>(desc.Type),
-                     "; it must be kCbvSrvUav, kSampler, kRtv or kDsv");
+    return make_error(Id::kHeapType, name, " has type ", static_cast<uint32_t>(desc.Type),
+                      "; it must be kCbvSrvUav, kSampler, kRtv or kDsv");
   }
   const bool visible = HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible);
   if ((desc.Flags & ~DescriptorHeapFlags::kShaderVisible) != DescriptorHeapFlags::kNone) {
-    return MakeError(Id::kHeapType, name, " has undefined flags ",
-                     Hex(static_cast<uint32_t>(desc.Flags)));
+    return make_error(Id::kHeapType, name, " has undefined flags ",
+                      hex(static_cast<uint32_t>(desc.Flags)));
   }
   if (visible && holds_targets(desc.Type)) {
-    return MakeError(Id::kHeapType, name,
-                     " has kShaderVisible, but shaders do not read heaps of RTVs and DSVs");
+    return make_error(Id::kHeapType, name,
+                      " has kShaderVisible, but shaders do not read heaps of RTVs and DSVs");
   }
   const uint32_t limit = samplers && visible ? kMaxShaderVisibleSamplerHeapSize : kMaxViews;
   if (desc.NumDescriptors == 0 || desc.NumDescriptors > limit) {
-    return MakeError(Id::kHeapSize, name, " has ", desc.NumDescriptors,
-                     " descriptors; it must have 1 to ", limit);
+    return make_error(Id::kHeapSize, name, " has ", desc.NumDescriptors,
+                      " descriptors; it must have 1 to ", limit);
   }
   return {};
 }
@@ -63,7 +63,7 @@ GpuDescriptorHandle DescriptorHeap::GetGPUDescriptorHandleForHeapStart() const {
 }
 
 Result<DescriptorHeap> Device::CreateDescriptorHeap(const DescriptorHeapDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateDescriptorHeap on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateDescriptorHeap on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (Status s = check_heap(desc); !s.ok()) return s.error();
   BufferDesc memory_desc;
@@ -84,28 +84,28 @@ Result<DescriptorHeap> Device::CreateDescriptorHeap(const DescriptorHeapDesc& de
 
 Status Device::CopyDescriptorsSimple(uint32_t count, CpuDescriptorHandle dest,
                                      CpuDescriptorHandle source, DescriptorHeapType type) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CopyDescriptorsSimple on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CopyDescriptorsSimple on an empty device handle");
   if (count == 0) return {};
   const auto to = impl_->find_slot(dest);
   const auto from = impl_->find_slot(source);
   if (!to || !from) {
-    return MakeError(Id::kDescriptorHandle, to ? "source " : "dest ",
-                     Hex(to ? source.ptr : dest.ptr), " is not in a live descriptor heap");
+    return make_error(Id::kDescriptorHandle, to ? "source " : "dest ",
+                      hex(to ? source.ptr : dest.ptr), " is not in a live descriptor heap");
   }
   if (to->type != type || from->type != type) {
-    return MakeError(Id::kDescriptorCopy, "the copy is of type ", static_cast<uint32_t>(type),
-                     ", but dest is in a heap of type ", static_cast<uint32_t>(to->type),
-                     " and source in one of type ", static_cast<uint32_t>(from->type));
+    return make_error(Id::kDescriptorCopy, "the copy is of type ", static_cast<uint32_t>(type),
+                      ", but dest is in a heap of type ", static_cast<uint32_t>(to->type),
+                      " and source in one of type ", static_cast<uint32_t>(from->type));
   }
   if (from->shader_visible) {
-    return MakeError(Id::kDescriptorCopy,
-                     "source is in a shader-visible heap, which the host cannot read in D3D12; "
-                     "keep a copy in a heap without that flag");
+    return make_error(Id::kDescriptorCopy,
+                      "source is in a shader-visible heap, which the host cannot read in D3D12; "
+                      "keep a copy in a heap without that flag");
   }
   if (count > to->count_from_here || count > from->count_from_here) {
-    return MakeError(Id::kDescriptorCopy, count, " descriptors do not fit: dest has ",
-                     to->count_from_here, " from slot ", to->index, " on, source ",
-                     from->count_from_here, " from slot ", from->index, " on");
+    return make_error(Id::kDescriptorCopy, count, " descriptors do not fit: dest has ",
+                      to->count_from_here, " from slot ", to->index, " on, source ",
+                      from->count_from_here, " from slot ", from->index, " on");
   }
   if (to->target) {
     const std::vector<TargetSlot> copied(from->target, from->target + count);

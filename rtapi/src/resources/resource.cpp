@@ -15,43 +15,43 @@ namespace {
 constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 40;
 
 Status check_buffer(const BufferDesc& desc) {
-  const std::string name = Named("buffer", desc.Name);
+  const std::string name = named("buffer", desc.Name);
   if (desc.SizeInBytes == 0 || desc.SizeInBytes > kMaxBufferBytes) {
-    return MakeError(Id::kBufferSize, name, " has ", desc.SizeInBytes,
-                     " bytes; it must have 1 to 2^40");
+    return make_error(Id::kBufferSize, name, " has ", desc.SizeInBytes,
+                      " bytes; it must have 1 to 2^40");
   }
   const bool known_heap = desc.Heap == HeapType::kDefault || desc.Heap == HeapType::kUpload ||
                           desc.Heap == HeapType::kReadback;
   if (!known_heap) {
-    return MakeError(Id::kBufferHeap, name, " has heap type ", static_cast<uint32_t>(desc.Heap),
-                     "; it must be kDefault, kUpload or kReadback");
+    return make_error(Id::kBufferHeap, name, " has heap type ", static_cast<uint32_t>(desc.Heap),
+                      "; it must be kDefault, kUpload or kReadback");
   }
   const bool unordered = HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess);
   if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
-    return MakeError(Id::kBufferHeap, name, " has undefined flags ",
-                     Hex(static_cast<uint32_t>(desc.Flags)));
+    return make_error(Id::kBufferHeap, name, " has undefined flags ",
+                      hex(static_cast<uint32_t>(desc.Flags)));
   }
   const bool on_default = desc.Heap == HeapType::kDefault;
   if (unordered && !on_default) {
-    return MakeError(Id::kBufferHeap, name,
-                     " has kAllowUnorderedAccess, which needs the default heap");
+    return make_error(Id::kBufferHeap, name,
+                      " has kAllowUnorderedAccess, which needs the default heap");
   }
   if (desc.InitialState == ResourceStates::kRaytracingAccelerationStructure) {
     if (!on_default || !unordered) {
-      return MakeError(Id::kAccelerationStructureBuffer, name,
-                       " starts in state kRaytracingAccelerationStructure, which needs ",
-                       on_default ? "the flag kAllowUnorderedAccess" : "the default heap");
+      return make_error(Id::kAccelerationStructureBuffer, name,
+                        " starts in state kRaytracingAccelerationStructure, which needs ",
+                        on_default ? "the flag kAllowUnorderedAccess" : "the default heap");
     }
   } else if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
-    return MakeError(Id::kAccelerationStructureBuffer, name,
-                     " combines kRaytracingAccelerationStructure with another state");
+    return make_error(Id::kAccelerationStructureBuffer, name,
+                      " combines kRaytracingAccelerationStructure with another state");
   } else if (!on_default && desc.InitialState != ResourceStates::kCommon) {
     const ResourceStates fixed =
         desc.Heap == HeapType::kUpload ? ResourceStates::kGenericRead : ResourceStates::kCopyDest;
     if (desc.InitialState != fixed) {
-      return MakeError(Id::kBufferHeap, name, " starts in state ",
-                       Hex(static_cast<uint32_t>(desc.InitialState)), "; its heap allows only ",
-                       Hex(static_cast<uint32_t>(fixed)));
+      return make_error(Id::kBufferHeap, name, " starts in state ",
+                        hex(static_cast<uint32_t>(desc.InitialState)), "; its heap allows only ",
+                        hex(static_cast<uint32_t>(fixed)));
     }
   }
   return {};
@@ -74,10 +74,10 @@ Status check_texture_flags(const TextureDesc& desc, const std::string& name) {
   constexpr F kKnown = F::kAllowRenderTarget | F::kAllowDepthStencil | F::kAllowUnorderedAccess |
                        F::kDenyShaderResource;
   const auto fail = [&](const auto&... text) {
-    return MakeError(Id::kTextureFormat, name, " has ", text...);
+    return make_error(Id::kTextureFormat, name, " has ", text...);
   };
   if ((desc.Flags & ~kKnown) != F::kNone) {
-    return fail("undefined flags ", Hex(static_cast<uint32_t>(desc.Flags)));
+    return fail("undefined flags ", hex(static_cast<uint32_t>(desc.Flags)));
   }
   const bool depth = HasAny(desc.Flags, F::kAllowDepthStencil);
   const bool color = HasAny(desc.Flags, F::kAllowRenderTarget);
@@ -109,33 +109,33 @@ Status check_target_support(const DeviceImpl& device, const TextureDesc& desc) {
   const Format format = depth ? GetDepthFormat(desc.Format) : desc.Format;
   if (GetFormatInfo(format).type == FormatClass::kTypeless) return {};
   if (device.backend->supports_target(format, false)) return {};
-  return MakeError(Id::kTargetFormat, Named("texture", desc.Name), " has DXGI format ",
-                   static_cast<uint32_t>(desc.Format), ", which this backend cannot draw to");
+  return make_error(Id::kTargetFormat, named("texture", desc.Name), " has DXGI format ",
+                    static_cast<uint32_t>(desc.Format), ", which this backend cannot draw to");
 }
 
 // Sides need not be multiples of 4: as with UnalignedBlockTexturesSupported.
 Status check_block_texture(const TextureDesc& desc, const std::string& name) {
   if (GetFormatInfo(desc.Format).block_side == 1) return {};
   if (HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kBlockAccess, name, " has block-compressed DXGI format ",
-                     static_cast<uint32_t>(desc.Format),
-                     " and kAllowUnorderedAccess; it must have no flags");
+    return make_error(Id::kBlockAccess, name, " has block-compressed DXGI format ",
+                      static_cast<uint32_t>(desc.Format),
+                      " and kAllowUnorderedAccess; it must have no flags");
   }
   if (desc.Dimension == ResourceDimension::kTexture1D) {
-    return MakeError(Id::kBlockDimension, name,
-                     " is kTexture1D and has block-compressed DXGI format ",
-                     static_cast<uint32_t>(desc.Format), "; it must be kTexture2D or kTexture3D");
+    return make_error(Id::kBlockDimension, name,
+                      " is kTexture1D and has block-compressed DXGI format ",
+                      static_cast<uint32_t>(desc.Format), "; it must be kTexture2D or kTexture3D");
   }
   return {};
 }
 
 Status check_texture(const TextureDesc& desc) {
-  const std::string name = Named("texture", desc.Name);
+  const std::string name = named("texture", desc.Name);
   const auto d = desc.Dimension;
   if (d != ResourceDimension::kTexture1D && d != ResourceDimension::kTexture2D &&
       d != ResourceDimension::kTexture3D) {
-    return MakeError(Id::kTextureSize, name, " has dimension ", static_cast<uint32_t>(d),
-                     "; it must be kTexture1D, kTexture2D or kTexture3D");
+    return make_error(Id::kTextureSize, name, " has dimension ", static_cast<uint32_t>(d),
+                      "; it must be kTexture1D, kTexture2D or kTexture3D");
   }
   const uint32_t limit = axis_limit(desc);
   const uint32_t depth_limit = d == ResourceDimension::kTexture3D ? kReqTexture3DUVOrWDimension
@@ -143,24 +143,24 @@ Status check_texture(const TextureDesc& desc) {
   const uint32_t height_limit = d == ResourceDimension::kTexture1D ? 1 : limit;
   if (desc.Width == 0 || desc.Height == 0 || desc.DepthOrArraySize == 0 || desc.Width > limit ||
       desc.Height > height_limit || desc.DepthOrArraySize > depth_limit) {
-    return MakeError(Id::kTextureSize, name, " is ", desc.Width, "x", desc.Height, "x",
-                     desc.DepthOrArraySize, "; it must be 1x1x1 to ", limit, "x", height_limit, "x",
-                     depth_limit);
+    return make_error(Id::kTextureSize, name, " is ", desc.Width, "x", desc.Height, "x",
+                      desc.DepthOrArraySize, "; it must be 1x1x1 to ", limit, "x", height_limit,
+                      "x", depth_limit);
   }
   if (desc.MipLevels > full_mip_count(desc)) {
-    return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels, but ",
-                     desc.Width, "x", desc.Height, " texels allow at most ", full_mip_count(desc));
+    return make_error(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels, but ",
+                      desc.Width, "x", desc.Height, " texels allow at most ", full_mip_count(desc));
   }
   if (GetFormatInfo(desc.Format).type == FormatClass::kUnsupported) {
-    return MakeError(Id::kTextureFormat, name, " has DXGI format ",
-                     static_cast<uint32_t>(desc.Format),
-                     "; only the colour formats of rtapi/format.h are supported");
+    return make_error(Id::kTextureFormat, name, " has DXGI format ",
+                      static_cast<uint32_t>(desc.Format),
+                      "; only the colour formats of rtapi/format.h are supported");
   }
   if (Status s = check_block_texture(desc, name); !s.ok()) return s;
   if (Status s = check_texture_flags(desc, name); !s.ok()) return s;
   if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
-    return MakeError(Id::kAccelerationStructureBuffer, name,
-                     " is a texture; only buffers hold acceleration structures");
+    return make_error(Id::kAccelerationStructureBuffer, name,
+                      " is a texture; only buffers hold acceleration structures");
   }
   return {};
 }
@@ -243,10 +243,10 @@ void Buffer::SetName(std::string name) {
 }
 
 Result<std::span<std::byte>> Buffer::Map() const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Map on an empty buffer handle");
+  if (!impl_) return make_error(Id::kNullHandle, "Map on an empty buffer handle");
   if (impl_->desc.Heap == HeapType::kDefault) {
-    return MakeError(Id::kMapDefaultHeap, Named("buffer", impl_->desc.Name),
-                     " is on the default heap; copy through an upload or readback buffer");
+    return make_error(Id::kMapDefaultHeap, named("buffer", impl_->desc.Name),
+                      " is on the default heap; copy through an upload or readback buffer");
   }
   return mapped_bytes();
 }
@@ -269,7 +269,7 @@ void Texture::SetName(std::string name) {
 }
 
 Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateBuffer on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateBuffer on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (Status s = check_buffer(desc); !s.ok()) return s.error();
   auto memory = impl_->backend->create_buffer(desc);
@@ -285,7 +285,7 @@ Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
 }
 
 Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateTexture on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateTexture on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (Status s = check_texture(desc); !s.ok()) return s.error();
   if (Status s = check_target_support(*impl_, desc); !s.ok()) return s.error();
@@ -312,8 +312,8 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
   const uint32_t mips = desc.MipLevels ? desc.MipLevels : full_mip_count(desc);
   const uint64_t total = uint64_t{mips} * detail::array_size(desc);
   if (uint64_t{first} + count > total) {
-    return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
-                     " do not exist in ", Named("texture", desc.Name), ", which has ", total);
+    return make_error(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
+                      " do not exist in ", named("texture", desc.Name), ", which has ", total);
   }
   const FormatInfo format = GetFormatInfo(desc.Format);
   uint64_t offset = base_offset;

@@ -28,30 +28,30 @@ bool is_filter(Filter filter) {
 
 Status check_sampler(const SamplerDesc& desc, Id id, std::string_view what) {
   if (!is_filter(desc.Filter)) {
-    return MakeError(id, what, ": Filter is ", Hex(static_cast<uint32_t>(desc.Filter)),
-                     ", which is not a D3D12_FILTER");
+    return make_error(id, what, ": Filter is ", hex(static_cast<uint32_t>(desc.Filter)),
+                      ", which is not a D3D12_FILTER");
   }
   for (auto mode : {desc.AddressU, desc.AddressV, desc.AddressW}) {
     if (!is_address_mode(mode)) {
-      return MakeError(id, what, ": an address mode is ", static_cast<uint32_t>(mode),
-                       "; it must be 1 to 5");
+      return make_error(id, what, ": an address mode is ", static_cast<uint32_t>(mode),
+                        "; it must be 1 to 5");
     }
   }
   if (!(desc.MipLODBias >= -16.0f && desc.MipLODBias <= 15.99f)) {
-    return MakeError(id, what, ": MipLODBias is ", desc.MipLODBias, "; it must be -16 to 15.99");
+    return make_error(id, what, ": MipLODBias is ", desc.MipLODBias, "; it must be -16 to 15.99");
   }
   if (desc.MaxAnisotropy > 16) {
-    return MakeError(id, what, ": MaxAnisotropy is ", desc.MaxAnisotropy, "; it must be 0 to 16");
+    return make_error(id, what, ": MaxAnisotropy is ", desc.MaxAnisotropy, "; it must be 0 to 16");
   }
   if (desc.ComparisonFunc > ComparisonFunc::kAlways) {
-    return MakeError(id, what, ": ComparisonFunc is ", static_cast<uint32_t>(desc.ComparisonFunc),
-                     "; it must be 0 to 8");
+    return make_error(id, what, ": ComparisonFunc is ", static_cast<uint32_t>(desc.ComparisonFunc),
+                      "; it must be 0 to 8");
   }
   if (std::isnan(desc.MinLOD) || std::isnan(desc.MaxLOD)) {
-    return MakeError(id, what, ": MinLOD or MaxLOD is NaN");
+    return make_error(id, what, ": MinLOD or MaxLOD is NaN");
   }
   for (float c : desc.BorderColor) {
-    if (std::isnan(c)) return MakeError(id, what, ": BorderColor is NaN");
+    if (std::isnan(c)) return make_error(id, what, ": BorderColor is NaN");
   }
   return {};
 }
@@ -78,12 +78,12 @@ SamplerDesc to_sampler_desc(const StaticSamplerDesc& desc) {
 using namespace detail;
 
 Status Device::CreateSampler(const SamplerDesc& desc, CpuDescriptorHandle dest) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateSampler on an empty device handle");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateSampler on an empty device handle");
   if (Status s = check_sampler(desc, Id::kSamplerInvalid, "sampler"); !s.ok()) return s;
   const auto slot = impl_->find_slot(dest);
   if (!slot || slot->type != DescriptorHeapType::kSampler) {
-    return MakeError(Id::kDescriptorHandle, "CreateSampler: ", Hex(dest.ptr), describe_heap(slot),
-                     "; it must be in one of kSampler");
+    return make_error(Id::kDescriptorHandle, "CreateSampler: ", hex(dest.ptr), describe_heap(slot),
+                      "; it must be in one of kSampler");
   }
   auto object = impl_->backend->create_sampler(desc);
   if (!object.ok()) return object.error();

@@ -24,9 +24,9 @@ Status check_texture(const std::shared_ptr<DeviceImpl>& device, const Texture& t
   const ResourceFlags needed =
       depth_stencil ? ResourceFlags::kAllowDepthStencil : ResourceFlags::kAllowRenderTarget;
   if (HasAny(texture.GetDesc().Flags, needed)) return {};
-  return MakeError(Id::kTargetView, Named("texture", texture.name()), " was created without ",
-                   depth_stencil ? "kAllowDepthStencil" : "kAllowRenderTarget",
-                   "; add the flag to its TextureDesc");
+  return make_error(Id::kTargetView, named("texture", texture.name()), " was created without ",
+                    depth_stencil ? "kAllowDepthStencil" : "kAllowRenderTarget",
+                    "; add the flag to its TextureDesc");
 }
 
 Status check_format(const DeviceImpl& device, const Texture& texture, bool depth_stencil,
@@ -44,14 +44,14 @@ Status check_format(const DeviceImpl& device, const Texture& texture, bool depth
                               : !IsDepthFormat(format) && info.type != FormatClass::kTypeless &&
                                     info.type != FormatClass::kUnsupported;
   if (!fits || !right_kind) {
-    return MakeError(Id::kTargetView, "view format ", static_cast<uint32_t>(format), " of ",
-                     Named("texture", desc.Name), " with format ",
-                     static_cast<uint32_t>(desc.Format), "; it must be ",
-                     depth_stencil ? "the depth format" : "a typed format", " of that family");
+    return make_error(Id::kTargetView, "view format ", static_cast<uint32_t>(format), " of ",
+                      named("texture", desc.Name), " with format ",
+                      static_cast<uint32_t>(desc.Format), "; it must be ",
+                      depth_stencil ? "the depth format" : "a typed format", " of that family");
   }
   if (device.backend->supports_target(format, false)) return {};
-  return MakeError(Id::kTargetFormat, "view format ", static_cast<uint32_t>(format), " of ",
-                   Named("texture", desc.Name), ", which this backend cannot draw to");
+  return make_error(Id::kTargetFormat, "view format ", static_cast<uint32_t>(format), " of ",
+                    named("texture", desc.Name), ", which this backend cannot draw to");
 }
 
 Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& asked) {
@@ -61,18 +61,18 @@ Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& a
     slices.FirstArraySlice = 0;
     slices.ArraySize = 1;
   }
-  const std::string name = Named("texture", desc.Name);
+  const std::string name = named("texture", desc.Name);
   if (slices.MipSlice >= desc.MipLevels) {
-    return MakeError(Id::kTargetView, "mip ", slices.MipSlice, " is outside ", name, ", which has ",
-                     desc.MipLevels, " mips");
+    return make_error(Id::kTargetView, "mip ", slices.MipSlice, " is outside ", name,
+                      ", which has ", desc.MipLevels, " mips");
   }
   const uint32_t total = detail::array_size(desc);
   const uint32_t left = slices.FirstArraySlice < total ? total - slices.FirstArraySlice : 0;
   if (slices.ArraySize == 0xFFFFFFFFu) slices.ArraySize = left;
   if (slices.ArraySize == 0 || slices.ArraySize > left) {
-    return MakeError(Id::kTargetView, "array elements ", slices.FirstArraySlice, "..",
-                     uint64_t{slices.FirstArraySlice} + slices.ArraySize, " are outside ", name,
-                     ", which has ", total);
+    return make_error(Id::kTargetView, "array elements ", slices.FirstArraySlice, "..",
+                      uint64_t{slices.FirstArraySlice} + slices.ArraySize, " are outside ", name,
+                      ", which has ", total);
   }
   const MipExtent extent = get_mip_extent(desc, slices.MipSlice);
   runtime::TargetView view;
@@ -91,15 +91,15 @@ Result<TargetSlot*> find_target(const DeviceImpl& device, CpuDescriptorHandle ha
   const DescriptorHeapType type =
       depth_stencil ? DescriptorHeapType::kDsv : DescriptorHeapType::kRtv;
   if (slot && slot->type == type) return slot->target;
-  return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), describe_heap(slot),
-                   "; it must be in one of ", depth_stencil ? "kDsv" : "kRtv");
+  return make_error(Id::kTargetHandle, where, ": handle ", hex(handle.ptr), describe_heap(slot),
+                    "; it must be in one of ", depth_stencil ? "kDsv" : "kRtv");
 }
 
 Status write_target(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
                     const AskedTarget& asked_as_given, bool depth_stencil, DsvFlags flags,
                     CpuDescriptorHandle dest) {
   const std::string call = depth_stencil ? "CreateDepthStencilView" : "CreateRenderTargetView";
-  if (!device) return MakeError(Id::kNullHandle, call, " on an empty device");
+  if (!device) return make_error(Id::kNullHandle, call, " on an empty device");
   auto slot = find_target(*device, dest, depth_stencil, call);
   if (!slot.ok()) return slot.error();
   AskedTarget asked = asked_as_given;
@@ -134,14 +134,14 @@ Result<ReadTarget> read_target_slot(const DeviceImpl& device, CpuDescriptorHandl
   if (!found.ok()) return found.error();
   const TargetSlot& slot = **found;
   if (!slot.written) {
-    return MakeError(Id::kTargetHandle, where, ": no view was made at handle ", Hex(handle.ptr));
+    return make_error(Id::kTargetHandle, where, ": no view was made at handle ", hex(handle.ptr));
   }
   ReadTarget out{slot.view, slot.texture, slot.texture_name};
   if (slot.is_null) return out;
   const auto texture = slot.texture.lock();
   if (!texture) {
-    return MakeError(Id::kTargetHandle, where, ": handle ", Hex(handle.ptr), " is a view of ",
-                     Named("texture", slot.texture_name), ", which was freed");
+    return make_error(Id::kTargetHandle, where, ": handle ", hex(handle.ptr), " is a view of ",
+                      named("texture", slot.texture_name), ", which was freed");
   }
   out.view.texture = texture->memory;
   return out;
@@ -156,8 +156,8 @@ Status Device::CreateRenderTargetView(const Texture& texture, const RenderTarget
   if (desc.ViewDimension > RtvDimension::kTexture2DArray ||
       (desc.ViewDimension != RtvDimension::kUnknown &&
        desc.ViewDimension < RtvDimension::kTexture2D)) {
-    return MakeError(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
-                     "; it must be kUnknown, kTexture2D or kTexture2DArray");
+    return make_error(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
+                      "; it must be kUnknown, kTexture2D or kTexture2DArray");
   }
   const AskedTarget asked = {desc.Format, desc.ViewDimension == RtvDimension::kUnknown,
                              desc.ViewDimension == RtvDimension::kTexture2D, desc.Texture2DArray};
@@ -173,12 +173,12 @@ Status Device::CreateDepthStencilView(const Texture& texture, const DepthStencil
   if (desc.ViewDimension > DsvDimension::kTexture2DArray ||
       (desc.ViewDimension != DsvDimension::kUnknown &&
        desc.ViewDimension < DsvDimension::kTexture2D)) {
-    return MakeError(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
-                     "; it must be kUnknown, kTexture2D or kTexture2DArray");
+    return make_error(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
+                      "; it must be kUnknown, kTexture2D or kTexture2DArray");
   }
   constexpr DsvFlags kKnown = DsvFlags::kReadOnlyDepth | DsvFlags::kReadOnlyStencil;
   if ((desc.Flags & ~kKnown) != DsvFlags::kNone) {
-    return MakeError(Id::kTargetView, "undefined flags ", Hex(static_cast<uint32_t>(desc.Flags)));
+    return make_error(Id::kTargetView, "undefined flags ", hex(static_cast<uint32_t>(desc.Flags)));
   }
   const AskedTarget asked = {desc.Format, desc.ViewDimension == DsvDimension::kUnknown,
                              desc.ViewDimension == DsvDimension::kTexture2D, desc.Texture2DArray};

@@ -31,36 +31,36 @@ Status check_view_format(const DeviceImpl& device, const Texture& texture,
   const bool castable = view.format == own || (GetFormatInfo(own).type == FormatClass::kTypeless &&
                                                format_family(own) == format_family(view.format));
   if (IsDepthFormat(view.format)) {
-    return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
-                     Named("texture", texture.name()),
-                     " is a depth format, which shaders cannot read; create the texture with the "
-                     "typeless format of the family, and view it as R32_FLOAT, R16_UNORM, "
-                     "R24_UNORM_X8_TYPELESS or R32_FLOAT_X8X24_TYPELESS");
+    return make_error(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
+                      named("texture", texture.name()),
+                      " is a depth format, which shaders cannot read; create the texture with the "
+                      "typeless format of the family, and view it as R32_FLOAT, R16_UNORM, "
+                      "R24_UNORM_X8_TYPELESS or R32_FLOAT_X8X24_TYPELESS");
   }
   if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless || !castable) {
-    return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
-                     Named("texture", texture.name()), " with format ", static_cast<uint32_t>(own),
-                     "; it must be the same, or a typed member of a typeless format's family");
+    return make_error(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
+                      named("texture", texture.name()), " with format ", static_cast<uint32_t>(own),
+                      "; it must be the same, or a typed member of a typeless format's family");
   }
   if (!device.backend->supports_format(view.format, view.uav)) {
-    return MakeError(Id::kViewFormat, "the backend does not support ",
-                     view.uav ? "unordered access" : "shader resource", " views of format ",
-                     static_cast<uint32_t>(view.format));
+    return make_error(Id::kViewFormat, "the backend does not support ",
+                      view.uav ? "unordered access" : "shader resource", " views of format ",
+                      static_cast<uint32_t>(view.format));
   }
   return {};
 }
 
 Status check_subresources(const Texture& texture, TextureView& view) {
   const TextureDesc& desc = texture.GetDesc();
-  const std::string name = Named("texture", desc.Name);
+  const std::string name = named("texture", desc.Name);
   if (view.first_mip >= desc.MipLevels) {
-    return MakeError(Id::kViewSubresources, "mip ", view.first_mip, " is outside ", name,
-                     ", which has ", desc.MipLevels, " mips");
+    return make_error(Id::kViewSubresources, "mip ", view.first_mip, " is outside ", name,
+                      ", which has ", desc.MipLevels, " mips");
   }
   if (view.mips == 0xFFFFFFFFu) view.mips = desc.MipLevels - view.first_mip;
   if (view.mips == 0 || view.mips > desc.MipLevels - view.first_mip) {
-    return MakeError(Id::kViewSubresources, view.mips, " mips from mip ", view.first_mip,
-                     " on are outside ", name, ", which has ", desc.MipLevels, " mips");
+    return make_error(Id::kViewSubresources, view.mips, " mips from mip ", view.first_mip,
+                      " on are outside ", name, ", which has ", desc.MipLevels, " mips");
   }
   const bool volume = view.dimension == SrvDimension::kTexture3D;
   const uint32_t total =
@@ -72,13 +72,13 @@ Status check_subresources(const Texture& texture, TextureView& view) {
     if (cube) view.slices -= view.slices % 6;
   }
   if (view.first_slice >= total || view.slices == 0 || view.slices > total - view.first_slice) {
-    return MakeError(Id::kViewSubresources, volume ? "w slices " : "array elements ",
-                     view.first_slice, "..", uint64_t{view.first_slice} + view.slices,
-                     " are outside ", name, ", which has ", total);
+    return make_error(Id::kViewSubresources, volume ? "w slices " : "array elements ",
+                      view.first_slice, "..", uint64_t{view.first_slice} + view.slices,
+                      " are outside ", name, ", which has ", total);
   }
   if (cube && (view.slices % 6 != 0 || desc.Width != desc.Height)) {
-    return MakeError(Id::kViewSubresources, "a cube view needs 6 square faces, but this has ",
-                     view.slices, " faces of ", desc.Width, "x", desc.Height);
+    return make_error(Id::kViewSubresources, "a cube view needs 6 square faces, but this has ",
+                      view.slices, " faces of ", desc.Width, "x", desc.Height);
   }
   return {};
 }
@@ -103,21 +103,22 @@ Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceI
   if (Status s = CheckHandle(device, texture, "the viewed texture"); !s.ok()) return s.error();
   const TextureDesc& desc = texture.GetDesc();
   if (!fits_dimension(view.dimension, desc.Dimension)) {
-    return MakeError(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
-                     " does not fit ", Named("texture", desc.Name), ", whose dimension is ",
-                     static_cast<uint32_t>(desc.Dimension));
+    return make_error(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
+                      " does not fit ", named("texture", desc.Name), ", whose dimension is ",
+                      static_cast<uint32_t>(desc.Dimension));
   }
   if (view.uav && GetFormatInfo(desc.Format).block_side != 1) {
-    return MakeError(Id::kBlockAccess, Named("texture", desc.Name), " has DXGI format ",
-                     static_cast<uint32_t>(desc.Format), "; only shader resource views read it");
+    return make_error(Id::kBlockAccess, named("texture", desc.Name), " has DXGI format ",
+                      static_cast<uint32_t>(desc.Format), "; only shader resource views read it");
   }
   if (view.uav && !HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kViewAccess, Named("texture", desc.Name),
-                     " was created without kAllowUnorderedAccess; add the flag to its TextureDesc");
+    return make_error(
+        Id::kViewAccess, named("texture", desc.Name),
+        " was created without kAllowUnorderedAccess; add the flag to its TextureDesc");
   }
   if (!view.uav && HasAny(desc.Flags, ResourceFlags::kDenyShaderResource)) {
-    return MakeError(Id::kViewAccess, Named("texture", desc.Name),
-                     " was created with kDenyShaderResource; shaders cannot read it");
+    return make_error(Id::kViewAccess, named("texture", desc.Name),
+                      " was created with kDenyShaderResource; shaders cannot read it");
   }
   if (view.format == Format::kUnknown) view.format = desc.Format;
   if (Status s = check_view_format(*device, texture, view); !s.ok()) return s.error();
@@ -134,9 +135,9 @@ Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceI
   for (int i = 0; i < 4; ++i) {
     resolved.swizzle[i] = static_cast<uint8_t>((mapping >> (3 * i)) & 7);
     if (resolved.swizzle[i] > 5) {
-      return MakeError(Id::kViewFormat, "Shader4ComponentMapping ", Hex(mapping), " of ",
-                       Named("texture", desc.Name), " selects component ", int{resolved.swizzle[i]},
-                       "; it must be 0 to 5");
+      return make_error(Id::kViewFormat, "Shader4ComponentMapping ", hex(mapping), " of ",
+                        named("texture", desc.Name), " selects component ",
+                        int{resolved.swizzle[i]}, "; it must be 0 to 5");
     }
   }
   auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);

@@ -33,8 +33,8 @@ struct BufferView {
 Status write_slot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descriptor& value) {
   const auto slot = device.find_slot(dest);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
-    return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr), describe_heap(slot),
-                     "; it must be in one of kCbvSrvUav");
+    return make_error(Id::kDescriptorHandle, "view: ", hex(dest.ptr), describe_heap(slot),
+                      "; it must be in one of kCbvSrvUav");
   }
   std::memcpy(slot->slot, &value, sizeof value);
   return {};
@@ -46,26 +46,26 @@ Result<uint32_t> check_element(const DeviceImpl& device, const BufferView& view,
   const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
   if (view.raw) {
     if (view.format != Format::kR32Typeless || view.stride != 0) {
-      return MakeError(Id::kViewFormat, "raw view of ", name, " has format ",
-                       static_cast<uint32_t>(view.format), " and stride ", view.stride,
-                       "; it must have format kR32Typeless and no stride");
+      return make_error(Id::kViewFormat, "raw view of ", name, " has format ",
+                        static_cast<uint32_t>(view.format), " and stride ", view.stride,
+                        "; it must have format kR32Typeless and no stride");
     }
     if (view.first * 4 % kRawUavSrvByteAlignment != 0) {
-      return MakeError(Id::kViewStride, "raw view of ", name, " starts at byte ", view.first * 4,
-                       "; it must be a multiple of 16");
+      return make_error(Id::kViewStride, "raw view of ", name, " starts at byte ", view.first * 4,
+                        "; it must be a multiple of 16");
     }
     out.kind = DescriptorKind::kRawBuffer;
     return 4u;
   }
   if (view.stride != 0) {
     if (view.format != Format::kUnknown) {
-      return MakeError(Id::kViewFormat, "structured view of ", name, " has format ",
-                       static_cast<uint32_t>(view.format), "; it must be kUnknown");
+      return make_error(Id::kViewFormat, "structured view of ", name, " has format ",
+                        static_cast<uint32_t>(view.format), "; it must be kUnknown");
     }
     // Elements of 16-bit types have strides such as 2, 6 and 10.
     if (view.stride % 2 != 0 || view.stride > 2048) {
-      return MakeError(Id::kViewStride, "structured view of ", name, " has a stride of ",
-                       view.stride, " bytes; it must be a multiple of 2, at most 2048");
+      return make_error(Id::kViewStride, "structured view of ", name, " has a stride of ",
+                        view.stride, " bytes; it must be a multiple of 2, at most 2048");
     }
     out.kind = DescriptorKind::kStructuredBuffer;
     out.stride_bytes = view.stride;
@@ -80,11 +80,11 @@ Result<uint32_t> check_element(const DeviceImpl& device, const BufferView& view,
   const bool typed = info.type != FormatClass::kUnsupported &&
                      info.type != FormatClass::kTypeless && info.block_side == 1 && !of_depth;
   if (!typed || !device.backend->supports_format(view.format, uav)) {
-    return MakeError(Id::kViewFormat, "typed view of ", name, " has format ",
-                     static_cast<uint32_t>(view.format),
-                     view.format == Format::kUnknown
-                         ? "; a structured view needs StructureByteStride, a raw one the raw flag"
-                         : "; it must be a typed format that buffers support");
+    return make_error(Id::kViewFormat, "typed view of ", name, " has format ",
+                      static_cast<uint32_t>(view.format),
+                      view.format == Format::kUnknown
+                          ? "; a structured view needs StructureByteStride, a raw one the raw flag"
+                          : "; it must be a typed format that buffers support");
   }
   out.kind = DescriptorKind::kTypedBuffer;
   out.format = static_cast<uint32_t>(view.format);
@@ -99,24 +99,24 @@ Status write_counter(const std::shared_ptr<DeviceImpl>& device, const BufferView
   const uint64_t offset = view.counter_offset;
   if (view.counter == nullptr) {
     if (offset == 0) return {};
-    return MakeError(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
-                     ", but no buffer for a counter is given; it must be 0 then");
+    return make_error(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
+                      ", but no buffer for a counter is given; it must be 0 then");
   }
   const Buffer& counter = *view.counter;
   if (Status s = CheckHandle(device, counter, "the counter's buffer"); !s.ok()) return s;
-  const std::string name = Named("buffer", counter.name());
+  const std::string name = named("buffer", counter.name());
   if (descriptor.kind != DescriptorKind::kStructuredBuffer) {
-    return MakeError(Id::kViewCounter, "a counter in ", name,
-                     " is given for a view that is not structured");
+    return make_error(Id::kViewCounter, "a counter in ", name,
+                      " is given for a view that is not structured");
   }
   if (!HasAny(counter.GetDesc().Flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kViewCounter, name,
-                     ", which holds the counter, was created without kAllowUnorderedAccess");
+    return make_error(Id::kViewCounter, name,
+                      ", which holds the counter, was created without kAllowUnorderedAccess");
   }
   if (offset % kCounterAlignment != 0 || counter.size() < 4 || offset > counter.size() - 4) {
-    return MakeError(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
-                     "; it must be a multiple of 4096, with 4 bytes from there on in ", name,
-                     ", which has ", counter.size(), " bytes");
+    return make_error(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
+                      "; it must be a multiple of 4096, with 4 bytes from there on in ", name,
+                      ", which has ", counter.size(), " bytes");
   }
   set_counter(descriptor, counter.GetGPUVirtualAddress() + offset);
   return {};
@@ -125,11 +125,11 @@ Status write_counter(const std::shared_ptr<DeviceImpl>& device, const BufferView
 Status write_buffer_view(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer,
                          const BufferView& view, CpuDescriptorHandle dest) {
   if (Status s = CheckHandle(device, buffer, "the viewed buffer"); !s.ok()) return s;
-  const std::string name = Named("buffer", buffer.name());
+  const std::string name = named("buffer", buffer.name());
   const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
   if (uav && !HasAny(buffer.GetDesc().Flags, ResourceFlags::kAllowUnorderedAccess)) {
-    return MakeError(Id::kViewAccess, name,
-                     " was created without kAllowUnorderedAccess; add the flag to its BufferDesc");
+    return make_error(Id::kViewAccess, name,
+                      " was created without kAllowUnorderedAccess; add the flag to its BufferDesc");
   }
   Descriptor descriptor;
   const auto element = check_element(*device, view, name, descriptor);
@@ -138,9 +138,9 @@ Status write_buffer_view(const std::shared_ptr<DeviceImpl>& device, const Buffer
   const uint64_t total = buffer.size() / *element;
   const uint64_t count = view.count ? view.count : (view.first < total ? total - view.first : 0);
   if (view.first > total || count > total - view.first) {
-    return MakeError(Id::kViewRange, "elements ", view.first, "..", view.first + count,
-                     " are outside ", name, ", which has ", total, " elements of ", *element,
-                     " bytes");
+    return make_error(Id::kViewRange, "elements ", view.first, "..", view.first + count,
+                      " are outside ", name, ", which has ", total, " elements of ", *element,
+                      " bytes");
   }
   descriptor.access = view.access;
   descriptor.address = buffer.GetGPUVirtualAddress() + view.first * *element;
@@ -159,18 +159,18 @@ Status write_texture_view(const std::shared_ptr<DeviceImpl>& device, const Textu
 Status write_acceleration_structure_view(const DeviceImpl& device, const Resource& resource,
                                          GpuVirtualAddress location, CpuDescriptorHandle dest) {
   if (!std::holds_alternative<std::monostate>(resource)) {
-    return MakeError(Id::kAccelerationStructureView,
-                     "the resource must be empty: the view's Location names the structure");
+    return make_error(Id::kAccelerationStructureView,
+                      "the resource must be empty: the view's Location names the structure");
   }
   if (location % kRaytracingAccelerationStructureByteAlignment != 0) {
-    return MakeError(Id::kAccelerationStructureView, "Location is ",
-                     device.describe_address(location), "; it must be a multiple of 256");
+    return make_error(Id::kAccelerationStructureView, "Location is ",
+                      device.describe_address(location), "; it must be a multiple of 256");
   }
   Descriptor descriptor;
   if (location != 0) {
     if (!device.addresses.find(location)) {
-      return MakeError(Id::kAccelerationStructureView, "Location is ",
-                       device.describe_address(location));
+      return make_error(Id::kAccelerationStructureView, "Location is ",
+                        device.describe_address(location));
     }
     descriptor.kind = DescriptorKind::kAccelerationStructure;
     descriptor.address = location;
@@ -187,7 +187,7 @@ const char* kind_name(const Resource& resource) {
 Status Device::CreateShaderResourceView(const Resource& resource,
                                         const ShaderResourceViewDesc& desc,
                                         CpuDescriptorHandle dest) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateShaderResourceView on an empty device");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateShaderResourceView on an empty device");
   if (desc.ViewDimension == SrvDimension::kRaytracingAccelerationStructure) {
     return write_acceleration_structure_view(*impl_, resource,
                                              desc.RaytracingAccelerationStructure.Location, dest);
@@ -195,9 +195,9 @@ Status Device::CreateShaderResourceView(const Resource& resource,
   if (std::holds_alternative<std::monostate>(resource)) return write_slot(*impl_, dest, {});
   const bool wants_buffer = desc.ViewDimension == SrvDimension::kBuffer;
   if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
-    return MakeError(Id::kViewResource, "view dimension ",
-                     static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
-                     kind_name(resource));
+    return make_error(Id::kViewResource, "view dimension ",
+                      static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
+                      kind_name(resource));
   }
   if (wants_buffer) {
     const BufferSrv& b = desc.Buffer;
@@ -226,13 +226,13 @@ Status Device::CreateUnorderedAccessView(const Resource& resource,
 Status Device::CreateUnorderedAccessView(const Resource& resource, const Buffer& counter,
                                          const UnorderedAccessViewDesc& desc,
                                          CpuDescriptorHandle dest) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateUnorderedAccessView on an empty device");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateUnorderedAccessView on an empty device");
   if (std::holds_alternative<std::monostate>(resource)) return write_slot(*impl_, dest, {});
   const bool wants_buffer = desc.ViewDimension == UavDimension::kBuffer;
   if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
-    return MakeError(Id::kViewResource, "view dimension ",
-                     static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
-                     kind_name(resource));
+    return make_error(Id::kViewResource, "view dimension ",
+                      static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
+                      kind_name(resource));
   }
   if (wants_buffer) {
     const BufferUav& b = desc.Buffer;
@@ -244,8 +244,8 @@ Status Device::CreateUnorderedAccessView(const Resource& resource, const Buffer&
         dest);
   }
   if (counter) {
-    return MakeError(Id::kViewCounter, "a counter in ", Named("buffer", counter.name()),
-                     " is given for a view of a texture");
+    return make_error(Id::kViewCounter, "a counter in ", named("buffer", counter.name()),
+                      " is given for a view of a texture");
   }
   return write_texture_view(impl_, std::get<Texture>(resource), from_uav(desc),
                             kDefaultShader4ComponentMapping, dest);
@@ -259,20 +259,20 @@ Status Device::CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHa
 
 Status Device::CreateConstantBufferView(const ConstantBufferViewDesc& desc,
                                         CpuDescriptorHandle dest) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "CreateConstantBufferView on an empty device");
+  if (!impl_) return make_error(Id::kNullHandle, "CreateConstantBufferView on an empty device");
   Descriptor descriptor;
   descriptor.access = DescriptorAccess::kOther;
   if (desc.BufferLocation != 0) {
     if (desc.BufferLocation % 256 != 0 || desc.SizeInBytes % 256 != 0 || desc.SizeInBytes == 0 ||
         desc.SizeInBytes > 65536) {
-      return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
-                       impl_->describe_address(desc.BufferLocation),
-                       "; address and size must be multiples of 256, the size at most 65536");
+      return make_error(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
+                        impl_->describe_address(desc.BufferLocation),
+                        "; address and size must be multiples of 256, the size at most 65536");
     }
     if (!impl_->addresses.contains(desc.BufferLocation, desc.SizeInBytes)) {
-      return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
-                       impl_->describe_address(desc.BufferLocation),
-                       " are not inside one live buffer");
+      return make_error(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
+                        impl_->describe_address(desc.BufferLocation),
+                        " are not inside one live buffer");
     }
     descriptor.kind = DescriptorKind::kConstantBuffer;
     descriptor.address = desc.BufferLocation;

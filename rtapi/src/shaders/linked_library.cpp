@@ -29,15 +29,15 @@ std::string_view source_of(const ShaderLibrary& library) {
 }
 
 std::string key_of(const LinkPlan& plan, bool spirv) {
-  std::string key = Text(spirv);
+  std::string key = concat(spirv);
   for (const ShaderLibrary& library : plan.libraries) {
     const std::string_view source = source_of(library);
-    key += Text(" l", std::hash<std::string_view>()(source), ".", source.size(), ".",
-                desc_of(library).flags);
+    key += concat(" l", std::hash<std::string_view>()(source), ".", source.size(), ".",
+                  desc_of(library).flags);
   }
-  for (const uint32_t entry : plan.entries) key += Text(" e", entry);
+  for (const uint32_t entry : plan.entries) key += concat(" e", entry);
   for (const LinkedImport& i : plan.imports) {
-    key += Text(" i", i.library, ".", i.import, ".", i.from, ".", i.definition);
+    key += concat(" i", i.library, ".", i.import, ".", i.from, ".", i.definition);
   }
   return key;
 }

@@ -99,7 +99,7 @@ std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
 
 Error failed(const ShaderCompileOptions& options, const hlsl::BuildFailure& failure) {
   const auto id = failure.id == 0 ? detail::Id::kCompilerFailed : detail::Id(failure.id);
-  return detail::MakeError(id, options.File, ": ", failure.text);
+  return detail::make_error(id, options.File, ": ", failure.text);
 }
 
 // Builds the emitted code and loads it.
@@ -109,8 +109,8 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   const auto compiler = hlsl::find_host_compiler(missing, options.CxxCompiler);
   if (!compiler) {
     out.Status =
-        detail::MakeError(detail::Id::kNoCompiler, missing,
-                          "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
+        detail::make_error(detail::Id::kNoCompiler, missing,
+                           "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
     return;
   }
   hlsl::BuildOptions settings;
@@ -148,7 +148,7 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
   std::string problem;
   const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings, problem);
   if (interpreted == nullptr) {
-    out.Status = detail::MakeError(detail::Id::kInterpreterFailed, problem);
+    out.Status = detail::make_error(detail::Id::kInterpreterFailed, problem);
     return;
   }
   const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
@@ -169,8 +169,8 @@ ShaderPreprocessing PreprocessShader(const ShaderCompileOptions& options) {
   ShaderPreprocessing out;
   out.Diagnostics = convert(diagnostics, sources, options.NoWarnings);
   if (!tokens || diagnostics.has_errors()) {
-    out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
-                                   hlsl::render_all(diagnostics, sources));
+    out.Status = detail::make_error(detail::Id::kShaderErrors, options.File, ":\n",
+                                    hlsl::render_all(diagnostics, sources));
     return out;
   }
   out.Text = hlsl::print_tokens(*tokens, sources);
@@ -190,8 +190,8 @@ ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
     out.Sources.push_back({path, file->text});
   }
   if (!module || (options.WarningsAsErrors && diagnostics.warning_count() > 0)) {
-    out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
-                                   hlsl::render_all(diagnostics, sources));
+    out.Status = detail::make_error(detail::Id::kShaderErrors, options.File, ":\n",
+                                    hlsl::render_all(diagnostics, sources));
     return out;
   }
   out.Reflection = detail::reflect(*module);

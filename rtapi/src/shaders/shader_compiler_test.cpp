@@ -2,6 +2,7 @@
 //
 // The options of kaamos-hlsl in ShaderCompileOptions, each with and without.
 #include <kaamos/shader/abi.h>
+#include <rtapi/error_ids.h>
 #include <rtapi/shader_compiler.h>
 
 #include <algorithm>
@@ -28,9 +29,9 @@ const sh::LibraryDesc& table_of(const ShaderCompilation& compiled) {
   return *compiled.Library.impl()->desc;
 }
 
-bool says(const ShaderCompilation& compiled, uint16_t id) {
+bool says(const ShaderCompilation& compiled, ErrorId id) {
   return std::any_of(compiled.Diagnostics.begin(), compiled.Diagnostics.end(),
-                     [id](const ShaderDiagnostic& one) { return one.Id.number == id; });
+                     [id](const ShaderDiagnostic& one) { return one.Id == id; });
 }
 
 constexpr char kMiss[] = R"(struct P { float3 x; };
@@ -75,7 +76,8 @@ TEST(ShaderCompilerOptions, CheckAccessAndEmbedSource) {
 
 TEST(ShaderCompilerOptions, NoWarnings) {
   auto options = options_of(kMiss);
-  EXPECT_TRUE(says(CompileShaderLibrary(options), 2462));  // float4 to float3
+  EXPECT_TRUE(
+      says(CompileShaderLibrary(options), error_ids::compiler::kTruncation));  // float4 to float3
   options.NoWarnings = true;
   const auto quiet = CompileShaderLibrary(options);
   ASSERT_EQ(testing::MessageOf(quiet.Status), "ok");
@@ -94,7 +96,7 @@ TEST(ShaderCompilerOptions, CheckOnly) {
   const auto checked = CompileShaderLibrary(options);
   EXPECT_OK(checked.Status);
   EXPECT_FALSE(checked.Library);
-  EXPECT_TRUE(says(checked, 2462));
+  EXPECT_TRUE(says(checked, error_ids::compiler::kTruncation));
   options.Source = "float x";
   EXPECT_ERROR(CompileShaderLibrary(options).Status, "KA2752", "KA2201");
 }

@@ -26,7 +26,7 @@ bool is_stage(shader::Stage stage) {
 // here, once, so that linking need not.
 Status check_table(const shader::LibraryDesc& desc, const std::string& name) {
   auto broken = [&name](const auto&... parts) {
-    return MakeError(Id::kShaderLibrary, Quoted(name), ": ", parts...);
+    return make_error(Id::kShaderLibrary, in_quotes(name), ": ", parts...);
   };
   if (desc.export_count && !desc.exports) return broken("its table of exports is missing");
   if (desc.binding_count && !desc.bindings) return broken("its table of bindings is missing");
@@ -56,32 +56,32 @@ Status check_table(const shader::LibraryDesc& desc, const std::string& name) {
     // Linking gives code to an export that calls other libraries.
     const bool needs_entry = e.import_count == 0 && e.stage != shader::Stage::kLibrary &&
                              e.stage != shader::Stage::kCompute && !draws;
-    if (needs_entry && !e.entry) return broken("export ", Quoted(e.name), " has no code");
+    if (needs_entry && !e.entry) return broken("export ", in_quotes(e.name), " has no code");
     if (e.stage == shader::Stage::kCompute && e.import_count == 0 &&
         (!e.compute || (!e.compute->group && !e.compute->thread && !e.compute->lanes))) {
-      return broken("compute export ", Quoted(e.name), " has no code");
+      return broken("compute export ", in_quotes(e.name), " has no code");
     }
     const shader::GraphicsDesc* graphics = draws ? e.graphics : nullptr;
     if (draws && (!graphics || (e.stage == shader::Stage::kVertex
                                     ? !graphics->vertex
                                     : !graphics->pixel && !graphics->pixel_thread))) {
-      return broken("export ", Quoted(e.name), " has no code");
+      return broken("export ", in_quotes(e.name), " has no code");
     }
     if (e.binding_count && !e.bindings) {
-      return broken("export ", Quoted(e.name), " has no list of its bindings");
+      return broken("export ", in_quotes(e.name), " has no list of its bindings");
     }
     if (e.import_count && !e.imports) {
-      return broken("export ", Quoted(e.name), " has no list of its imports");
+      return broken("export ", in_quotes(e.name), " has no list of its imports");
     }
     for (uint32_t k = 0; k < e.import_count; ++k) {
       if (e.imports[k] >= desc.import_count) {
-        return broken("export ", Quoted(e.name), " uses import ", e.imports[k],
+        return broken("export ", in_quotes(e.name), " uses import ", e.imports[k],
                       ", but the library has only ", desc.import_count);
       }
     }
     for (uint32_t b = 0; b < e.binding_count; ++b) {
       if (e.bindings[b] >= desc.binding_count) {
-        return broken("export ", Quoted(e.name), " uses binding ", e.bindings[b],
+        return broken("export ", in_quotes(e.name), " uses binding ", e.bindings[b],
                       ", but the library has only ", desc.binding_count);
       }
     }
@@ -108,13 +108,13 @@ ShaderExportInfo make_info(const shader::LibraryDesc& desc, const shader::Export
 
 Result<ShaderLibrary> load(const shader::LibraryDesc* desc, std::shared_ptr<const void> owner,
                            const std::string& where) {
-  if (!desc) return MakeError(Id::kShaderLibrary, where, ": the library table is null");
+  if (!desc) return make_error(Id::kShaderLibrary, where, ": the library table is null");
   if (desc->abi_version != shader::kAbiVersion ||
       desc->struct_bytes != sizeof(shader::LibraryDesc)) {
-    return MakeError(Id::kShaderLibrary, where, " was compiled for ABI version ", desc->abi_version,
-                     " (", desc->struct_bytes, " bytes), but this program has version ",
-                     shader::kAbiVersion, " (", sizeof(shader::LibraryDesc),
-                     " bytes); recompile the shaders");
+    return make_error(Id::kShaderLibrary, where, " was compiled for ABI version ",
+                      desc->abi_version, " (", desc->struct_bytes,
+                      " bytes), but this program has version ", shader::kAbiVersion, " (",
+                      sizeof(shader::LibraryDesc), " bytes); recompile the shaders");
   }
   auto impl = std::make_shared<ShaderLibraryImpl>();
   impl->name = desc->name ? desc->name : where;
@@ -162,16 +162,16 @@ Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* reason = dlerror();
-    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::describe_file(file),
-                     " and cannot be loaded: ", reason ? reason : "unknown reason");
+    return make_error(Id::kShaderLibrary, in_quotes(path), " is ", detail::describe_file(file),
+                      " and cannot be loaded: ", reason ? reason : "unknown reason");
   }
   std::shared_ptr<void> owner(handle, [](void* h) { dlclose(h); });
   auto entry =
       reinterpret_cast<shader::LibraryEntryPointFn>(dlsym(handle, shader::kLibraryEntryPoint));
   if (!entry) {
-    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::describe_file(file),
-                     " without the symbol ", shader::kLibraryEntryPoint,
-                     ", so it is not a shader library made by kaamos-hlsl");
+    return make_error(Id::kShaderLibrary, in_quotes(path), " is ", detail::describe_file(file),
+                      " without the symbol ", shader::kLibraryEntryPoint,
+                      ", so it is not a shader library made by kaamos-hlsl");
   }
   return load(entry(), std::move(owner), path);
 }

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "runtime/backend/errors.h"
+#include "runtime/errors/text.h"
 #include "runtime/vulkan/memory/fault_guard.h"
 #include "runtime/vulkan/rays/checks.h"
 #include "runtime/vulkan/rays/state_object.h"
@@ -88,7 +89,7 @@ rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runti
   if (table.source.host != nullptr) return {};
   return runtime::make_error(runtime::Id::kShaderFault,
                              "the " + std::string(name) + " table at address " +
-                                 runtime::hexadecimal(address) + ", " + std::to_string(size_bytes) +
+                                 errors::hex(address) + ", " + std::to_string(size_bytes) +
                                  " bytes, is not inside a live buffer (" + label_ + ").");
 }
 
@@ -177,9 +178,9 @@ void RaysDispatch::warn_of_structure() {
   std::memcpy(&status, buffer_->host(), sizeof(status));
   if (status.unknown_structure == 0) return;
   result_.warnings.push_back(
-      {runtime::Id::kNoTopLevel,
-       "there is no top level at address " + runtime::hexadecimal(status.unknown_structure) +
-           "; the rays missed (" + label_ + "). Was one built, and not overwritten or freed?"});
+      {runtime::Id::kNoTopLevel, "there is no top level at address " +
+                                     errors::hex(status.unknown_structure) + "; the rays missed (" +
+                                     label_ + "). Was one built, and not overwritten or freed?"});
 }
 
 GridLimits RaysDispatch::limits() const {
@@ -271,7 +272,7 @@ constexpr char kWhoseAddress[] =
 rtapi::Error fault_at(uint64_t address, const std::string& label) {
   return runtime::make_error(
       runtime::Id::kShaderFault,
-      "it accessed address " + runtime::hexadecimal(address) + kWhoseAddress + " (" + label + ").");
+      "it accessed address " + errors::hex(address) + kWhoseAddress + " (" + label + ").");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dispatches squares.hlsl with an installed Kaamos and checks every number that it wrote. Before
 // that, it compiles another shader by itself.
+#include <rtapi/error_ids.h>
 #include <rtapi/rtapi.h>
 #include <rtapi/shader_compiler.h>
 #include <shaders/squares.h>
@@ -69,6 +70,14 @@ bool CompilesShaders() {
   return false;
 }
 
+// An error has the id that <rtapi/error_ids.h> names.
+bool ErrorsHaveNames() {
+  const auto device = rtapi::CreateDevice({.Backend = "none"});
+  if (!device && device.error().id == rtapi::error_ids::api::kUnknownBackend) return true;
+  std::fprintf(stderr, "%s\n", device ? "a device" : device.error().message.c_str());
+  return false;
+}
+
 // The library, its headers and its package are of one installation.
 bool VersionsAgree() {
   const std::string headers = std::to_string(rtapi::kVersionMajor) + "." +
@@ -83,7 +92,7 @@ bool VersionsAgree() {
 }  // namespace
 
 int main() try {
-  if (!VersionsAgree() || !CompilesShaders()) return 1;
+  if (!VersionsAgree() || !ErrorsHaveNames() || !CompilesShaders()) return 1;
   const std::vector<uint32_t> numbers = RunSquares();
   for (uint32_t i = 0; i < kCount; ++i) {
     if (numbers.at(i) != i * i) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a device says without being asked, see DeviceDesc::OnMessage.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <rtapi/result.h>
+
+namespace rtapi {
+
+/// How grave a message is.
+enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
+
+/// What DeviceDesc::OnMessage is given.
+struct Message {
+  MessageSeverity Severity = MessageSeverity::kError;  ///< how grave it is
+  ErrorId Id;                                          ///< KA0715 is number 715
+  std::string Text;                                    ///< begins with the id
+};
+
+}  // namespace rtapi
