@@ -5,7 +5,6 @@
 
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/attributes.h"
-#include "runtime/hlsl/check/names/signatures.h"
 #include "runtime/hlsl/check/stages/system_values.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 
