@@ -121,7 +121,7 @@ struct Lags {
   int svgf = 0, adaptive = 0;
 };
 
-Lags lags_of_occluder(const std::string& effect, FrameTexture sum, std::uint32_t channel) {
+Lags lags_of_occluder(const std::string& effect, std::uint32_t channel) {
   Scene scene = make_stage();
   Show show(scene, {DenoiseMethod::kAdaptiveSvgf, "embree", {effect}, 96, 72});
   show.render();
@@ -142,7 +142,7 @@ Lags lags_of_occluder(const std::string& effect, FrameTexture sum, std::uint32_t
                          default_denoise(method))
             .value());
     denoisers.back()
-        .create_load(renderer.device(), renderer.frame(), libraries, renderer.frame().texture(sum))
+        .create_load(renderer.device(), renderer.frame(), libraries, renderer.effects().sum(effect))
         .value();
   }
   const auto render = [&](double seconds) {
@@ -173,12 +173,12 @@ Lags lags_of_occluder(const std::string& effect, FrameTexture sum, std::uint32_t
 }
 
 TEST(TemporalGradients, AnOccluderLeavesWithoutLag) {
-  const Lags sun = lags_of_occluder("sun", kSunVisibilitySum, 0);
+  const Lags sun = lags_of_occluder("sun", 0);
   std::printf("sun, frames to nine tenths: svgf %d, a-svgf %d\n", sun.svgf, sun.adaptive);
   EXPECT_LE(sun.adaptive, 2);
   EXPECT_GE(sun.svgf, 8);
   // A signal that changes in part is forgotten in part: only a sixth of the light is new.
-  const Lags ao = lags_of_occluder("ao", kAmbientOcclusionSum, 0);
+  const Lags ao = lags_of_occluder("ao", 0);
   std::printf("ao, frames to nine tenths: svgf %d, a-svgf %d\n", ao.svgf, ao.adaptive);
   EXPECT_LE(ao.adaptive, ao.svgf);
 }
@@ -192,7 +192,7 @@ TEST(TemporalGradients, MoreSignalsThanChannelsAreRefused) {
       TemporalGradients::create(renderer.device(), renderer.frame(), renderer.context().gpu,
                                 denoise_libraries().value())
           .value();
-  const rtapi::Texture& sum = renderer.frame().texture(kAmbientOcclusionSum);
+  const rtapi::Texture sum = renderer.effects().sum("ao");
   for (std::size_t i = 0; i < kMostGradients; ++i) {
     EXPECT_EQ(gradients.add(renderer.device(), renderer.frame(), sum, sum).value(), i);
   }

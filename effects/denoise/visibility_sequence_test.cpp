@@ -29,11 +29,10 @@ class SunFilter {
           .value();
     };
     const rtapi::Texture mean = picture("mean"), sharpness = picture("sharpness");
-    const auto load = [&](FrameTexture sum, const rtapi::Texture& into) {
-      return SumLoad::create(stage.device, stage.frame, libraries, stage.frame.texture(sum), into)
-          .value();
+    const auto load = [&](const rtapi::Texture& sum, const rtapi::Texture& into) {
+      return SumLoad::create(stage.device, stage.frame, libraries, sum, into).value();
     };
-    loads_ = {load(kSunVisibilitySum, mean), load(kSunSharpnessSum, sharpness)};
+    loads_ = {load(stage.sun_sums.visible, mean), load(stage.sun_sums.sharpness, sharpness)};
     denoiser_ = VisibilityDenoiser::create(stage.device, stage.frame, libraries,
                                            {{"sun", 1, mean, sharpness, {}}}, method)
                     .value();
@@ -59,9 +58,10 @@ FloatImage converged(SequenceStage& stage) {
     constants.first_sample = 1000;
     constants.sample_count = kSamples;
     constants.accumulate = 0;
-    stage.sun.dispatch(list, stage.frame, constants, stage.frame.height());
+    stage.sun.dispatch(list, stage.frame, constants, stage.frame.height(),
+                       stage.sun_sums.arguments());
   });
-  FloatImage out = stage.read(kSunVisibilitySum);
+  FloatImage out = stage.read(stage.sun_sums.visible);
   for (float& value : out.values) value /= kSamples;
   return out;
 }
@@ -88,7 +88,7 @@ TEST_P(VisibilitySequence, DenoisedSunIsNeverWorseThanRaw) {
     for (int frame = 0; frame < 8; ++frame) {
       stage.begin(moves ? frame / 30.0 : 0);
       stage.light(kRays);
-      FloatImage raw = stage.read(kSunVisibilitySum);
+      FloatImage raw = stage.read(stage.sun_sums.visible);
       for (float& value : raw.values) value /= kRays;
       std::vector<FloatImage> filtered;
       for (SunFilter& filter : filters) filtered.push_back(filter.run(stage));

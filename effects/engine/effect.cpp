@@ -11,11 +11,6 @@ const Effect* find_effect(const std::vector<Effect>& effects, const std::string&
   return found == effects.end() ? nullptr : &*found;
 }
 
-bool has_own_pictures(const Effect& effect) {
-  return std::any_of(effect.signals.begin(), effect.signals.end(),
-                     [](const EffectSignal& signal) { return !signal.picture; });
-}
-
 std::string effect_names(const std::vector<Effect>& effects) {
   std::string out;
   for (const Effect& effect : effects) out += (out.empty() ? "" : ", ") + effect.name;

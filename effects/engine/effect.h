@@ -63,18 +63,16 @@ struct EffectSignal {
   std::string name;            ///< of the layer; NAME_denoised is what the denoiser makes of it
   std::uint32_t channels = 3;  ///< that hold light or visibility
   std::uint32_t output = 0;    ///< its register u of space3
-  /// A picture that every frame has. Without it one of R32G32B32A32_FLOAT is made.
-  std::optional<FrameTexture> picture = {};
+  rtapi::Format format = rtapi::Format::kR32G32B32A32Float;  ///< of its picture; or R32_FLOAT
   /// Samples are added up, and the mean is denoised. false: the picture is final as it is written.
   bool is_sum = true;
   bool of_lobe = false;   ///< [Denoiser::Signal]
   bool is_light = false;  ///< shown with the frame's exposure and tone curve
   /// It is visibility, and the effect writes besides how sharp its shadows are
-  /// (VisibilityDenoiser::Signal::sharpness, summed up in the same way): into a picture that every
-  /// frame has, or into one of R32G32B32A32_FLOAT of this register u of space3.
+  /// (VisibilityDenoiser::Signal::sharpness, summed up in the same way), into a picture of
+  /// R32G32B32A32_FLOAT of this register u of space3.
   ///@{
   bool is_visibility = false;
-  std::optional<FrameTexture> sharpness_picture = {};
   std::uint32_t sharpness_output = 0;
   ///@}
   /// The part of the frame that the composition takes it for; null: none.
@@ -141,6 +139,9 @@ struct Effect {
   /// Settings from fast to accurate, for measuring. Empty: counts of samples, or the defaults where
   /// the count is fixed.
   std::vector<EffectStep> steps = {};
+  /// The mean of its sums says enough without a denoiser: of all effects, frames that are not whole
+  /// have such alone. [FrameSettings::whole_frame]
+  bool is_plain = false;
   /// What its rays meet depends on a pixel's surface and place and the sample's number alone, so
   /// that a sample of the frame before can be taken again. [TemporalGradients]
   bool repeats = false;
@@ -149,8 +150,6 @@ struct Effect {
 
 /// Null: there is none of that name.
 const Effect* find_effect(const std::vector<Effect>& effects, const std::string& name);
-/// Returns whether the effect writes pictures that other frames do not have.
-bool has_own_pictures(const Effect& effect);
 /// "ao, sun, ...".
 std::string effect_names(const std::vector<Effect>& effects);
 

@@ -25,7 +25,7 @@ struct EffectScope {
   /// One of the row's libraries, by EffectLibrary::file.
   std::function<const rtapi::ShaderLibrary&(const std::string& file)> library;
   /// Holds the effect's signals at their registers u, and what EffectNeeds ask for at theirs. The
-  /// effect may set others; they hold nothing where the effect has none.
+  /// effect may set others.
   PassViews& views;
   const EffectSettings& settings;  ///< those of the frame; of this call only
 };

@@ -34,11 +34,8 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"material", Format::kR8G8B8A8Unorm},
     {"ids", Format::kR32G32Uint},
     {"position", Format::kR32G32B32A32Float},
-    {"ambient occlusion sum", Format::kR32Float},
-    {"sun visibility sum", Format::kR32Float},
     {"radiance", Format::kR32G32B32A32Float},
     {"motion", Format::kR32G32B32A32Float},
-    {"sun sharpness sum", Format::kR32G32B32A32Float},
 };
 
 // Layout of the view heap: t0..t6, then u0.., then the scene's textures, then its geometries'
@@ -398,14 +395,6 @@ void Frame::bind_draws(CommandList& list, const PassArguments& arguments) const 
   if (arguments.views == nullptr) return;
   list.SetGraphicsRootDescriptorTable(kRootPassViews, arguments.views->table());
   list.SetGraphicsRoot32BitConstants(kRootPassWords, arguments.words);
-}
-
-void Frame::clear(CommandList& list, FrameTexture texture) const {
-  const float zero[4] = {0, 0, 0, 0};
-  list.SetDescriptorHeaps({views_, samplers_});
-  list.ClearUnorderedAccessViewFloat(views_.GetGPUDescriptorHandle(kFirstPicture + texture),
-                                     views_.GetCPUDescriptorHandle(kFirstPicture + texture),
-                                     textures_[texture], zero);
 }
 
 rtapi::Result<FloatImage> Frame::read(const Device& device, CommandQueue& queue,

@@ -74,20 +74,17 @@ std::uint32_t traced_rows(const PassConstants& constants, std::uint32_t size);
 
 /// Pictures of a frame in the order of their registers u0, u1, ...
 enum FrameTexture : std::uint32_t {
-  kDepth,                ///< R32_FLOAT: near plane over view depth; 0: a miss
-  kViewZ,                ///< R32_FLOAT: metres along the camera's axis; 0: a miss
-  kNormal,               ///< R16G16_SNORM: geometric normal, octahedral, towards the camera
-  kShadingNormal,        ///< R16G16_SNORM: as kNormal, with normal maps
-  kBaseColor,            ///< R8G8B8A8_UNORM: EncodeColor of encoding.hlsli
-  kEmissive,             ///< R16G16B16A16_FLOAT: radiance
-  kMaterial,             ///< R8G8B8A8_UNORM: roughness, metallic, 0, 0
-  kIds,                  ///< R32G32_UINT: instance + 1, primitive; 0: a miss
-  kPosition,             ///< R32G32B32A32_FLOAT: relative to the camera; w: offset of ray origins
-  kAmbientOcclusionSum,  ///< R32_FLOAT: open samples
-  kSunVisibilitySum,     ///< R32_FLOAT: samples that see the sun
-  kRadiance,             ///< R32G32B32A32_FLOAT: what the camera sees
-  kMotion,               ///< R32G32B32A32_FLOAT: to where the surface was a frame ago
-  kSunSharpnessSum,      ///< R32G32B32A32_FLOAT: of the others, 1 / radius of the penumbra, 1/m
+  kDepth,          ///< R32_FLOAT: near plane over view depth; 0: a miss
+  kViewZ,          ///< R32_FLOAT: metres along the camera's axis; 0: a miss
+  kNormal,         ///< R16G16_SNORM: geometric normal, octahedral, towards the camera
+  kShadingNormal,  ///< R16G16_SNORM: as kNormal, with normal maps
+  kBaseColor,      ///< R8G8B8A8_UNORM: EncodeColor of encoding.hlsli
+  kEmissive,       ///< R16G16B16A16_FLOAT: radiance
+  kMaterial,       ///< R8G8B8A8_UNORM: roughness, metallic, 0, 0
+  kIds,            ///< R32G32_UINT: instance + 1, primitive; 0: a miss
+  kPosition,       ///< R32G32B32A32_FLOAT: relative to the camera; w: offset of ray origins
+  kRadiance,       ///< R32G32B32A32_FLOAT: what the camera sees
+  kMotion,         ///< R32G32B32A32_FLOAT: to where the surface was a frame ago
   kFrameTextureCount
 };
 
@@ -171,7 +168,7 @@ class Frame {
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
   /// Sets the pixels in the order in which sorted dispatches take them (t5), a word for each place,
-  /// and the keys that they were sorted by (u14); without `keys` none can be written.
+  /// and the keys that they were sorted by (u11); without `keys` none can be written.
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
                               const rtapi::Buffer& order) const;
@@ -191,8 +188,6 @@ class Frame {
   /// The same for draws; all but the pipeline, targets, viewport and what the input assembler
   /// reads.
   void bind_draws(rtapi::CommandList& list, const PassArguments& arguments) const;
-  /// Records that zero is written to a picture of floats.
-  void clear(rtapi::CommandList& list, FrameTexture texture) const;
   /// One of its pictures, in unordered-access state.
   const rtapi::Texture& texture(FrameTexture texture) const { return textures_[texture]; }
 

@@ -32,9 +32,6 @@ class PassViews {
   PassViews(rtapi::Device device, rtapi::DescriptorHeap heap, std::uint32_t first)
       : device_(std::move(device)), heap_(std::move(heap)), first_(first) {}
 
-  /// True if there is a block.
-  explicit operator bool() const { return static_cast<bool>(heap_); }
-
   /// Register t, 0 to 15: the whole texture. It must outlive the dispatches. `format`: of a
   /// typeless one's family.
   /// @errors those of rtapi::Device::CreateShaderResourceView.

@@ -25,17 +25,14 @@ void RayEffect::record(rtapi::CommandList& list, const EffectSettings& settings,
 
 void RayEffect::record_rows(rtapi::CommandList& list, const EffectSettings& settings,
                             const PassConstants& constants, std::uint32_t row_count) const {
-  pass_.dispatch(list, frame_, constants, row_count, pass_arguments(views_, settings));
+  pass_.dispatch(list, frame_, constants, row_count, PassArguments(views_, settings.constants));
 }
 
 void RayEffect::record_keys(rtapi::CommandList& list, const EffectSettings& settings,
                             const PassConstants& constants) const {
   if (!keys_) return;
-  keys_->dispatch(list, frame_, constants, frame_.height(), pass_arguments(views_, settings));
-}
-
-PassArguments pass_arguments(const PassViews& views, const EffectSettings& settings) {
-  return views ? PassArguments(views, settings.constants) : PassArguments{};
+  keys_->dispatch(list, frame_, constants, frame_.height(),
+                  PassArguments(views_, settings.constants));
 }
 
 }  // namespace kaamos::effects

@@ -19,7 +19,7 @@ namespace kaamos::effects {
 class RayEffect : public EffectPass {
  public:
   /// Makes the pipeline, and with `is_sorted` the one that writes the keys of its rays, where the
-  /// pass has one. Views that hold nothing are not bound.
+  /// pass has one.
   /// @errors those of RayPass::create.
   static rtapi::Result<std::unique_ptr<RayEffect>> create(const EffectScope& scope,
                                                           const RayPassDesc& desc, bool is_sorted);
@@ -48,8 +48,5 @@ class RayEffect : public EffectPass {
   RayPass pass_;
   std::optional<RayPass> keys_;
 };
-
-/// Such views and settings as arguments of a dispatch; none where the views hold nothing.
-PassArguments pass_arguments(const PassViews& views, const EffectSettings& settings);
 
 }  // namespace kaamos::effects

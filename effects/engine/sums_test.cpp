@@ -9,6 +9,7 @@
 #include "effects/assets/built_in/lounge.h"
 #include "effects/assets/scene/light_constants.h"
 #include "effects/engine/picture.h"
+#include "effects/engine/sums_fixture.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/indirect/indirect_diffuse/volume.h"
 #include "effects/light/direct/direct.h"
@@ -107,10 +108,13 @@ TEST_F(Sums, ThePictureHasPixelsWithoutASurface) {
 }
 
 TEST_F(Sums, OfVisibility) {
-  expect_sums(ambient_occlusion_pass(ambient_occlusion_library().value()),
-              frame_.texture(kAmbientOcclusionSum), {});
-  expect_sums(sun_shadow_pass(sun_shadow_library().value()), frame_.texture(kSunVisibilitySum), {});
-  expect_sums(sun_shadow_pass(sun_shadow_library().value()), frame_.texture(kSunSharpnessSum), {});
+  const AmbientSums ambient(device_, frame_);
+  expect_sums(ambient_occlusion_pass(ambient_occlusion_library().value()), ambient.open,
+              ambient.arguments());
+  const SunSums sun(device_, frame_);
+  for (const rtapi::Texture& sum : {sun.visible, sun.sharpness}) {
+    expect_sums(sun_shadow_pass(sun_shadow_library().value()), sum, sun.arguments());
+  }
 }
 
 TEST_F(Sums, OfContactShadows) {

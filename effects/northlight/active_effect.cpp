@@ -5,21 +5,14 @@
 #include <utility>
 
 #include "effects/assets/common/errors.h"
-#include "effects/engine/picture.h"
 #include "effects/surfaces/ray_order/ray_order.h"
 
 namespace kaamos::effects {
 
 namespace {
 
-constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
+constexpr rtapi::Format kSharpnessFormat = rtapi::Format::kR32G32B32A32Float;
 constexpr std::uint32_t kKeptRadianceRegister = 19;  // u, space3
-
-bool needs_views(const Effect& effect, const EffectSettings& settings) {
-  return effect.make || has_own_pictures(effect) || effect.needs.lights || effect.needs.volume ||
-         std::any_of(settings.constants.begin(), settings.constants.end(),
-                     [](std::uint32_t word) { return word != 0; });
-}
 
 }  // namespace
 
@@ -38,7 +31,6 @@ rtapi::Status ActiveEffect::create(const EffectInputs& inputs) {
     return make_error(ErrorId::kFrameRenderer,
                       "effect \"" + row_.name + "\" needs local lights, which are not rendered");
   }
-  needs_views_ = needs_views(row_, settings_);
   if (const auto s = create_pictures(); !s) return s;
   if (const auto s = add_passes(settings_); !s) return s;
   if (row_.compose.empty()) return {};
@@ -50,38 +42,37 @@ rtapi::Status ActiveEffect::create(const EffectInputs& inputs) {
 }
 
 rtapi::Status ActiveEffect::create_pictures() {
-  const auto create = [this](std::optional<FrameTexture> of_frame, const std::string& name,
-                             std::vector<rtapi::Texture>& to) -> rtapi::Status {
-    if (of_frame) {
-      to.push_back(context_.frame.texture(*of_frame));
-      return {};
-    }
-    const auto created = context_.frame.create_picture(context_.device, name, kSignalFormat);
-    if (!created) return created.error();
-    to.push_back(*created);
-    return {};
-  };
-  for (const EffectSignal& signal : row_.signals) {
-    if (!signal.is_visibility) {
-      sharpness_.emplace_back();
-    } else if (const auto s =
-                   create(signal.sharpness_picture, signal.name + " sharpness sum", sharpness_);
-               !s) {
-      return s;
-    }
-    const std::string name = signal.is_sum ? signal.name + " sum" : signal.name;
-    if (const auto s = create(signal.picture, name, pictures_); !s) return s;
-  }
+  auto created = create_pictures(context_.frame, "");
+  if (!created) return created.error();
+  pictures_ = std::move(*created);
   return {};
 }
 
-rtapi::Result<PassViews> ActiveEffect::create_views(
-    const Frame& frame, const std::vector<rtapi::Texture>& pictures) const {
+rtapi::Result<SignalPictures> ActiveEffect::create_pictures(const Frame& frame,
+                                                            const std::string& ending) const {
+  SignalPictures out;
+  for (const EffectSignal& signal : row_.signals) {
+    const std::string name = (signal.is_sum ? signal.name + " sum" : signal.name) + ending;
+    const auto picture = frame.create_picture(context_.device, name, signal.format);
+    if (!picture) return picture.error();
+    out.signals.push_back(*picture);
+    out.sharpness.emplace_back();
+    if (!signal.is_visibility) continue;
+    const auto sharpness = frame.create_picture(
+        context_.device, signal.name + " sharpness sum" + ending, kSharpnessFormat);
+    if (!sharpness) return sharpness.error();
+    out.sharpness.back() = *sharpness;
+  }
+  return out;
+}
+
+rtapi::Result<PassViews> ActiveEffect::create_views(const Frame& frame,
+                                                    const SignalPictures& pictures) const {
   return create_views(frame, pictures, inputs_->lights.gpu_volume());
 }
 
 rtapi::Result<PassViews> ActiveEffect::create_views(const Frame& frame,
-                                                    const std::vector<rtapi::Texture>& pictures,
+                                                    const SignalPictures& pictures,
                                                     const GpuVolume& volume) const {
   const EffectNeeds& needs = row_.needs;
   auto views = frame.create_pass_views(context_.device);
@@ -90,14 +81,12 @@ rtapi::Result<PassViews> ActiveEffect::create_views(const Frame& frame,
     const auto s = views->set_unordered_access(0, inputs_->lights.main()->strongest());
     if (!s) return s.error();
   }
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
+  for (std::size_t i = 0; i < row_.signals.size(); ++i) {
     const EffectSignal& signal = row_.signals[i];
-    if (signal.picture) continue;
-    if (const auto s = views->set_unordered_access(signal.output, pictures[i]); !s) {
-      return s.error();
-    }
+    const auto sum = views->set_unordered_access(signal.output, pictures.signals[i]);
+    if (!sum) return sum.error();
     if (!signal.is_visibility) continue;
-    const auto s = views->set_unordered_access(signal.sharpness_output, sharpness_[i]);
+    const auto s = views->set_unordered_access(signal.sharpness_output, pictures.sharpness[i]);
     if (!s) return s.error();
   }
   if (needs.lights) {
@@ -126,13 +115,11 @@ rtapi::Result<std::unique_ptr<EffectPass>> ActiveEffect::make(const EffectScope&
 rtapi::Status ActiveEffect::add_passes(const EffectSettings& settings) {
   auto out = std::make_unique<Passes>();
   out->settings = settings;
-  if (needs_views_ || settings.trace_only) {
-    const LightStage& lights = inputs_->lights;
-    const auto views = create_views(context_.frame, pictures_,
-                                    settings.trace_only ? lights.no_volume() : lights.gpu_volume());
-    if (!views) return views.error();
-    out->views = *views;
-  }
+  const LightStage& lights = inputs_->lights;
+  const auto views = create_views(context_.frame, pictures_,
+                                  settings.trace_only ? lights.no_volume() : lights.gpu_volume());
+  if (!views) return views.error();
+  out->views = *views;
   const auto library = [this](const std::string& file) -> const rtapi::ShaderLibrary& {
     return context_.libraries.at(file);
   };
@@ -191,7 +178,7 @@ void ActiveEffect::record(rtapi::CommandList& list, const EffectSettings& settin
 void ActiveEffect::record_compose(rtapi::CommandList& list, const EffectSettings& settings) const {
   if (!compose_) return;
   const Frame& frame = context_.frame;
-  compose_->dispatch(list, frame, {}, pass_arguments(find(settings)->views, settings),
+  compose_->dispatch(list, frame, {}, PassArguments(find(settings)->views, settings.constants),
                      frame.width(), frame.height());
 }
 
@@ -229,12 +216,7 @@ SampledWork ActiveEffect::work(const RaySorter* sorter) const {
 }
 
 std::uint64_t ActiveEffect::bytes() const {
-  std::uint64_t sum = 0;
-  if (!passes_.empty()) sum += passes_.front()->views.bytes() + passes_.front()->pass->bytes();
-  for (std::size_t i = 0; i < pictures_.size(); ++i) {
-    if (row_.signals[i].picture) sum += picture_bytes(pictures_[i]);
-  }
-  return sum;
+  return passes_.empty() ? 0 : passes_.front()->views.bytes() + passes_.front()->pass->bytes();
 }
 
 }  // namespace kaamos::effects

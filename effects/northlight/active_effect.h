@@ -27,6 +27,12 @@ struct EffectInputs {
   bool is_sorted = false;        ///< rays are sorted, where a pass has keys for them
 };
 
+/// What an effect writes, by signal.
+struct SignalPictures {
+  std::vector<rtapi::Texture> signals;    ///< sums, or final pictures
+  std::vector<rtapi::Texture> sharpness;  ///< of visibility, else null
+};
+
 /// An effect that a frame renders. Its passes point into it.
 class ActiveEffect {
  public:
@@ -54,10 +60,13 @@ class ActiveEffect {
   /// The frame's samples in portions: by rows where it is one pass of rays, which `sorter` may put
   /// in order; null: in that of the pixels.
   SampledWork work(const RaySorter* sorter) const;
-  /// Some of its views, for another frame with pictures like its own. Null views: it needs none.
+  /// Pictures like its own for another frame; `ending` is that of their names.
+  /// @errors those of Frame::create_picture.
+  rtapi::Result<SignalPictures> create_pictures(const Frame& frame,
+                                                const std::string& ending) const;
+  /// Views like its own for another frame, with such pictures.
   /// @errors KA3040 too many; those of the device.
-  rtapi::Result<PassViews> create_views(const Frame& frame,
-                                        const std::vector<rtapi::Texture>& pictures) const;
+  rtapi::Result<PassViews> create_views(const Frame& frame, const SignalPictures& pictures) const;
 
   /// The effect's row in the registry.
   const Effect& row() const { return row_; }
@@ -69,18 +78,14 @@ class ActiveEffect {
   bool has_passes() const { return row_.pass || row_.make; }
   /// Reads the radiance that all others make.
   bool is_late() const { return row_.needs.radiance; }
-  /// Returns whether it has views of the pass.
-  bool has_views() const { return needs_views_; }
   /// Returns whether it adds itself to the finished radiance.
   bool is_composed() const { return compose_.has_value(); }
   /// Its rays, as the frame traces them; null: it is more than one pass of them.
   const RayEffect* rays() const {
     return passes_.empty() ? nullptr : passes_.front()->pass->rays();
   }
-  /// By signal.
-  const std::vector<rtapi::Texture>& pictures() const { return pictures_; }
-  /// By signal; null where it is no visibility.
-  const std::vector<rtapi::Texture>& sharpness() const { return sharpness_; }
+  /// What it writes; nothing: it has no passes.
+  const SignalPictures& pictures() const { return pictures_; }
   /// Samples that the sums hold.
   ///@{
   std::uint32_t samples() const { return samples_; }
@@ -98,8 +103,7 @@ class ActiveEffect {
   };
 
   rtapi::Status create_pictures();
-  rtapi::Result<PassViews> create_views(const Frame& frame,
-                                        const std::vector<rtapi::Texture>& pictures,
+  rtapi::Result<PassViews> create_views(const Frame& frame, const SignalPictures& pictures,
                                         const GpuVolume& volume) const;
   rtapi::Status add_passes(const EffectSettings& settings);
   rtapi::Result<std::unique_ptr<EffectPass>> make(const EffectScope& scope);
@@ -112,10 +116,9 @@ class ActiveEffect {
   EffectSettings settings_;
   const EffectInputs* inputs_ = nullptr;
   std::string title_;
-  bool needs_views_ = false;
   std::vector<std::unique_ptr<Passes>> passes_;
   std::optional<ComputePass> compose_;
-  std::vector<rtapi::Texture> pictures_, sharpness_;
+  SignalPictures pictures_;
   std::uint32_t samples_ = 0;
 };
 

@@ -12,16 +12,29 @@ rtapi::Status ComposeStage::create() {
   if (context_.settings.whole_frame) {
     if (const auto s = create_whole(); !s) return s;
   } else {
-    const auto composite = CompositePass::create(
-        context_.device, context_.frame, context_.libraries.at("composition/composite/composite"));
-    if (!composite) return composite.error();
-    composite_ = *composite;
+    if (const auto s = create_plain(); !s) return s;
   }
   if (!context_.settings.taa) return {};
   const auto taa = TemporalAntialiasing::create(context_.device, context_.frame,
                                                 context_.libraries.at("composition/taa/taa"));
   if (!taa) return taa.error();
   taa_ = *taa;
+  return {};
+}
+
+rtapi::Status ComposeStage::create_plain() {
+  FrameParts sums;
+  for (const auto& effect : effects_.active()) {
+    for (std::size_t i = 0; i < effect->row().signals.size(); ++i) {
+      const EffectSignal& signal = effect->row().signals[i];
+      if (signal.part != nullptr) sums.*signal.part = &effect->pictures().signals[i];
+    }
+  }
+  const auto composite =
+      CompositePass::create(context_.device, context_.frame,
+                            context_.libraries.at("composition/composite/composite"), sums);
+  if (!composite) return composite.error();
+  composite_ = *composite;
   return {};
 }
 
@@ -108,8 +121,8 @@ void ComposeStage::record(rtapi::CommandList& list) const {
     CompositeConstants weights;
     for (const auto& effect : effects_.active()) {
       for (const EffectSignal& signal : effect->row().signals) {
-        if (signal.picture == kAmbientOcclusionSum) weights.ao_samples = effect->samples();
-        if (signal.picture == kSunVisibilitySum) weights.sun_samples = effect->samples();
+        if (signal.part == &FrameParts::ambient) weights.ao_samples = effect->samples();
+        if (signal.part == &FrameParts::sun_visibility) weights.sun_samples = effect->samples();
       }
     }
     composite_->dispatch(list, context_.frame, weights);
@@ -126,7 +139,7 @@ std::uint64_t ComposeStage::bytes() const {
   if (compose_) sum += compose_->bytes();
   for (const auto& effect : effects_.active()) {
     if (compose_ && !effect->is_composed()) continue;
-    for (const rtapi::Texture& picture : effect->pictures()) sum += picture_bytes(picture);
+    for (const rtapi::Texture& picture : effect->pictures().signals) sum += picture_bytes(picture);
   }
   return sum;
 }

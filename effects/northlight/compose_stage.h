@@ -59,6 +59,7 @@ class ComposeStage {
 
  private:
   rtapi::Status create_whole();
+  rtapi::Status create_plain();
   rtapi::Result<ComposePass> create_pass(const FrameParts& parts) const;
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   std::uint64_t bytes() const;

@@ -123,8 +123,8 @@ void EffectStage::record_keep(rtapi::CommandList& list) const {
 
 rtapi::Texture EffectStage::sum(const std::string& signal) const {
   for (const auto& effect : active_) {
-    for (std::size_t i = 0; i < effect->pictures().size(); ++i) {
-      if (effect->row().signals[i].name == signal) return effect->pictures()[i];
+    for (std::size_t i = 0; i < effect->pictures().signals.size(); ++i) {
+      if (effect->row().signals[i].name == signal) return effect->pictures().signals[i];
     }
   }
   return {};

@@ -7,7 +7,7 @@ namespace kaamos::effects {
 
 rtapi::Status FilterStage::create() {
   for (const auto& effect : effects_.active()) {
-    for (std::size_t i = 0; i < effect->pictures().size(); ++i) {
+    for (std::size_t i = 0; i < effect->pictures().signals.size(); ++i) {
       if (!effect->row().signals[i].is_sum) continue;
       if (const auto s = add_signal(filters_, *effect, i); !s) return s;
     }
@@ -19,7 +19,11 @@ rtapi::Status FilterStage::create() {
 rtapi::Status FilterStage::add_signal(SignalFilters& to, const ActiveEffect& effect,
                                       std::size_t index) const {
   const EffectSignal& signal = effect.row().signals[index];
-  SignalSums sums = {effect.pictures()[index], effect.sharpness()[index], {}, effect.is_late(), {}};
+  SignalSums sums = {effect.pictures().signals[index],
+                     effect.pictures().sharpness[index],
+                     {},
+                     effect.is_late(),
+                     {}};
   if (effect.row().needs.strongest_lights) sums.lights = lights_.main()->strongest();
   const GradientStage& gradients = effects_.gradients();
   if (const auto channel = gradients.channel(effect); channel && index == 0) {
@@ -30,7 +34,7 @@ rtapi::Status FilterStage::add_signal(SignalFilters& to, const ActiveEffect& eff
 
 rtapi::Status FilterStage::add_signal(SignalFilters& to, const std::string& name) const {
   for (const auto& effect : effects_.active()) {
-    for (std::size_t i = 0; i < effect->pictures().size(); ++i) {
+    for (std::size_t i = 0; i < effect->pictures().signals.size(); ++i) {
       if (effect->row().signals[i].name == name) return add_signal(to, *effect, i);
     }
   }
@@ -80,7 +84,7 @@ void FilterStage::record_rest(rtapi::CommandList& list) {
 const rtapi::Texture& FilterStage::composed(const ActiveEffect& effect, std::size_t signal) const {
   const SignalFilters::Signal* filtered = filters_.find(effect.row().signals[signal].name);
   if (filtered != nullptr) return filters_.denoised(*filtered);
-  return effect.pictures().empty() ? lights_.picture() : effect.pictures()[signal];
+  return effect.pictures().signals.empty() ? lights_.picture() : effect.pictures().signals[signal];
 }
 
 }  // namespace kaamos::effects

@@ -11,12 +11,13 @@ namespace {
 FrameLayer raw_layer(const ActiveEffect& effect, std::size_t index,
                      const SignalFilters::Signal* filtered) {
   const EffectSignal& signal = effect.row().signals[index];
-  if (!signal.is_sum) return {signal.name, effect.pictures()[index]};
-  // A sum of every other pixel has holes, which the denoiser's input has not.
-  if (filtered != nullptr && !signal.picture && filtered->pixel_step != 1) {
+  if (!signal.is_sum) return {signal.name, effect.pictures().signals[index]};
+  // A sum of every other pixel has holes, which the denoiser's input has not. Plain effects show
+  // them.
+  if (filtered != nullptr && !effect.row().is_plain && filtered->pixel_step != 1) {
     return {signal.name, filtered->mean};
   }
-  return {signal.name, effect.pictures()[index],
+  return {signal.name, effect.pictures().signals[index],
           1.0f / static_cast<float>(std::max(effect.samples(), 1u))};
 }
 

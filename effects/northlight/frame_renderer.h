@@ -35,8 +35,8 @@ class FrameRenderer {
   /// Uploads the scene and builds its structures. `scene` must stay for the renderer's life; only
   /// its lights, sun and sky may change between frames, and not to more lights. `effects`: the
   /// registry.
-  /// @errors those of the device; KA3046 an unknown name in settings.effects; an effect with
-  /// pictures of its own without settings.whole_frame.
+  /// @errors those of the device; KA3046 an unknown name in settings.effects; one that is
+  /// not plain without settings.whole_frame.
   static rtapi::Result<std::unique_ptr<FrameRenderer>> create(
       const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
       std::vector<Effect> effects = northlight_effects());

@@ -23,30 +23,14 @@ rtapi::Status GradientStage::create(const std::vector<std::unique_ptr<ActiveEffe
 
 rtapi::Status GradientStage::add(const ActiveEffect& effect) {
   const Frame& past = gradients_->past();
-  std::vector<rtapi::Texture> pictures;
-  for (std::size_t i = 0; i < effect.pictures().size(); ++i) {
-    const EffectSignal& signal = effect.row().signals[i];
-    if (signal.picture) {
-      pictures.push_back(past.texture(*signal.picture));
-      continue;
-    }
-    const auto picture = past.create_picture(context_.device, signal.name + " again",
-                                             effect.pictures()[i].GetDesc().Format);
-    if (!picture) return picture.error();
-    pictures.push_back(*picture);
-  }
-  Repeated repeated;
-  repeated.effect = &effect;
-  if (effect.has_views()) {
-    const auto views = effect.create_views(past, pictures);
-    if (!views) return views.error();
-    repeated.views = *views;
-  }
-  const auto channel =
-      gradients_->add(context_.device, context_.frame, effect.pictures()[0], pictures[0]);
+  const auto pictures = effect.create_pictures(past, " again");
+  if (!pictures) return pictures.error();
+  const auto views = effect.create_views(past, *pictures);
+  if (!views) return views.error();
+  const auto channel = gradients_->add(context_.device, context_.frame,
+                                       effect.pictures().signals[0], pictures->signals[0]);
   if (!channel) return channel.error();
-  repeated.channel = *channel;
-  effects_.push_back(std::move(repeated));
+  effects_.push_back({&effect, *views, *channel});
   return {};
 }
 
@@ -88,7 +72,7 @@ rtapi::Status GradientStage::repeat(const ActiveEffect& effect) {
   return context_.runner.run_gradient(effect.title() + " again", 0, [&](auto& list) {
     if (!gradients_->has_past()) return;
     gradients_->record_again(list, effect.rays()->pass(), constants,
-                             pass_arguments(repeated->views, settings));
+                             PassArguments(repeated->views, settings.constants));
   });
 }
 

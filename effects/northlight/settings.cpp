@@ -108,7 +108,7 @@ bool scene_offers(const Scene& scene, const EffectNeeds& needs) {
 bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
                       const std::vector<Effect>& effects) {
   return std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
-    return chosen.count(effect.name) != 0 && has_own_pictures(effect);
+    return chosen.count(effect.name) != 0 && !effect.is_plain;
   });
 }
 
@@ -150,10 +150,11 @@ rtapi::Status check_settings(const FrameSettings& settings, const std::vector<Ef
       return make_error(ErrorId::kFrameRenderer,
                         "there is no effect \"" + name + "\" but " + effect_names(effects));
     }
-    if (!settings.whole_frame && has_own_pictures(*effect)) {
+    if (!settings.whole_frame && !effect->is_plain) {
       return make_error(
           ErrorId::kFrameRenderer,
-          "effect \"" + name + "\" has pictures of its own: set FrameSettings::whole_frame");
+          "effect \"" + name +
+              "\" is no part of a frame that is not whole: set FrameSettings::whole_frame");
     }
   }
   return {};

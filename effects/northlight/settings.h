@@ -44,8 +44,8 @@ struct FrameSettings {
   std::uint32_t seed = 0;      ///< the same seed gives the same frame
   /// The effects that are rendered, by the names of the registry. [choose_effects]
   std::map<std::string, EffectSettings> effects;
-  /// Signals are denoised and put together with local lights and glass. false: only ambient
-  /// occlusion and the sun, as they are; an effect with pictures of its own is then an error.
+  /// Signals are denoised and put together with local lights and glass. false: only effects that
+  /// are plain, as they are; another one is then an error. [Effect::is_plain]
   bool whole_frame = true;
   DenoiseDesc denoise;                                   ///< of a whole frame
   VolumeSettings volume;                                 ///< for effects that read it
@@ -96,7 +96,7 @@ bool has_glass(const Scene& scene);
 /// materials.
 bool scene_offers(const Scene& scene, const EffectNeeds& needs);
 
-/// Returns whether an effect among these has pictures of its own and so needs a whole frame.
+/// Returns whether an effect among these is not plain and so needs a whole frame. [Effect::is_plain]
 bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
                       const std::vector<Effect>& effects = northlight_effects());
 
@@ -110,7 +110,7 @@ bool is_rendered(const Scene& scene, const FrameSettings& settings,
 bool is_matte(const Scene& scene, const FrameSettings& settings,
               const std::vector<Effect>& effects);
 
-/// @errors KA3046 an unknown name in settings.effects; an effect with pictures of its own without
+/// @errors KA3046 an unknown name in settings.effects; one that is not plain without
 /// settings.whole_frame; a map of the sun that is too large.
 rtapi::Status check_settings(const FrameSettings& settings, const std::vector<Effect>& effects);
 

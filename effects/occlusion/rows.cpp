@@ -183,12 +183,13 @@ Effect ambient_occlusion_row() {
       .pass = ambient_occlusion_pass,
       .signals = {{.name = "ao",
                    .channels = 1,
-                   .picture = kAmbientOcclusionSum,
+                   .format = rtapi::Format::kR32Float,
                    .part = &FrameParts::ambient}},
       .defaults = {.samples = kDefaultAmbientOcclusionSamples,
                    .radius = kDefaultAmbientOcclusionRadius},
       .replaced_by = "gi",
       .samples_option = "ao-samples",
+      .is_plain = true,
       .repeats = true,
   };
 }

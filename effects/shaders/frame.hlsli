@@ -102,21 +102,15 @@ RWTexture2D<uint2> g_ids : register(u7);          // instance + 1, primitive; 0:
 // it does not hit its own surface.
 RWTexture2D<float4> g_position : register(u8);
 
-// Sums of the effects over the samples taken so far.
-RWTexture2D<float> ambient_occlusion_sum : register(u9);
-RWTexture2D<float> sun_visibility_sum : register(u10);
-RWTexture2D<float4> radiance : register(u11);
+// What the camera sees of the surfaces, the sky and glass.
+RWTexture2D<float4> radiance : register(u9);
 
 // The place of the pixel's surface in the previous frame: xy is the offset from here in picture
 // widths and heights, z the change of its view depth in metres. Without jitter.
-RWTexture2D<float4> g_motion : register(u12);
-
-// Sums over the samples that do not see the sun: 1 / radius of their penumbra, 1/m, in x, and how
-// many were blocked by what moves in z.
-RWTexture2D<float4> sun_sharpness_sum : register(u13);
+RWTexture2D<float4> g_motion : register(u10);
 
 // The key that each pixel's ray is sorted by. [effects/surfaces/ray_order]
-RWStructuredBuffer<uint> ray_keys : register(u14);
+RWStructuredBuffer<uint> ray_keys : register(u11);
 
 // Arguments of hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
 ByteAddressBuffer vertices : register(t0, space2);

@@ -186,13 +186,14 @@ Effect sun_shadow_row() {
       .pass = sun_shadow_pass,
       .signals = {{.name = "sun",
                    .channels = 1,
-                   .picture = kSunVisibilitySum,
+                   .format = rtapi::Format::kR32Float,
                    .is_visibility = true,
-                   .sharpness_picture = kSunSharpnessSum,
+                   .sharpness_output = 1,
                    .part = &FrameParts::sun_visibility}},
       .defaults = {.samples = kDefaultSunSamples},
       .needs = {.sun = true},
       .samples_option = "sun-samples",
+      .is_plain = true,
       .repeats = true,
   };
 }

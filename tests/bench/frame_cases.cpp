@@ -100,8 +100,7 @@ constexpr int kFrames = 2;
 Line svgf(Fixtures& fixtures, const Measure& measure) {
   FrameRun& run = fixtures.frame_run();
   run.trace_and_shade();
-  const SvgfInput input = svgf_input(run.device(), run.queue(), run.frame(),
-                                     run.frame().texture(effects::kAmbientOcclusionSum));
+  const SvgfInput input = svgf_input(run.device(), run.queue(), run.frame(), run.sum("ao"));
   const rtapi::Texture signal =
       run.frame().create_picture(run.device(), "signal", rtapi::Format::kR32G32B32A32Float).value();
   rtapi::UploadTexture(run.device(), run.queue(), signal, 0, std::as_bytes(std::span(input.signal)))

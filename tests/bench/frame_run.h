@@ -37,6 +37,8 @@ class FrameRun {
   const rtapi::Device& device() const { return renderer_->device(); }
   rtapi::CommandQueue& queue() { return renderer_->queue(); }
   const effects::Frame& frame() const { return renderer_->frame(); }
+  // What the samples of a signal are added to.
+  rtapi::Texture sum(const std::string& signal) const { return renderer_->effects().sum(signal); }
   // The lounge as in the frame's top level: relative to the camera.
   SceneData scene_at_camera() const;
 

@@ -35,12 +35,16 @@ std::unique_ptr<FrameRenderer> rendered(const Scene& scene, const FrameRun& run,
 
 }  // namespace
 
-std::map<FrameTexture, FloatImage> render_frame(const Scene& scene, const FrameRun& run) {
+RenderedFrame render_frame(const Scene& scene, const FrameRun& run) {
   const auto renderer = rendered(scene, run, settings_of(run, {"ao", "sun"}));
-  std::map<FrameTexture, FloatImage> out;
+  RenderedFrame out;
   for (uint32_t i = 0; i < kFrameTextureCount; ++i) {
     const auto texture = static_cast<FrameTexture>(i);
-    out[texture] = renderer->read(renderer->frame().texture(texture)).value();
+    out.pictures[texture] = renderer->read(renderer->frame().texture(texture)).value();
+  }
+  for (const char* signal : {"ao", "sun"}) {
+    const rtapi::Texture sum = renderer->effects().sum(signal);
+    if (sum) out.sums[signal] = renderer->read(sum).value();
   }
   return out;
 }

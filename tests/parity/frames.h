@@ -20,10 +20,14 @@ struct FrameRun {
   uint32_t seed = 3;
 };
 
-// All pictures of the frame by FrameTexture; sums are sums of visible samples. Throws
+struct RenderedFrame {
+  std::map<effects::FrameTexture, effects::FloatImage> pictures;
+  std::map<std::string, effects::FloatImage> sums;  // of visible samples, by signal
+};
+
+// All pictures of the frame, and the sums of ambient occlusion and the sun. Throws
 // rtapi::ResultError.
-std::map<effects::FrameTexture, effects::FloatImage> render_frame(const effects::Scene& scene,
-                                                                  const FrameRun& run);
+RenderedFrame render_frame(const effects::Scene& scene, const FrameRun& run);
 
 struct GlassRun {
   effects::FloatImage ids;       // of what is behind the glass

@@ -165,19 +165,20 @@ FloatImage decoded_normals(const FloatImage& encoded) {
 TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
   KAAMOS_NEED_VULKAN();
   const Scene scene = GetParam().make();
-  std::map<FrameTexture, FloatImage> frames[2];
+  RenderedFrame frames[2];
   FrameRun run;
   for (int i = 0; i < 2; ++i) {
     run.backend = kBackends[i];
     frames[i] = render_frame(scene, run);
   }
-  const HitDifference seen = compare_hits(hits_of(frames[0]), hits_of(frames[1]), run.width);
+  const HitDifference seen =
+      compare_hits(hits_of(frames[0].pictures), hits_of(frames[1].pictures), run.width);
   EXPECT_EQ(judge(seen), "") << "ids: " << describe(seen) << "\n"
                              << where(static_cast<uint32_t>(seen.worst_ray % run.width),
                                       static_cast<uint32_t>(seen.worst_ray / run.width));
 
-  const FloatImage& ids_a = frames[0].at(kIds);
-  const FloatImage& ids_b = frames[1].at(kIds);
+  const FloatImage& ids_a = frames[0].pictures.at(kIds);
+  const FloatImage& ids_b = frames[1].pictures.at(kIds);
   const auto pixels = static_cast<double>(run.width) * run.height;
   struct Layer {
     FrameTexture texture;
@@ -195,7 +196,7 @@ TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
   for (const Layer& layer : layers) {
     const bool is_normal = layer.texture == kNormal || layer.texture == kShadingNormal;
     const auto values = [&](int i) {
-      const FloatImage& image = frames[i].at(layer.texture);
+      const FloatImage& image = frames[i].pictures.at(layer.texture);
       return is_normal ? decoded_normals(image) : image;
     };
     const LayerDifference difference =
@@ -205,17 +206,17 @@ TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
         << layer.name << ": by up to " << difference.worst << ", "
         << where(difference.worst_x, difference.worst_y);
   }
-  for (const auto& [texture, name] : {std::pair(kAmbientOcclusionSum, "ambient occlusion"),
-                                      std::pair(kSunVisibilitySum, "sun shadow")}) {
-    if (texture == kSunVisibilitySum && !scene.sun) continue;
-    const SumDifference difference =
-        compare_sums(frames[0].at(texture), frames[1].at(texture), ids_a, ids_b, run.samples);
+  for (const auto& [signal, name] :
+       {std::pair("ao", "ambient occlusion"), std::pair("sun", "sun shadow")}) {
+    if (frames[0].sums.count(signal) == 0) continue;
+    const SumDifference difference = compare_sums(
+        frames[0].sums.at(signal), frames[1].sums.at(signal), ids_a, ids_b, run.samples);
     EXPECT_EQ(judge(difference), "") << name << ": " << describe(difference) << "\n"
                                      << where(difference.worst_x, difference.worst_y);
   }
   const PictureDifference picture =
-      compare_pictures(floats(tonemap(frames[0].at(kRadiance), scene.exposure)),
-                       floats(tonemap(frames[1].at(kRadiance), scene.exposure)));
+      compare_pictures(floats(tonemap(frames[0].pictures.at(kRadiance), scene.exposure)),
+                       floats(tonemap(frames[1].pictures.at(kRadiance), scene.exposure)));
   EXPECT_EQ(judge(picture), "") << "frame: " << describe(picture) << "\n"
                                 << where(picture.worst_x, picture.worst_y);
 }

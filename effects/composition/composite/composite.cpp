@@ -7,16 +7,28 @@
 
 namespace kaamos::effects {
 
+static constexpr std::uint32_t kFirstSum = 5;  // u, space3
+
 rtapi::Result<rtapi::ShaderLibrary> composite_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_composite());
 }
 
 rtapi::Result<CompositePass> CompositePass::create(const rtapi::Device& device, const Frame& frame,
-                                                   const rtapi::ShaderLibrary& library) {
+                                                   const rtapi::ShaderLibrary& library,
+                                                   const FrameParts& sums) {
   const auto created = ComputePass::create(device, frame, library, "Composite");
   if (!created) return created.error();
   CompositePass pass;
   pass.pass_ = *created;
+  const auto views = frame.create_pass_views(device);
+  if (!views) return views.error();
+  pass.views_ = *views;
+  const rtapi::Texture* const pictures[] = {sums.sun_visibility, sums.ambient};
+  for (std::uint32_t i = 0; i < std::size(pictures); ++i) {
+    if (pictures[i] == nullptr) continue;
+    const auto s = pass.views_.set_unordered_access(kFirstSum + i, *pictures[i]);
+    if (!s) return s.error();
+  }
   return pass;
 }
 
@@ -25,7 +37,7 @@ void CompositePass::dispatch(rtapi::CommandList& list, const Frame& frame,
   PassConstants pass;
   pass.first_sample = constants.ao_samples;
   pass.sample_count = constants.sun_samples;
-  pass_.dispatch(list, frame, pass, {}, frame.width(), frame.height());
+  pass_.dispatch(list, frame, pass, PassArguments(views_), frame.width(), frame.height());
 }
 
 // As in the shader, which heeds it without reflections only.

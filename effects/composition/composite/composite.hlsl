@@ -17,6 +17,9 @@ float3 SkyAround(float3 normal) {
   return (2.0 * up + tilted + down) * 0.25;
 }
 
+RWTexture2D<float> sun_visibility_sum : register(u5, space3);
+RWTexture2D<float> ambient_occlusion_sum : register(u6, space3);
+
 // pass_constants.first_sample is the number of samples in the sum of ambient occlusion,
 // sample_count that of the sun.
 [shader("compute")]

@@ -13,6 +13,7 @@
 #include "effects/composition/composite/composite.h"
 #include "effects/composition/taa/taa.h"
 #include "effects/engine/picture.h"
+#include "effects/engine/sums_fixture.h"
 #include "effects/geometry/structures/structures.h"
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
 #include "effects/shadows/sun_shadow/sun_shadow.h"
@@ -41,7 +42,10 @@ class SequenceStage {
     gbuffer = pass(gbuffer_pass(gbuffer_library().value()));
     ambient = pass(ambient_occlusion_pass(ambient_occlusion_library().value()));
     sun = pass(sun_shadow_pass(sun_shadow_library().value()));
-    composite = CompositePass::create(device, frame, composite_library().value()).value();
+    ambient_sums = AmbientSums(device, frame);
+    sun_sums = SunSums(device, frame);
+    const FrameParts sums = {.sun_visibility = &sun_sums.visible, .ambient = &ambient_sums.open};
+    composite = CompositePass::create(device, frame, composite_library().value(), sums).value();
   }
 
   // Starts the frame at `seconds`, seen from `camera` through `jitter`.
@@ -62,15 +66,13 @@ class SequenceStage {
   // Ambient occlusion, sun and radiance; `samples` continue the previous frame's sequence.
   void light(std::uint32_t samples) {
     rtapi::CommandList list = device.CreateCommandList().value();
-    frame.clear(list, kAmbientOcclusionSum);
-    frame.clear(list, kSunVisibilitySum);
-    list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
     PassConstants constants;
     constants.first_sample = index * samples;
     constants.sample_count = samples;
     constants.radius = 1.0f;
-    ambient.dispatch(list, frame, constants, frame.height());
-    sun.dispatch(list, frame, constants, frame.height());
+    constants.accumulate = 0;
+    ambient.dispatch(list, frame, constants, frame.height(), ambient_sums.arguments());
+    sun.dispatch(list, frame, constants, frame.height(), sun_sums.arguments());
     composite.dispatch(list, frame, {samples, samples});
     queue.ExecuteAndWait(list).value();
     ++index;
@@ -104,6 +106,8 @@ class SequenceStage {
   StructureManager manager;
   Frame frame;
   RayPass gbuffer, ambient, sun;
+  AmbientSums ambient_sums;
+  SunSums sun_sums;
   CompositePass composite;
   std::optional<Camera> previous_camera;
   glm::vec2 previous_jitter{0.0f};

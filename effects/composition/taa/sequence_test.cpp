@@ -21,12 +21,12 @@ constexpr double kFrameSeconds = 1.0 / 30.0;
 
 // A signal of the frame with its denoiser.
 struct Filtered {
-  Filtered(SequenceStage& stage, FrameTexture sum, const DenoiseDesc& desc) {
+  Filtered(SequenceStage& stage, const rtapi::Texture& sum, const DenoiseDesc& desc) {
     const DenoiseLibraries libraries = denoise_libraries().value();
     signal = stage.frame.create_picture(stage.device, "signal", rtapi::Format::kR32G32B32A32Float)
                  .value();
     denoiser = Denoiser::create(stage.device, stage.frame, libraries, "test", signal, desc).value();
-    denoiser.create_load(stage.device, stage.frame, libraries, stage.frame.texture(sum)).value();
+    denoiser.create_load(stage.device, stage.frame, libraries, sum).value();
   }
   FloatImage run(SequenceStage& stage, std::uint32_t samples) {
     stage.run([&](rtapi::CommandList& list) {
@@ -44,8 +44,8 @@ std::vector<float> frames(const Scene& scene, const std::string& path_name, std:
                           std::uint32_t count = 6, const std::string& backend = "embree") {
   SequenceStage stage(scene, 64, 36, threads, backend);
   const CameraPath path = make_camera_path(scene, path_name).value();
-  Filtered ambient(stage, kAmbientOcclusionSum, default_denoise(DenoiseMethod::kSvgf));
-  Filtered sun(stage, kSunVisibilitySum, default_denoise(DenoiseMethod::kTemporal));
+  Filtered ambient(stage, stage.ambient_sums.open, default_denoise(DenoiseMethod::kSvgf));
+  Filtered sun(stage, stage.sun_sums.visible, default_denoise(DenoiseMethod::kTemporal));
   TemporalAntialiasing taa =
       TemporalAntialiasing::create(stage.device, stage.frame, taa_library().value()).value();
   std::vector<float> out;
@@ -109,8 +109,9 @@ TEST(Sequence, HistoryFollowsASkinnedFigure) {
   SequenceStage stage(scene, kWidth, kHeight);
   DenoiseDesc desc = default_denoise(DenoiseMethod::kTemporal);
   desc.constants.clip_gamma = 0.0f;
-  Filtered moving(stage, kAmbientOcclusionSum, desc), still(stage, kAmbientOcclusionSum, desc);
-  Filtered svgf(stage, kAmbientOcclusionSum, default_denoise(DenoiseMethod::kSvgf));
+  Filtered moving(stage, stage.ambient_sums.open, desc),
+      still(stage, stage.ambient_sums.open, desc);
+  Filtered svgf(stage, stage.ambient_sums.open, default_denoise(DenoiseMethod::kSvgf));
   FloatImage with, without, filtered, raw;
   TemporalChange raw_change, with_change;
   FloatImage raw_before, with_before, z_before;
@@ -132,7 +133,7 @@ TEST(Sequence, HistoryFollowsASkinnedFigure) {
   const FloatImage ids = stage.read(kIds);
   // Ambient occlusion of the last frame alone, as the reference.
   stage.light(512);
-  FloatImage reference = stage.read(kAmbientOcclusionSum);
+  FloatImage reference = stage.read(stage.ambient_sums.open);
   for (float& v : reference.values) v /= 512;
   const auto hero_error = [&](const FloatImage& image) {
     double sum = 0, count = 0;

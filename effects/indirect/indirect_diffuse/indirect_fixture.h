@@ -9,6 +9,7 @@
 #include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/assets/scene/light_constants.h"
 #include "effects/engine/picture.h"
+#include "effects/engine/sums_fixture.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/indirect/indirect_diffuse/occluded_volume.h"
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
@@ -112,14 +113,14 @@ struct Stage {
                         ambient_occlusion_pass(ambient_occlusion_library().value()))
             .value();
     rtapi::CommandList list = device.CreateCommandList().value();
-    frame.clear(list, kAmbientOcclusionSum);
-    list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+    const AmbientSums sums(device, frame);
     PassConstants pass_constants;
     pass_constants.sample_count = samples;
     pass_constants.radius = radius;
-    pass.dispatch(list, frame, pass_constants, height);
+    pass_constants.accumulate = 0;
+    pass.dispatch(list, frame, pass_constants, height, sums.arguments());
     queue.ExecuteAndWait(list).value();
-    FloatImage image = frame.read(device, queue, kAmbientOcclusionSum).value();
+    FloatImage image = read_picture(device, queue, sums.open).value();
     for (float& value : image.values) value /= static_cast<float>(samples);
     return image;
   }

@@ -93,9 +93,13 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
 }
 
 rtapi::Status EffectRuns::create_background() {
-  const auto composite =
-      CompositePass::create(renderer_->device(), renderer_->frame(),
-                            renderer_->context().libraries.at("composition/composite/composite"));
+  const rtapi::Texture sun = renderer_->effects().sum("sun"), ao = renderer_->effects().sum("ao");
+  FrameParts sums;
+  if (sun) sums.sun_visibility = &sun;
+  if (ao) sums.ambient = &ao;
+  const auto composite = CompositePass::create(
+      renderer_->device(), renderer_->frame(),
+      renderer_->context().libraries.at("composition/composite/composite"), sums);
   if (!composite) return composite.error();
   background_ = *composite;
   for (const char* effect : {"ao", "sun"}) {
@@ -110,9 +114,10 @@ rtapi::Status EffectRuns::create_background() {
 
 rtapi::Status EffectRuns::draw_background() {
   const auto drawn = renderer_->runner().execute([&](rtapi::CommandList& list) {
-    background_->dispatch(
-        list, renderer_->frame(),
-        {kBackgroundSamples, renderer_->effects().renders("sun") ? kBackgroundSamples : 0});
+    const auto samples = [&](const char* effect) {
+      return renderer_->effects().renders(effect) ? kBackgroundSamples : 0;
+    };
+    background_->dispatch(list, renderer_->frame(), {samples("ao"), samples("sun")});
   });
   if (!drawn) return drawn.error();
   return {};

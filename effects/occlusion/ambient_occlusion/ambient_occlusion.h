@@ -14,8 +14,8 @@ inline constexpr std::uint32_t kDefaultAmbientOcclusionSamples = 4;
 ///@}
 
 /// The pass, from the library that is built in or from one compiled at run time. Each dispatch adds
-/// the open ones of its samples to kAmbientOcclusionSum; PassConstants::radius is how far rays
-/// reach, metres. [GDC 2018 talk; survey 7.4]
+/// the open ones of its samples to register u0 of space3, R32_FLOAT; PassConstants::radius is how
+/// far rays reach, metres. [GDC 2018 talk; survey 7.4]
 RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library);
 /// The same with directions uniform over the hemisphere, each counted by twice its cosine: right on
 /// average, but noisier; a pixel's mean may be above 1. Register u0 of space3 is

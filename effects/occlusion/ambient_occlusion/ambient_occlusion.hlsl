@@ -6,6 +6,9 @@
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
+// Open samples.
+RWTexture2D<float> ambient_occlusion_sum : register(u0, space3);
+
 float3 OcclusionDirection(float2 tile, uint index, float3 shading_normal) {
   const float2 u = PixelSample(tile, index, kAmbientOcclusionPair, frame.seed);
   return ToWorld(SampleCosineHemisphere(u), shading_normal);

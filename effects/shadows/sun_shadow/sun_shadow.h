@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Shadow of a sun with an area. The pass adds the number of samples that see it to
-/// kSunVisibilitySum, and how sharp the shadows of the others are to kSunSharpnessSum.
+/// Shadow of a sun with an area: how many samples see it, and how sharp the shadows of the others
+/// are.
 #pragma once
 
 #include "effects/engine/ray_pass.h"
@@ -11,9 +11,9 @@ namespace kaamos::effects {
 /// Samples per pixel of the deck's timings. [Northlight deck: Shadows]
 inline constexpr std::uint32_t kDefaultSunSamples = 2;
 
-/// The pass. Each dispatch adds those of its samples that see the sun to kSunVisibilitySum, and of
-/// the others to kSunSharpnessSum: 1 / radius of the penumbra that the closest occluder casts, 1/m,
-/// and whether that moves.
+/// The pass. Each dispatch adds those of its samples that see the sun to register u0 of space3,
+/// R32_FLOAT, and of the others to u1, R32G32B32A32_FLOAT: 1 / radius of the penumbra that the
+/// closest occluder casts, 1/m, and whether that moves.
 /// [Northlight deck: Shadows; NRD: SIGMA]
 RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.

@@ -28,7 +28,7 @@ rtapi::Result<rtapi::ShaderLibrary> ray_order_library();
 /// Sorts the rays of one frame.
 class RaySorter {
  public:
-  /// Makes the pass and its buffers, and binds them to registers t5 and u14 of the frame, which
+  /// Makes the pass and its buffers, and binds them to registers t5 and u11 of the frame, which
   /// must outlive it. A picture may have at most 65,535 pixels on a side.
   /// @errors KA3044 a larger picture; KA0537 a library without the pass; those of the device.
   static rtapi::Result<RaySorter> create(const rtapi::Device& device, const Frame& frame,

@@ -13,6 +13,7 @@
 
 #include "effects/assets/built_in/lounge.h"
 #include "effects/engine/picture.h"
+#include "effects/engine/sums_fixture.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/indirect/indirect_diffuse/volume.h"
 #include "effects/light/lights/lighting.h"
@@ -58,16 +59,17 @@ struct Bench {
     queue.ExecuteAndWait(list).value();
   }
 
-  // Two samples of the pass, in two bands of rows. `constants` is for a pass that writes u0 of
-  // space3; if it is null, the pass writes `of_frame`.
+  // Two samples of the pass, in two bands of rows. It writes u0 of space3, and visibility,
+  // which has no constants, may write u1.
   template <class Constants>
-  FloatImage run(const RayPassDesc& desc, const Constants* constants, FrameTexture of_frame,
-                 RayOrder order, const RaySorter& sorter) {
+  FloatImage run(const RayPassDesc& desc, const Constants* constants, RayOrder order,
+                 const RaySorter& sorter) {
     const RayPass keys = RayPass::create(device, frame, gpu, key_pass(desc)).value();
     const RayPass pass = RayPass::create(device, frame, gpu, desc).value();
-    rtapi::Texture picture = frame.texture(of_frame);
+    const SunSums visibility(device, frame);
+    rtapi::Texture picture = visibility.visible;
     PassViews views;
-    PassArguments arguments;
+    PassArguments arguments = visibility.arguments();
     if (constants != nullptr) {
       picture = frame.create_picture(device, "sum", rtapi::Format::kR32G32B32A32Float).value();
       views = frame.create_pass_views(device).value();
@@ -77,9 +79,8 @@ struct Bench {
       arguments = {views, *constants};
     }
     rtapi::CommandList list = device.CreateCommandList().value();
-    frame.clear(list, of_frame);
-    list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
     PassConstants pass_constants;
+    pass_constants.accumulate = 0;
     pass_constants.sample_count = 2;
     pass_constants.radius = 4;
     if (order != RayOrder::kPixels) {
@@ -96,15 +97,14 @@ struct Bench {
   }
 
   template <class Constants>
-  void expect_same(const RayPassDesc& desc, const Constants* constants,
-                   FrameTexture of_frame = kAmbientOcclusionSum) {
+  void expect_same(const RayPassDesc& desc, const Constants* constants) {
     const RaySorter sorter = RaySorter::create(device, frame, ray_order_library().value()).value();
-    const FloatImage plain = run(desc, constants, of_frame, RayOrder::kPixels, sorter);
+    const FloatImage plain = run(desc, constants, RayOrder::kPixels, sorter);
     const auto written = std::count_if(plain.values.begin(), plain.values.end(),
                                        [](float value) { return value != 0; });
     EXPECT_GT(written, kWidth * kHeight / 4) << desc.name << " gives next to nothing";
     for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin, RayOrder::kTermination}) {
-      const FloatImage sorted = run(desc, constants, of_frame, order, sorter);
+      const FloatImage sorted = run(desc, constants, order, sorter);
       EXPECT_EQ(0, std::memcmp(plain.values.data(), sorted.values.data(),
                                plain.values.size() * sizeof(float)))
           << desc.name;
@@ -116,7 +116,7 @@ constexpr const ReflectionConstants* kNone = nullptr;
 
 void expect_same_visibility(Bench& bench) {
   bench.expect_same(ambient_occlusion_pass(ambient_occlusion_library().value()), kNone);
-  bench.expect_same(sun_shadow_pass(sun_shadow_library().value()), kNone, kSunVisibilitySum);
+  bench.expect_same(sun_shadow_pass(sun_shadow_library().value()), kNone);
 }
 
 TEST(RayOrder, PicturesAreTheSameBitForBit) {
@@ -145,8 +145,7 @@ TEST(RayOrder, CheckedModeFindsNothing) {
   const RaySorter sorter =
       RaySorter::create(bench.device, bench.frame, ray_order_library().value()).value();
   for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin, RayOrder::kTermination}) {
-    bench.run(ambient_occlusion_pass(ambient_occlusion_library().value()), kNone,
-              kAmbientOcclusionSum, order, sorter);
+    bench.run(ambient_occlusion_pass(ambient_occlusion_library().value()), kNone, order, sorter);
   }
   for (const std::string& text : told) ADD_FAILURE() << text;
 }
