@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "effects/engine/effect.h"
 #include "effects/engine/frame.h"
@@ -53,5 +55,14 @@ class EffectPass {
   /// The effect as one ray tracing pass. Null: it is more than that. [ray_effect.h]
   virtual const RayEffect* rays() const { return nullptr; }
 };
+
+/// For Effect::make: a pass with a constructor that takes the scope, and `Status create(scope)`.
+/// @errors those of its create.
+template <class Pass>
+rtapi::Result<std::unique_ptr<EffectPass>> make_pass(const EffectScope& scope) {
+  auto pass = std::make_unique<Pass>(scope);
+  if (const auto s = pass->create(scope); !s) return s.error();
+  return std::unique_ptr<EffectPass>(std::move(pass));
+}
 
 }  // namespace kaamos::effects

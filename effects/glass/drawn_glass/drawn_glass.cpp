@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -64,8 +63,8 @@ class DrawnGlass : public EffectPass {
     if (const auto s = create_pipelines(library); !s) return s;
     if (const auto s = create_buffers(scope.scene); !s) return s;
     const auto constants = scope.settings.get_constants<DrawnGlassConstants>();
-    if (constants.fallback != DrawnGlassFallback::kEnvironment) return {};
-    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
+    auto map =
+        EnvironmentFallback::create(scope, constants.fallback == DrawnGlassFallback::kEnvironment);
     if (!map) return map.error();
     environment_ = std::move(*map);
     return {};
@@ -93,7 +92,7 @@ class DrawnGlass : public EffectPass {
   PipelineState sides_[2];           // backs, fronts
   std::vector<glm::dvec3> centres_;  // of meshes, object space
   SceneDrawList draws_;
-  std::optional<EnvironmentMap> environment_;
+  EnvironmentFallback environment_;
   float near_plane_ = 0;
 };
 
@@ -177,8 +176,7 @@ rtapi::Status DrawnGlass::begin_frame(const Camera& camera) {
     return distance(a) > distance(b);
   });
   draws_.set(std::move(draws));
-  return environment_ ? environment_->set_origin(device_, camera.position(), views_)
-                      : rtapi::Status{};
+  return environment_.begin_frame(camera);
 }
 
 void DrawnGlass::record_glass(CommandList& list) const {
@@ -226,7 +224,7 @@ void DrawnGlass::record(CommandList& list, const EffectSettings& settings,
 }
 
 std::uint64_t DrawnGlass::bytes() const {
-  return 4 * picture_bytes(mirrored_) + draws_.bytes() + (environment_ ? environment_->bytes() : 0);
+  return 4 * picture_bytes(mirrored_) + draws_.bytes() + environment_.bytes();
 }
 
 }  // namespace
@@ -236,9 +234,7 @@ rtapi::Result<ShaderLibrary> drawn_glass_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_drawn_glass(const EffectScope& scope) {
-  auto pass = std::make_unique<DrawnGlass>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<DrawnGlass>(scope);
 }
 
 }  // namespace kaamos::effects

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/picture.h"
-#include "effects/reflections/environment_map/environment_map.h"
 
 namespace kaamos::effects {
 
@@ -31,10 +29,9 @@ class BlurredReflections : public EffectPass {
 
   rtapi::Status create(const EffectScope& scope) {
     const auto constants = scope.settings.get_constants<BlurredConstants>();
-    if (const auto s = check_screen_reflections(constants.screen); !s) return s;
-    auto masks = bind_instance_masks(scope);
-    if (!masks) return masks.error();
-    masks_ = std::move(*masks);
+    auto inputs = ScreenInputs::create(scope, constants.screen);
+    if (!inputs) return inputs.error();
+    inputs_ = std::move(*inputs);
     const auto& library = scope.library("reflections/blurred/blurred_reflections");
     constexpr const char* kEntries[] = {"SendMirrorRays", "GatherMirrorRays", "BlurLevel",
                                         "BlurMirrored"};
@@ -45,10 +42,6 @@ class BlurredReflections : public EffectPass {
       *passes[i] = std::move(*pass);
     }
     if (const auto s = create_pictures(); !s) return s;
-    if (constants.screen.fallback != ScreenFallback::kEnvironment) return {};
-    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
-    if (!map) return map.error();
-    environment_ = std::move(*map);
     return {};
   }
 
@@ -59,8 +52,7 @@ class BlurredReflections : public EffectPass {
       if (const auto s = bind_history(); !s) return s;
     }
     is_recorded_ = false;
-    if (!environment_) return {};
-    return environment_->set_origin(device_, camera.position(), views_);
+    return inputs_.begin_frame(camera);
   }
 
   void record(rtapi::CommandList& list, const EffectSettings& settings,
@@ -82,7 +74,7 @@ class BlurredReflections : public EffectPass {
 
   std::uint64_t bytes() const override {
     return picture_bytes(rays_) + picture_bytes(mips_) + picture_bytes(mirrored_[0]) +
-           picture_bytes(mirrored_[1]) + masks_.size() + (environment_ ? environment_->bytes() : 0);
+           picture_bytes(mirrored_[1]) + inputs_.bytes();
   }
 
  private:
@@ -119,8 +111,7 @@ class BlurredReflections : public EffectPass {
   PassViews& views_;
   ComputePass send_, gather_, level_, blur_;
   rtapi::Texture rays_, mips_, mirrored_[2];
-  rtapi::Buffer masks_;
-  std::optional<EnvironmentMap> environment_;
+  ScreenInputs inputs_;
   std::uint32_t newest_ = 0;  // of mirrored_: what this frame writes
   bool is_recorded_ = false, has_history_ = false;
 };
@@ -132,9 +123,7 @@ rtapi::Result<rtapi::ShaderLibrary> blurred_reflections_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_blurred_reflections(const EffectScope& scope) {
-  auto pass = std::make_unique<BlurredReflections>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<BlurredReflections>(scope);
 }
 
 }  // namespace kaamos::effects

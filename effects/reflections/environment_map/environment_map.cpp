@@ -235,4 +235,20 @@ std::uint64_t EnvironmentMap::bytes() const {
   return texels * kFaces * desc_.probes.size() * 8;
 }
 
+rtapi::Result<EnvironmentFallback> EnvironmentFallback::create(const EffectScope& scope,
+                                                               bool is_wanted) {
+  EnvironmentFallback out;
+  if (!is_wanted) return out;
+  auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
+  if (!map) return map.error();
+  out.device_ = &scope.device;
+  out.views_ = &scope.views;
+  out.map_ = std::move(*map);
+  return out;
+}
+
+rtapi::Status EnvironmentFallback::begin_frame(const Camera& camera) {
+  return map_ ? map_->set_origin(*device_, camera.position(), *views_) : rtapi::Status{};
+}
+
 }  // namespace kaamos::effects

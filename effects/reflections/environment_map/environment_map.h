@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "effects/engine/effect_pass.h"
@@ -69,6 +70,26 @@ class EnvironmentMap {
   EnvironmentDesc desc_;
   rtapi::Texture cubes_;
   rtapi::Buffer probes_;
+};
+
+/// The environment map of an effect that looks up there what it does not find otherwise; or none.
+class EnvironmentFallback {
+ public:
+  /// With `is_wanted` a map of the scene's default probes. The scope's device and views must stay.
+  /// @errors those of EnvironmentMap::create.
+  static rtapi::Result<EnvironmentFallback> create(const EffectScope& scope, bool is_wanted);
+  /// Its part of EffectPass::begin_frame.
+  /// @errors those of EnvironmentMap::set_origin.
+  rtapi::Status begin_frame(const Camera& camera);
+  /// Whether there is a map.
+  explicit operator bool() const { return map_.has_value(); }
+  /// Bytes of its cubes.
+  std::uint64_t bytes() const { return map_ ? map_->bytes() : 0; }
+
+ private:
+  const rtapi::Device* device_ = nullptr;
+  PassViews* views_ = nullptr;
+  std::optional<EnvironmentMap> map_;
 };
 
 /// The shaders that make the maps, which are built into the program.

@@ -3,7 +3,6 @@
 
 #include <shaders/planar_reflections.h>
 
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -67,8 +66,7 @@ class PlanarReflections : public EffectPass {
     if (!picture) return picture.error();
     picture_ = *picture;
     if (const auto s = views_.set_unordered_access(kMirrored, picture_); !s) return s;
-    if (constants.fallback != kEnvironment) return {};
-    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
+    auto map = EnvironmentFallback::create(scope, constants.fallback == kEnvironment);
     if (!map) return map.error();
     environment_ = std::move(*map);
     return {};
@@ -88,8 +86,7 @@ class PlanarReflections : public EffectPass {
     if (const auto s = views_.set_shader_resource(kPlanes, plane_buffer_, sizeof(glm::vec4)); !s) {
       return s;
     }
-    return environment_ ? environment_->set_origin(device_, camera.position(), views_)
-                        : rtapi::Status{};
+    return environment_.begin_frame(camera);
   }
 
   void record(rtapi::CommandList& list, const EffectSettings& settings,
@@ -106,9 +103,7 @@ class PlanarReflections : public EffectPass {
                       frame_.height());
   }
 
-  std::uint64_t bytes() const override {
-    return picture_bytes(picture_) + (environment_ ? environment_->bytes() : 0);
-  }
+  std::uint64_t bytes() const override { return picture_bytes(picture_) + environment_.bytes(); }
 
  private:
   const rtapi::Device& device_;
@@ -120,7 +115,7 @@ class PlanarReflections : public EffectPass {
   ComputePass look_up_;
   rtapi::Texture picture_;
   rtapi::Buffer plane_buffer_;
-  std::optional<EnvironmentMap> environment_;
+  EnvironmentFallback environment_;
 };
 
 }  // namespace
@@ -130,9 +125,7 @@ rtapi::Result<rtapi::ShaderLibrary> planar_reflections_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_planar_reflections(const EffectScope& scope) {
-  auto pass = std::make_unique<PlanarReflections>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<PlanarReflections>(scope);
 }
 
 }  // namespace kaamos::effects

@@ -4,12 +4,10 @@
 #include <shaders/screen_mask.h>
 
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/picture.h"
-#include "effects/reflections/environment_map/environment_map.h"
 
 namespace kaamos::effects {
 
@@ -39,10 +37,9 @@ class MaskedReflections : public EffectPass {
 
   rtapi::Status create(const EffectScope& scope) {
     const auto constants = scope.settings.get_constants<ScreenMaskConstants>();
-    if (const auto s = check_screen_reflections(constants.screen); !s) return s;
-    auto masks = bind_instance_masks(scope);
-    if (!masks) return masks.error();
-    masks_ = std::move(*masks);
+    auto inputs = ScreenInputs::create(scope, constants.screen);
+    if (!inputs) return inputs.error();
+    inputs_ = std::move(*inputs);
     const auto& library = scope.library("reflections/screen_space/screen_mask");
     constexpr const char* kEntries[] = {"BoundDepths", "ClassifyPixels", "CountGroups",
                                         "MarchPixels"};
@@ -58,17 +55,10 @@ class MaskedReflections : public EffectPass {
     if (!signature) return signature.error();
     signature_ = *signature;
     if (const auto s = create_buffers(); !s) return s;
-    if (constants.screen.fallback != ScreenFallback::kEnvironment) return {};
-    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
-    if (!map) return map.error();
-    environment_ = std::move(*map);
     return {};
   }
 
-  rtapi::Status begin_frame(const Camera& camera) override {
-    if (!environment_) return {};
-    return environment_->set_origin(device_, camera.position(), views_);
-  }
+  rtapi::Status begin_frame(const Camera& camera) override { return inputs_.begin_frame(camera); }
 
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
@@ -86,7 +76,7 @@ class MaskedReflections : public EffectPass {
 
   std::uint64_t bytes() const override {
     return picture_bytes(bounds_) + pixels_.size() + pixel_count_.size() + groups_.size() +
-           masks_.size() + (environment_ ? environment_->bytes() : 0);
+           inputs_.bytes();
   }
 
  private:
@@ -119,7 +109,7 @@ class MaskedReflections : public EffectPass {
   rtapi::CommandSignature signature_;
   rtapi::Texture bounds_;
   rtapi::Buffer pixels_, pixel_count_, groups_, masks_;
-  std::optional<EnvironmentMap> environment_;
+  ScreenInputs inputs_;
 };
 
 }  // namespace
@@ -129,9 +119,7 @@ rtapi::Result<rtapi::ShaderLibrary> screen_mask_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_masked_reflections(const EffectScope& scope) {
-  auto pass = std::make_unique<MaskedReflections>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<MaskedReflections>(scope);
 }
 
 }  // namespace kaamos::effects

@@ -3,14 +3,12 @@
 
 #include <shaders/screen_reflections.h>
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "effects/assets/common/errors.h"
 #include "effects/engine/compute_pass.h"
-#include "effects/reflections/environment_map/environment_map.h"
 
 namespace kaamos::effects {
 
@@ -20,19 +18,22 @@ constexpr std::uint32_t kInstanceMasks = 4;  // register t, space3
 
 class ScreenReflections : public EffectPass {
  public:
-  ScreenReflections(const EffectScope& scope, ComputePass pass, rtapi::Buffer masks,
-                    std::optional<EnvironmentMap> environment)
-      : device_(scope.device),
-        frame_(scope.frame),
-        views_(scope.views),
-        pass_(std::move(pass)),
-        masks_(std::move(masks)),
-        environment_(std::move(environment)) {}
+  explicit ScreenReflections(const EffectScope& scope) : frame_(scope.frame), views_(scope.views) {}
 
-  rtapi::Status begin_frame(const Camera& camera) override {
-    if (!environment_) return {};
-    return environment_->set_origin(device_, camera.position(), views_);
+  rtapi::Status create(const EffectScope& scope) {
+    auto inputs =
+        ScreenInputs::create(scope, scope.settings.get_constants<ScreenReflectionConstants>());
+    if (!inputs) return inputs.error();
+    inputs_ = std::move(*inputs);
+    auto pass = ComputePass::create(scope.device, scope.frame,
+                                    scope.library("reflections/screen_space/screen_reflections"),
+                                    "ScreenReflections");
+    if (!pass) return pass.error();
+    pass_ = std::move(*pass);
+    return {};
   }
+
+  rtapi::Status begin_frame(const Camera& camera) override { return inputs_.begin_frame(camera); }
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
     const std::uint32_t columns = traced_columns(constants, frame_.width());
@@ -41,17 +42,13 @@ class ScreenReflections : public EffectPass {
     pass_.dispatch(list, frame_, constants, PassArguments(views_, settings.constants), columns,
                    rows);
   }
-  std::uint64_t bytes() const override {
-    return masks_.size() + (environment_ ? environment_->bytes() : 0);
-  }
+  std::uint64_t bytes() const override { return inputs_.bytes(); }
 
  private:
-  const rtapi::Device& device_;
   const Frame& frame_;
   PassViews& views_;
   ComputePass pass_;
-  rtapi::Buffer masks_;
-  std::optional<EnvironmentMap> environment_;
+  ScreenInputs inputs_;
 };
 
 }  // namespace
@@ -117,23 +114,22 @@ ScreenReflectionConstants march_of_line() {
   return constants;
 }
 
-rtapi::Result<std::unique_ptr<EffectPass>> make_screen_reflections(const EffectScope& scope) {
-  const auto constants = scope.settings.get_constants<ScreenReflectionConstants>();
+rtapi::Result<ScreenInputs> ScreenInputs::create(const EffectScope& scope,
+                                                 const ScreenReflectionConstants& constants) {
   if (const auto s = check_screen_reflections(constants); !s) return s.error();
-  std::optional<EnvironmentMap> environment;
-  if (constants.fallback == ScreenFallback::kEnvironment) {
-    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
-    if (!map) return map.error();
-    environment = std::move(*map);
-  }
-  auto pass = ComputePass::create(scope.device, scope.frame,
-                                  scope.library("reflections/screen_space/screen_reflections"),
-                                  "ScreenReflections");
-  if (!pass) return pass.error();
+  ScreenInputs out;
   auto masks = bind_instance_masks(scope);
   if (!masks) return masks.error();
-  return std::unique_ptr<EffectPass>(std::make_unique<ScreenReflections>(
-      scope, std::move(*pass), std::move(*masks), std::move(environment)));
+  out.masks_ = std::move(*masks);
+  auto environment =
+      EnvironmentFallback::create(scope, constants.fallback == ScreenFallback::kEnvironment);
+  if (!environment) return environment.error();
+  out.environment_ = std::move(*environment);
+  return out;
+}
+
+rtapi::Result<std::unique_ptr<EffectPass>> make_screen_reflections(const EffectScope& scope) {
+  return make_pass<ScreenReflections>(scope);
 }
 
 }  // namespace kaamos::effects

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "effects/engine/effect_pass.h"
+#include "effects/reflections/environment_map/environment_map.h"
 
 namespace kaamos::effects {
 
@@ -82,5 +83,25 @@ rtapi::Status check_screen_reflections(const ScreenReflectionConstants& constant
 /// must stay for the pass's life.
 /// @errors those of rtapi::Device::CreateBuffer.
 rtapi::Result<rtapi::Buffer> bind_instance_masks(const EffectScope& scope);
+
+/// What a march in the picture reads besides it: masks of instances, and what is seen where it
+/// finds nothing.
+class ScreenInputs {
+ public:
+  /// Checks the constants, binds the masks, and makes an environment map where the constants want
+  /// one. The scope's device and views must stay.
+  /// @errors KA3071 constants out of their ranges; those of EnvironmentMap::create.
+  static rtapi::Result<ScreenInputs> create(const EffectScope& scope,
+                                            const ScreenReflectionConstants& constants);
+  /// Their part of EffectPass::begin_frame.
+  /// @errors those of EnvironmentMap::set_origin.
+  rtapi::Status begin_frame(const Camera& camera) { return environment_.begin_frame(camera); }
+  /// Bytes of both.
+  std::uint64_t bytes() const { return masks_.size() + environment_.bytes(); }
+
+ private:
+  rtapi::Buffer masks_;
+  EnvironmentFallback environment_;
+};
 
 }  // namespace kaamos::effects

@@ -3,21 +3,18 @@
 
 #include <shaders/stochastic_reflections.h>
 
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "effects/assets/common/errors.h"
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/picture.h"
-#include "effects/reflections/environment_map/environment_map.h"
 
 namespace kaamos::effects {
 
 namespace {
 
 rtapi::Status check(const StochasticConstants& constants) {
-  if (const auto s = check_screen_reflections(constants.screen); !s) return s;
   const std::uint32_t n = constants.neighbours;
   if (n != 1 && n != 4 && n != 9) {
     return make_error(ErrorId::kScreenReflections,
@@ -42,10 +39,10 @@ class StochasticReflections : public EffectPass {
 
   rtapi::Status create(const EffectScope& scope) {
     const auto constants = scope.settings.get_constants<StochasticConstants>();
+    auto inputs = ScreenInputs::create(scope, constants.screen);
+    if (!inputs) return inputs.error();
+    inputs_ = std::move(*inputs);
     if (const auto s = check(constants); !s) return s;
-    auto masks = bind_instance_masks(scope);
-    if (!masks) return masks.error();
-    masks_ = std::move(*masks);
     const auto& library = scope.library("reflections/stochastic/stochastic_reflections");
     auto send = ComputePass::create(device_, frame_, library, "SendRays");
     if (!send) return send.error();
@@ -60,17 +57,10 @@ class StochasticReflections : public EffectPass {
       pictures_[i] = *picture;
       if (const auto s = views_.set_unordered_access(1 + i, pictures_[i]); !s) return s;
     }
-    if (constants.screen.fallback != ScreenFallback::kEnvironment) return {};
-    auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
-    if (!map) return map.error();
-    environment_ = std::move(*map);
     return {};
   }
 
-  rtapi::Status begin_frame(const Camera& camera) override {
-    if (!environment_) return {};
-    return environment_->set_origin(device_, camera.position(), views_);
-  }
+  rtapi::Status begin_frame(const Camera& camera) override { return inputs_.begin_frame(camera); }
 
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
@@ -86,8 +76,7 @@ class StochasticReflections : public EffectPass {
   }
 
   std::uint64_t bytes() const override {
-    return picture_bytes(pictures_[0]) + picture_bytes(pictures_[1]) + masks_.size() +
-           (environment_ ? environment_->bytes() : 0);
+    return picture_bytes(pictures_[0]) + picture_bytes(pictures_[1]) + inputs_.bytes();
   }
 
  private:
@@ -97,8 +86,7 @@ class StochasticReflections : public EffectPass {
   std::uint32_t width_, height_;  // of the rays
   ComputePass send_, resolve_;
   rtapi::Texture pictures_[2];
-  rtapi::Buffer masks_;
-  std::optional<EnvironmentMap> environment_;
+  ScreenInputs inputs_;
 };
 
 }  // namespace
@@ -108,9 +96,7 @@ rtapi::Result<rtapi::ShaderLibrary> stochastic_reflections_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_stochastic_reflections(const EffectScope& scope) {
-  auto pass = std::make_unique<StochasticReflections>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<StochasticReflections>(scope);
 }
 
 }  // namespace kaamos::effects

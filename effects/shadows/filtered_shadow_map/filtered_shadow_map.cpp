@@ -228,9 +228,7 @@ rtapi::Result<rtapi::ShaderLibrary> filtered_shadow_map_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_filtered_shadow_map(const EffectScope& scope) {
-  auto pass = std::make_unique<FilteredShadowMapPass>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<FilteredShadowMapPass>(scope);
 }
 
 }  // namespace kaamos::effects

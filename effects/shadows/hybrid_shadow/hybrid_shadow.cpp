@@ -94,9 +94,7 @@ rtapi::Result<rtapi::ShaderLibrary> hybrid_shadow_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_hybrid_shadow(const EffectScope& scope) {
-  auto pass = std::make_unique<HybridShadowPass>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<HybridShadowPass>(scope);
 }
 
 }  // namespace kaamos::effects

@@ -164,9 +164,7 @@ rtapi::Result<rtapi::ShaderLibrary> shadow_map_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_shadow_map(const EffectScope& scope) {
-  auto pass = std::make_unique<ShadowMapPass>(scope);
-  if (const auto s = pass->create(scope); !s) return s.error();
-  return std::unique_ptr<EffectPass>(std::move(pass));
+  return make_pass<ShadowMapPass>(scope);
 }
 
 }  // namespace kaamos::effects
