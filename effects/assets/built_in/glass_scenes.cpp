@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 #include "effects/assets/scene/staging.h"
 
@@ -15,29 +16,19 @@ namespace {
 
 constexpr double kGlassThickness = 0.006;  // metres
 
-std::uint32_t add_material(Scene& scene, std::string name, const glm::vec4& base_color,
-                           float roughness) {
-  Material material;
-  material.name = std::move(name);
-  material.constants.base_color = base_color;
-  material.constants.roughness = roughness;
-  if (base_color.a < 1.0f) material.constants.flags |= kMaterialBlend;
-  scene.materials.push_back(material);
-  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+std::uint32_t add_tint(Scene& scene, std::string name, const glm::vec4& base_color,
+                       float roughness) {
+  MaterialConstants constants;
+  constants.base_color = base_color;
+  constants.roughness = roughness;
+  if (base_color.a < 1.0f) constants.flags |= kMaterialBlend;
+  return add_material(scene, std::move(name), constants);
 }
 
 void add(Scene& scene, std::string name, Shape shape, std::uint32_t material,
          const glm::dmat4& transform) {
-  Mesh mesh;
-  mesh.name = name;
-  add_shape(mesh, std::move(shape), material);
-  Instance instance;
-  instance.name = std::move(name);
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.transform = transform;
-  if (scene.materials[material].constants.flags & kMaterialBlend) instance.mask = kMaskTransparent;
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(std::move(instance));
+  Instance& thing = add_thing(scene, std::move(name), std::move(shape), material, transform);
+  if (scene.materials[material].constants.flags & kMaterialBlend) thing.mask = kMaskTransparent;
 }
 
 // Centred at the origin; the front faces +z at z = 0.
@@ -52,24 +43,6 @@ Shape pane_shape(double half_width, double half_height, double thickness) {
                1, 1);
 }
 
-void add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& target, double fov) {
-  Camera camera;
-  camera.name = scene.name;
-  camera.camera_to_world = look_at(eye, target);
-  camera.vertical_fov = fov;
-  scene.cameras.push_back(camera);
-}
-
-Shape ball(double radius) {
-  std::vector<glm::dvec2> profile;
-  for (int i = 0; i <= 16; ++i) {
-    const double angle = glm::pi<double>() * (static_cast<double>(i) / 16 - 0.5);
-    profile.emplace_back(i == 0 || i == 16 ? 0.0 : radius * std::cos(angle),
-                         radius * std::sin(angle));
-  }
-  return revolve(profile, 32);
-}
-
 glm::vec3 hue(double h) {
   const auto channel = [&](double shift) {
     return static_cast<float>(0.5 + 0.45 * std::cos(2.0 * glm::pi<double>() * (h + shift)));
@@ -79,9 +52,9 @@ glm::vec3 hue(double h) {
 
 // Six walls and two shelves of glass, with balls on the shelves.
 void add_cabinet(Scene& scene, const glm::dvec3& at) {
-  const std::uint32_t glass = add_material(scene, "cabinet glass", {0.7f, 0.8f, 0.75f, 0.12f}, 0);
+  const std::uint32_t glass = add_tint(scene, "cabinet glass", {0.7f, 0.8f, 0.75f, 0.12f}, 0);
   scene.materials[glass].constants.flags |= kMaterialDoubleSided;
-  const std::uint32_t wood = add_material(scene, "cabinet wood", {0.35f, 0.2f, 0.1f, 1.0f}, 0.5f);
+  const std::uint32_t wood = add_tint(scene, "cabinet wood", {0.35f, 0.2f, 0.1f, 1.0f}, 0.5f);
   const double half = 0.4, height = 1.5, t = 0.5 * kGlassThickness;
   add(scene, "cabinet foot", box({half, 0.1, half}), wood, translate(at + glm::dvec3(0, 0.1, 0)));
   const double middle = 0.2 + 0.5 * height;
@@ -96,9 +69,9 @@ void add_cabinet(Scene& scene, const glm::dvec3& at) {
     add(scene, "shelf " + std::to_string(shelf), box({half - 4 * t, t, half - 4 * t}), glass,
         translate(at + glm::dvec3(0, y, 0)));
     for (int i = 0; i < 2; ++i) {
-      const std::uint32_t paint = add_material(scene, "ball " + std::to_string(2 * shelf + i),
-                                               glm::vec4(hue(0.3 * shelf + 0.5 * i), 1.0f), 0.3f);
-      add(scene, "ball", ball(0.1), paint,
+      const std::uint32_t paint = add_tint(scene, "ball " + std::to_string(2 * shelf + i),
+                                           glm::vec4(hue(0.3 * shelf + 0.5 * i), 1.0f), 0.3f);
+      add(scene, "ball", ball(0.1, 32, 16), paint,
           translate(at + glm::dvec3(i == 0 ? -0.16 : 0.17, y + t + 0.1, i == 0 ? 0.1 : -0.12)));
     }
   }
@@ -119,8 +92,8 @@ void add_stack(Scene& scene, const GlassStackDesc& desc) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const double part = count == 1 ? 0.0 : static_cast<double>(i) / (count - 1);
     const std::uint32_t glass =
-        add_material(scene, "pane " + std::to_string(i),
-                     glm::vec4(hue(part * 0.8), static_cast<float>(0.1 + 0.8 * part)), 0.0f);
+        add_tint(scene, "pane " + std::to_string(i),
+                 glm::vec4(hue(part * 0.8), static_cast<float>(0.1 + 0.8 * part)), 0.0f);
     if (desc.thick) scene.materials[glass].constants.flags |= kMaterialDoubleSided;
     // Either in a row, each pane higher than the one before, or crossed about one vertical axis.
     glm::dmat4 place = translate({-1.2 + 0.12 * i, 0.5 + 0.06 * i, 1.0 - 0.28 * i});
@@ -139,14 +112,13 @@ Scene make_pane_oracle(std::span<const Pane> panes, const glm::vec3& background)
   Scene scene;
   scene.name = "pane-oracle";
   scene.samplers.push_back(Sampler{});
-  const std::uint32_t wall = add_material(scene, "wall", {0, 0, 0, 1}, 1.0f);
+  const std::uint32_t wall = add_tint(scene, "wall", {0, 0, 0, 1}, 1.0f);
   scene.materials[wall].constants.emissive = background;
   add(scene, "wall", pane_shape(60.0, 60.0, 0.0), wall, translate({0, 0, -50}));
   for (std::size_t i = 0; i < panes.size(); ++i) {
     const Pane& pane = panes[i];
     const std::string name = "pane " + std::to_string(i);
-    const std::uint32_t id =
-        add_material(scene, name, glm::vec4(pane.base_color, pane.alpha), 0.0f);
+    const std::uint32_t id = add_tint(scene, name, glm::vec4(pane.base_color, pane.alpha), 0.0f);
     MaterialConstants& glass = scene.materials[id].constants;
     glass.emissive = pane.emissive;
     glass.flags = kMaterialBlend | (pane.double_sided ? kMaterialDoubleSided : 0u);
@@ -155,7 +127,7 @@ Scene make_pane_oracle(std::span<const Pane> panes, const glm::vec3& background)
     add(scene, name, pane_shape(half, half, pane.thickness), id,
         translate({0, 0, -pane.distance}) * rotate_y(pane.turned));
   }
-  add_camera(scene, glm::dvec3(0.0), {0, 0, -1}, 0.9);
+  add_view(scene, scene.name, glm::dvec3(0.0), {0, 0, -1}, 0.9);
   return scene;
 }
 
@@ -166,25 +138,25 @@ Scene make_glass_stack(const GlassStackDesc& desc) {
   scene.sky = default_sky();
   scene.sun = default_sun();
   scene.exposure = 0.4f;
-  const std::uint32_t ground = add_material(scene, "ground", {0.45f, 0.43f, 0.4f, 1.0f}, 0.6f);
-  const std::uint32_t wall = add_material(scene, "wall", {0.3f, 0.32f, 0.36f, 1.0f}, 0.9f);
+  const std::uint32_t ground = add_tint(scene, "ground", {0.45f, 0.43f, 0.4f, 1.0f}, 0.6f);
+  const std::uint32_t wall = add_tint(scene, "wall", {0.3f, 0.32f, 0.36f, 1.0f}, 0.9f);
   add(scene, "ground", patch({-20, 0, 20}, {40, 0, 0}, {0, 0, -40}, 1, 1), ground, glm::dmat4(1.0));
   add(scene, "wall", box({4.0, 1.5, 0.1}), wall, translate({0, 1.5, -3.0}));
   for (int i = 0; i < 5; ++i) {
-    const std::uint32_t paint = add_material(scene, "prop " + std::to_string(i),
-                                             glm::vec4(hue(0.17 * i + 0.4), 1.0f), 0.4f);
+    const std::uint32_t paint =
+        add_tint(scene, "prop " + std::to_string(i), glm::vec4(hue(0.17 * i + 0.4), 1.0f), 0.4f);
     add(scene, "prop " + std::to_string(i), box({0.15, 0.2 + 0.12 * i, 0.15}), paint,
         translate({-1.9 + 0.55 * i, 0.2 + 0.12 * i, -2.2}) * rotate_y(0.4 * i));
   }
   // Behind the camera, so that only the glass shows it.
-  const std::uint32_t lit = add_material(scene, "sign", {0.1f, 0.1f, 0.1f, 1.0f}, 0.9f);
+  const std::uint32_t lit = add_tint(scene, "sign", {0.1f, 0.1f, 0.1f, 1.0f}, 0.9f);
   scene.materials[lit].constants.emissive = glm::vec3(12.0f, 4.0f, 1.0f);
   add(scene, "sign", box({0.6, 0.25, 0.05}), lit, translate({-1.8, 0.8, 6.0}));
   add_stack(scene, desc);
   if (desc.cabinet) add_cabinet(scene, {1.3, 0, -0.4});
   add_lamp(scene, {-1.5, 2.4, 1.5}, 5.0f);
   add_lamp(scene, {1.5, 2.6, 0.8}, 5.0f);
-  add_camera(scene, {0.1, 1.15, 4.2}, {0, 0.75, -0.5}, 0.75);
+  add_view(scene, scene.name, {0.1, 1.15, 4.2}, {0, 0.75, -0.5}, 0.75);
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 
 namespace kaamos::effects {
@@ -15,48 +16,12 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 constexpr int kDomeSegments = 64, kDomeRings = 32;
 
-Scene empty_scene(const char* name) {
-  Scene scene;
-  scene.name = name;
-  scene.samplers.push_back(Sampler{});
-  return scene;
-}
-
-std::uint32_t add_material(Scene& scene, const char* name, const glm::vec3& color,
-                           const glm::vec3& emissive = glm::vec3(0.0f)) {
-  Material material;
-  material.name = name;
-  material.constants.base_color = glm::vec4(color, 1.0f);
-  material.constants.emissive = emissive;
-  scene.materials.push_back(std::move(material));
-  return static_cast<std::uint32_t>(scene.materials.size() - 1);
-}
-
-void add(Scene& scene, std::string name, Shape shape, std::uint32_t material,
-         const glm::dmat4& transform = glm::dmat4(1.0)) {
-  Mesh mesh;
-  mesh.name = name;
-  add_shape(mesh, std::move(shape), material);
-  Instance instance;
-  instance.name = std::move(name);
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.transform = transform;
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(std::move(instance));
-}
-
-void add_box(Scene& scene, std::string name, const glm::dvec3& low, const glm::dvec3& high,
-             std::uint32_t material) {
-  add(scene, std::move(name), box((high - low) * 0.5), material, translate((low + high) * 0.5));
-}
-
-void add_camera(Scene& scene, const char* name, const glm::dvec3& eye, const glm::dvec3& target,
-                double fov) {
-  Camera camera;
-  camera.name = name;
-  camera.camera_to_world = look_at(eye, target);
-  camera.vertical_fov = fov;
-  scene.cameras.push_back(camera);
+std::uint32_t add_color(Scene& scene, const char* name, const glm::vec3& color,
+                        const glm::vec3& emissive = glm::vec3(0.0f)) {
+  MaterialConstants constants;
+  constants.base_color = glm::vec4(color, 1.0f);
+  constants.emissive = emissive;
+  return add_material(scene, name, constants);
 }
 
 // From below the floor up the outside and down the inside. The open dome has an edge at its
@@ -92,29 +57,30 @@ Shape rib(const ThinDomeDesc& desc, double azimuth) {
 }  // namespace
 
 Scene make_thin_dome(const ThinDomeDesc& desc) {
-  Scene scene = empty_scene(desc.sealed ? "thin-dome-sealed" : "thin-dome");
+  Scene scene = start_scene(desc.sealed ? "thin-dome-sealed" : "thin-dome");
   scene.sky = {
       .zenith = glm::vec3(1.0f, 1.1f, 1.3f), .horizon = glm::vec3(1.0f), .ground = glm::vec3(0.1f)};
   scene.exposure = 6.0f;
-  const std::uint32_t stone = add_material(scene, "stone", glm::vec3(0.5f));
-  const std::uint32_t plaster = add_material(scene, "plaster", glm::vec3(0.7f, 0.66f, 0.6f));
-  const std::uint32_t lamp = add_material(scene, "rib", glm::vec3(0.0f), glm::vec3(8, 6, 3));
+  const std::uint32_t stone = add_color(scene, "stone", glm::vec3(0.5f));
+  const std::uint32_t plaster = add_color(scene, "plaster", glm::vec3(0.7f, 0.66f, 0.6f));
+  const std::uint32_t lamp = add_color(scene, "rib", glm::vec3(0.0f), glm::vec3(8, 6, 3));
   const double half = 1.5 * kDomeRadius;
-  add(scene, "floor", patch({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, 1, 1), stone);
-  add(scene, "shell", shell(desc), plaster);
+  add_thing(scene, "floor", patch({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, 1, 1),
+            stone);
+  add_thing(scene, "shell", shell(desc), plaster);
   for (int i = 0; i < 8; ++i) {
-    add(scene, "rib " + std::to_string(i), rib(desc, kPi / 8 + i * kPi / 4), lamp);
+    add_thing(scene, "rib " + std::to_string(i), rib(desc, kPi / 8 + i * kPi / 4), lamp);
   }
-  add_camera(scene, "middle", {0, 1.6, 0}, {0, 3.4, -3.0}, 1.2);
+  add_view(scene, "middle", {0, 1.6, 0}, {0, 3.4, -3.0}, 1.2);
   return scene;
 }
 
 Scene make_sealed_cells(const SealedCellsDesc& desc) {
-  Scene scene = empty_scene("sealed-cells");
+  Scene scene = start_scene("sealed-cells");
   const double t = desc.thickness, pitch = kSealedRoomSize + t, half = 1.5 * pitch + 0.5 * t;
   const double height = kSealedRoomSize;
-  const std::uint32_t grey = add_material(scene, "grey", glm::vec3(0.6f));
-  const std::uint32_t wall = add_material(scene, "wall", glm::vec3(0.7f, 0.65f, 0.6f));
+  const std::uint32_t grey = add_color(scene, "grey", glm::vec3(0.6f));
+  const std::uint32_t wall = add_color(scene, "wall", glm::vec3(0.7f, 0.65f, 0.6f));
   add_box(scene, "floor", {-half, -t, -half}, {half, 0, half}, grey);
   add_box(scene, "roof", {-half, height, -half}, {half, height + t, half}, grey);
   // The walls end inside the floor and the roof, so that no edges have to match.
@@ -131,18 +97,18 @@ Scene make_sealed_cells(const SealedCellsDesc& desc) {
   light.position = {0.3, 1.6, 0.2};
   light.radius = 0.05f;
   scene.lights.push_back(light);
-  add_camera(scene, "dark room", {0.6, 1.5, pitch + 0.8}, {-0.1, 0.7, pitch - 0.8}, 1.3);
-  add_camera(scene, "lit room", {0.85, 1.5, 0.85}, {-0.3, 0.7, -0.5}, 1.3);
+  add_view(scene, "dark room", {0.6, 1.5, pitch + 0.8}, {-0.1, 0.7, pitch - 0.8}, 1.3);
+  add_view(scene, "lit room", {0.85, 1.5, 0.85}, {-0.3, 0.7, -0.5}, 1.3);
   return scene;
 }
 
 Scene make_sealed_hall(const SealedHallDesc& desc) {
-  Scene scene = empty_scene(desc.lit ? "lit-hall" : "sealed-hall");
+  Scene scene = start_scene(desc.lit ? "lit-hall" : "sealed-hall");
   scene.sky = {.zenith = glm::vec3(0.5f, 0.7f, 1.1f),
                .horizon = glm::vec3(0.9f, 1.0f, 1.2f),
                .ground = glm::vec3(0.3f)};
   scene.sun = Sun{};
-  const std::uint32_t grey = add_material(scene, "grey", glm::vec3(kHallAlbedo));
+  const std::uint32_t grey = add_color(scene, "grey", glm::vec3(kHallAlbedo));
   const glm::dvec3 low(-0.5 * kHallSize.x, 0, -0.5 * kHallSize.z), high = low + kHallSize;
   const glm::dvec3 outer_low = low - kHallWall, outer_high = high + kHallWall;
   add_box(scene, "floor", outer_low, {outer_high.x, 0, outer_high.z}, grey);
@@ -165,7 +131,7 @@ Scene make_sealed_hall(const SealedHallDesc& desc) {
     light.radius = 0.1f;
     scene.lights.push_back(light);
   }
-  add_camera(scene, "middle", {4, 3, 5}, {-3, 1.5, -6}, 1.2);
+  add_view(scene, "middle", {4, 3, 5}, {-3, 1.5, -6}, 1.2);
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 #include "effects/assets/scene/staging.h"
 
@@ -21,36 +22,20 @@ struct Paint {
 };
 
 Scene empty_scene(const char* name, const glm::dvec3& eye, const glm::dvec3& target, double fov) {
-  Scene scene;
-  scene.name = name;
-  scene.samplers.push_back(Sampler{});
-  Camera camera;
-  camera.name = name;
-  camera.camera_to_world = look_at(eye, target);
-  camera.vertical_fov = fov;
-  scene.cameras.push_back(camera);
+  Scene scene = start_scene(name);
+  add_view(scene, name, eye, target, fov);
   return scene;
 }
 
 void add(Scene& scene, const char* name, Shape shape, const Paint& paint,
          const glm::dmat4& transform = glm::dmat4(1.0)) {
-  Material material;
-  material.name = name;
-  material.constants.base_color = glm::vec4(paint.color, 1.0f);
-  material.constants.metallic = paint.metallic;
-  material.constants.roughness = paint.roughness;
-  material.constants.emissive = paint.emissive;
-  material.constants.flags = kMaterialDoubleSided;
-  Mesh mesh;
-  mesh.name = name;
-  add_shape(mesh, std::move(shape), static_cast<std::uint32_t>(scene.materials.size()));
-  Instance instance;
-  instance.name = name;
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.transform = transform;
-  scene.materials.push_back(std::move(material));
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(std::move(instance));
+  MaterialConstants constants;
+  constants.base_color = glm::vec4(paint.color, 1.0f);
+  constants.metallic = paint.metallic;
+  constants.roughness = paint.roughness;
+  constants.emissive = paint.emissive;
+  constants.flags = kMaterialDoubleSided;
+  add_thing(scene, name, std::move(shape), add_material(scene, name, constants), transform);
 }
 
 /// The box with its lamp and the tall block.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 
 namespace kaamos::effects {
@@ -22,24 +23,14 @@ struct Paint {
   glm::vec3 emissive{0.0f};
 };
 
-void add(Scene& scene, std::string name, Shape shape, const Paint& paint,
+void add(Scene& scene, const std::string& name, Shape shape, const Paint& paint,
          const glm::dvec3& at = glm::dvec3(0.0)) {
-  Material material;
-  material.name = name;
-  material.constants.base_color = glm::vec4(paint.color, 1.0f);
-  material.constants.metallic = paint.metallic;
-  material.constants.roughness = paint.roughness;
-  material.constants.emissive = paint.emissive;
-  Mesh mesh;
-  mesh.name = name;
-  add_shape(mesh, std::move(shape), static_cast<std::uint32_t>(scene.materials.size()));
-  Instance instance;
-  instance.name = std::move(name);
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.transform = translate(at);
-  scene.materials.push_back(std::move(material));
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(std::move(instance));
+  MaterialConstants constants;
+  constants.base_color = glm::vec4(paint.color, 1.0f);
+  constants.metallic = paint.metallic;
+  constants.roughness = paint.roughness;
+  constants.emissive = paint.emissive;
+  add_thing(scene, name, std::move(shape), add_material(scene, name, constants), translate(at));
 }
 
 void add_room(Scene& scene) {

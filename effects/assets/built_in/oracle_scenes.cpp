@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 #include "effects/assets/scene/staging.h"
 
@@ -29,15 +30,7 @@ Scene empty_scene(const char* name) {
 
 void add(Scene& scene, const char* name, Shape shape, const glm::dvec3& at = glm::dvec3(0.0),
          std::uint32_t material = 0) {
-  Mesh mesh;
-  mesh.name = name;
-  add_shape(mesh, std::move(shape), material);
-  Instance instance;
-  instance.name = name;
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.transform = translate(at);
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(instance);
+  add_thing(scene, name, std::move(shape), material, translate(at));
 }
 
 void add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& target) {

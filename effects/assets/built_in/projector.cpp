@@ -5,35 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 
 namespace kaamos::effects {
 namespace {
 
 constexpr std::uint32_t kTexels = 256;
-
-std::uint32_t add_material(Scene& scene, const char* name, const glm::vec3& color,
-                           float roughness) {
-  Material material;
-  material.name = name;
-  material.constants.base_color = glm::vec4(color, 1.0f);
-  material.constants.roughness = roughness;
-  scene.materials.push_back(std::move(material));
-  return static_cast<std::uint32_t>(scene.materials.size() - 1);
-}
-
-void add(Scene& scene, std::string name, Shape shape, std::uint32_t material,
-         const glm::dmat4& transform = glm::dmat4(1.0)) {
-  Mesh mesh;
-  mesh.name = name;
-  add_shape(mesh, std::move(shape), material);
-  Instance instance;
-  instance.name = std::move(name);
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.transform = transform;
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back(std::move(instance));
-}
 
 // `color` of the place in the slide, x and y from -1 to 1, y down.
 template <typename Color>
@@ -96,22 +74,22 @@ Scene make_projector() {
   scene.samplers.push_back({.wrap_u = Wrap::kClamp, .wrap_v = Wrap::kClamp, .mipmapped = false});
   scene.images.push_back(slide("blinds", blinds));
   scene.images.push_back(slide("rose", rose));
-  const std::uint32_t wall = add_material(scene, "wall", glm::vec3(0.7f), 0.9f);
-  const std::uint32_t floor = add_material(scene, "floor", glm::vec3(0.25f), 0.15f);
-  const std::uint32_t wood = add_material(scene, "wood", {0.45f, 0.28f, 0.15f}, 0.5f);
-  add(scene, "floor", patch({-3, 0, 2.5}, {6, 0, 0}, {0, 0, -5}, 1, 1), floor);
-  add(scene, "ceiling", patch({-3, 3, -2.5}, {6, 0, 0}, {0, 0, 5}, 1, 1), wall);
-  add(scene, "back wall", patch({-3, 0, -2.5}, {6, 0, 0}, {0, 3, 0}, 1, 1), wall);
-  add(scene, "left wall", patch({-3, 0, 2.5}, {0, 0, -5}, {0, 3, 0}, 1, 1), wall);
-  add(scene, "right wall", patch({3, 0, -2.5}, {0, 0, 5}, {0, 3, 0}, 1, 1), wall);
-  add(scene, "front wall", patch({3, 0, 2.5}, {-6, 0, 0}, {0, 3, 0}, 1, 1), wall);
-  add(scene, "table top", box({0.8, 0.03, 0.4}), wood, translate({-0.3, 0.75, -1.2}));
+  const std::uint32_t wall = add_paint(scene, "wall", glm::vec3(0.7f), 0.9f);
+  const std::uint32_t floor = add_paint(scene, "floor", glm::vec3(0.25f), 0.15f);
+  const std::uint32_t wood = add_paint(scene, "wood", {0.45f, 0.28f, 0.15f}, 0.5f);
+  add_thing(scene, "floor", patch({-3, 0, 2.5}, {6, 0, 0}, {0, 0, -5}, 1, 1), floor);
+  add_thing(scene, "ceiling", patch({-3, 3, -2.5}, {6, 0, 0}, {0, 0, 5}, 1, 1), wall);
+  add_thing(scene, "back wall", patch({-3, 0, -2.5}, {6, 0, 0}, {0, 3, 0}, 1, 1), wall);
+  add_thing(scene, "left wall", patch({-3, 0, 2.5}, {0, 0, -5}, {0, 3, 0}, 1, 1), wall);
+  add_thing(scene, "right wall", patch({3, 0, -2.5}, {0, 0, 5}, {0, 3, 0}, 1, 1), wall);
+  add_thing(scene, "front wall", patch({3, 0, 2.5}, {-6, 0, 0}, {0, 3, 0}, 1, 1), wall);
+  add_thing(scene, "table top", box({0.8, 0.03, 0.4}), wood, translate({-0.3, 0.75, -1.2}));
   for (const double x : {-1.0, 0.4}) {
     for (const double z : {-1.5, -0.9}) {
-      add(scene, "table leg", box({0.03, 0.36, 0.03}), wood, translate({x, 0.36, z}));
+      add_thing(scene, "table leg", box({0.03, 0.36, 0.03}), wood, translate({x, 0.36, z}));
     }
   }
-  add(scene, "vase", box({0.08, 0.2, 0.08}), wall, translate({-0.5, 0.98, -1.2}));
+  add_thing(scene, "vase", box({0.08, 0.2, 0.08}), wall, translate({-0.5, 0.98, -1.2}));
 
   Light blind = spot("window", 0, {2.6, 2.4, 1.8}, {-0.9, 1.1, -2.3}, 0.42f);
   blind.intensity = 160.0f;

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <string>
 
+#include "effects/assets/built_in/scene_parts.h"
 #include "effects/assets/scene/shapes.h"
 #include "effects/assets/scene/staging.h"
 #include "effects/assets/scene/tangents.h"
@@ -196,15 +197,12 @@ void add_skeleton(Scene& scene) {
   scene.animations.push_back(walk(kRunnerBones));
 }
 
-std::uint32_t add_material(Scene& scene, const char* name, const glm::vec3& color,
-                           float roughness) {
-  Material material;
-  material.name = name;
-  material.constants.base_color = glm::vec4(color, 1.0f);
-  material.constants.roughness = roughness;
-  material.constants.flags = kMaterialDoubleSided;
-  scene.materials.push_back(material);
-  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+std::uint32_t add_cloth(Scene& scene, const char* name, const glm::vec3& color, float roughness) {
+  MaterialConstants constants;
+  constants.base_color = glm::vec4(color, 1.0f);
+  constants.roughness = roughness;
+  constants.flags = kMaterialDoubleSided;
+  return add_material(scene, name, constants);
 }
 
 }  // namespace
@@ -212,10 +210,10 @@ std::uint32_t add_material(Scene& scene, const char* name, const glm::vec3& colo
 Scene make_runner_scene(const RunnerOptions& options) {
   Scene scene;
   scene.name = "runner";
-  const std::uint32_t ground = add_material(scene, "ground", {0.45f, 0.43f, 0.4f}, 0.7f);
-  const std::uint32_t suit = add_material(scene, "suit", {0.12f, 0.2f, 0.35f}, 0.5f);
-  const std::uint32_t skin = add_material(scene, "skin", {0.6f, 0.42f, 0.33f}, 0.6f);
-  const std::uint32_t cape = add_material(scene, "cape", {0.55f, 0.06f, 0.05f}, 0.8f);
+  const std::uint32_t ground = add_cloth(scene, "ground", {0.45f, 0.43f, 0.4f}, 0.7f);
+  const std::uint32_t suit = add_cloth(scene, "suit", {0.12f, 0.2f, 0.35f}, 0.5f);
+  const std::uint32_t skin = add_cloth(scene, "skin", {0.6f, 0.42f, 0.33f}, 0.6f);
+  const std::uint32_t cape = add_cloth(scene, "cape", {0.55f, 0.06f, 0.05f}, 0.8f);
   scene.samplers.push_back(Sampler{});
   scene.sky = default_sky();
   scene.sun = default_sun();

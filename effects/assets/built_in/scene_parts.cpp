@@ -15,13 +15,19 @@ Scene start_scene(std::string name) {
   return scene;
 }
 
-std::uint32_t add_paint(Scene& scene, std::string name, const glm::vec3& color, float roughness) {
+std::uint32_t add_material(Scene& scene, std::string name, const MaterialConstants& constants) {
   Material material;
   material.name = std::move(name);
-  material.constants.base_color = glm::vec4(color, 1.0f);
-  material.constants.roughness = roughness;
+  material.constants = constants;
   scene.materials.push_back(std::move(material));
   return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+std::uint32_t add_paint(Scene& scene, std::string name, const glm::vec3& color, float roughness) {
+  MaterialConstants constants;
+  constants.base_color = glm::vec4(color, 1.0f);
+  constants.roughness = roughness;
+  return add_material(scene, std::move(name), constants);
 }
 
 std::uint32_t add_mesh(Scene& scene, std::string name, Shape shape, std::uint32_t material,

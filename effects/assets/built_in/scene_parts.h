@@ -15,6 +15,8 @@ namespace kaamos::effects {
 /// A scene with one sampler and nothing else.
 Scene start_scene(std::string name);
 
+/// Adds a material. Returns its place in Scene::materials.
+std::uint32_t add_material(Scene& scene, std::string name, const MaterialConstants& constants);
 /// Adds a material of one colour. Returns its place in Scene::materials.
 std::uint32_t add_paint(Scene& scene, std::string name, const glm::vec3& color,
                         float roughness = 0.8f);
