@@ -8,6 +8,7 @@
 
 #include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/assets/scene/light_constants.h"
+#include "effects/engine/frame_fixture.h"
 #include "effects/engine/picture.h"
 #include "effects/engine/sums_fixture.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
@@ -18,30 +19,21 @@
 namespace kaamos::effects {
 
 /// A scene with its G-buffer and lights, and the passes that gather light over them.
-struct Stage {
+struct Stage : FrameStage {
   explicit Stage(Scene given, std::uint32_t picture_width = 24, std::uint32_t picture_height = 16,
                  const std::string& backend = "embree")
-      : width(picture_width), height(picture_height), scene(std::move(given)) {
-    rtapi::DeviceDesc device_desc;
-    device_desc.Backend = backend;
-    device = rtapi::CreateDevice(device_desc).value();
-    queue = device.CreateCommandQueue().value();
-    const Camera& camera = scene.cameras.front();
-    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-    FrameDesc desc;
-    desc.width = width;
-    desc.height = height;
-    frame = Frame::create(device, scene, gpu, camera, desc).value();
-    const auto lights = light_constants(scene, camera.position());
+      : FrameStage(std::move(given), picture_width, picture_height, on(backend)),
+        width(picture_width),
+        height(picture_height) {
+    const auto lights = light_constants(scene, scene.cameras.front().position());
     lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
                                 static_cast<std::uint32_t>(lights.size()))
                    .value();
-    const RayPass gbuffer =
-        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-    rtapi::CommandList list = device.CreateCommandList().value();
-    gbuffer.dispatch(list, frame, {}, height);
-    lighting.update(list, frame);
-    queue.ExecuteAndWait(list).value();
+    const RayPass gbuffer = make_pass(gbuffer_pass(gbuffer_library().value()));
+    run([&](rtapi::CommandList& list) {
+      gbuffer.dispatch(list, frame, {}, height);
+      lighting.update(list, frame);
+    });
     ids = frame.read(device, queue, kIds).value();
   }
 
@@ -126,11 +118,6 @@ struct Stage {
   }
 
   std::uint32_t width, height;
-  Scene scene;
-  rtapi::Device device;
-  rtapi::CommandQueue queue;
-  GpuScene gpu;
-  Frame frame;
   Lighting lighting;
   FloatImage ids;
 };

@@ -16,6 +16,7 @@
 #include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/assets/scene/light_constants.h"
 #include "effects/assets/scene/shapes.h"
+#include "effects/engine/frame_fixture.h"
 #include "effects/engine/picture.h"
 #include "effects/light/direct/direct.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
@@ -27,27 +28,18 @@ namespace {
 constexpr std::uint32_t kWidth = 48, kHeight = 32;
 
 // A scene with its G-buffer and its local lights.
-struct Stage {
-  explicit Stage(Scene given) : scene(std::move(given)) {
-    device = rtapi::CreateDevice().value();
-    queue = device.CreateCommandQueue().value();
-    const Camera& camera = scene.cameras.front();
-    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-    FrameDesc desc;
-    desc.width = kWidth;
-    desc.height = kHeight;
-    frame = Frame::create(device, scene, gpu, camera, desc).value();
-    lights = light_constants(scene, camera.position());
+struct Stage : FrameStage {
+  explicit Stage(Scene given) : FrameStage(std::move(given), kWidth, kHeight) {
+    lights = light_constants(scene, scene.cameras.front().position());
     lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
                                 static_cast<std::uint32_t>(lights.size()))
                    .value();
     direct = DirectLighting::create(device, frame, lighting, direct_library().value()).value();
-    const RayPass gbuffer =
-        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-    rtapi::CommandList list = device.CreateCommandList().value();
-    gbuffer.dispatch(list, frame, {}, kHeight);
-    lighting.update(list, frame);
-    queue.ExecuteAndWait(list).value();
+    const RayPass gbuffer = make_pass(gbuffer_pass(gbuffer_library().value()));
+    run([&](rtapi::CommandList& list) {
+      gbuffer.dispatch(list, frame, {}, kHeight);
+      lighting.update(list, frame);
+    });
   }
 
   FloatImage light(bool leave_out_strongest = false,
@@ -82,11 +74,6 @@ struct Stage {
     return image;
   }
 
-  Scene scene;
-  rtapi::Device device;
-  rtapi::CommandQueue queue;
-  GpuScene gpu;
-  Frame frame;
   std::vector<LightConstants> lights;
   Lighting lighting;
   DirectLighting direct;

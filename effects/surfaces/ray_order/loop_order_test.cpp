@@ -10,6 +10,7 @@
 
 #include "effects/assets/built_in/lounge.h"
 #include "effects/assets/built_in/peter_panning.h"
+#include "effects/engine/frame_fixture.h"
 #include "effects/engine/picture.h"
 #include "effects/engine/ray_pass.h"
 #include "effects/surfaces/gbuffer/gbuffer.h"
@@ -19,43 +20,23 @@ namespace kaamos::effects {
 namespace {
 
 // A scene, its loops, and the depth that rays find.
-struct LoopStage {
+struct LoopStage : FrameStage {
   LoopStage(const std::string& backend, Scene given, std::uint32_t width, std::uint32_t height)
-      : scene(std::move(given)) {
-    rtapi::DeviceDesc device_desc;
-    device_desc.Backend = backend;
-    device = rtapi::CreateDevice(device_desc).value();
-    queue = device.CreateCommandQueue().value();
-    const Camera& camera = scene.cameras.front();
-    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-    FrameDesc desc;
-    desc.width = width;
-    desc.height = height;
-    frame = Frame::create(device, scene, gpu, camera, desc).value();
-    loops = VisibilityLoops::create(device, frame, scene, camera.position(),
+      : FrameStage(std::move(given), width, height, on(backend)) {
+    loops = VisibilityLoops::create(device, frame, scene, scene.cameras.front().position(),
                                     loop_order_library().value())
                 .value();
   }
   FloatImage see(LoopOrder order) {
-    rtapi::CommandList list = device.CreateCommandList().value();
-    loops.dispatch(list, frame, order);
-    queue.ExecuteAndWait(list).value();
+    run([&](rtapi::CommandList& list) { loops.dispatch(list, frame, order); });
     return read_picture(device, queue, loops.seen()).value();
   }
   FloatImage depth_by_rays() {
-    const RayPass gbuffer =
-        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-    rtapi::CommandList list = device.CreateCommandList().value();
-    gbuffer.dispatch(list, frame, {}, frame.height());
-    queue.ExecuteAndWait(list).value();
+    const RayPass gbuffer = make_pass(gbuffer_pass(gbuffer_library().value()));
+    run([&](rtapi::CommandList& list) { gbuffer.dispatch(list, frame, {}, frame.height()); });
     return frame.read(device, queue, kViewZ).value();
   }
 
-  Scene scene;
-  rtapi::Device device;
-  rtapi::CommandQueue queue;
-  GpuScene gpu;
-  Frame frame;
   VisibilityLoops loops;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "effects/assets/built_in/lounge.h"
+#include "effects/engine/frame_fixture.h"
 #include "effects/engine/picture.h"
 #include "effects/engine/sums_fixture.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
@@ -31,32 +32,15 @@ constexpr std::uint32_t kWidth = 91;
 constexpr std::uint32_t kHeight = 139;
 
 // A frame with its G-buffer, and a pass that adds to one picture.
-struct Bench {
-  rtapi::Device device;
-  rtapi::CommandQueue queue;
-  Scene scene = make_lounge();
-  GpuScene gpu;
-  Frame frame;
-  std::optional<Lighting> lighting;
-  GpuVolume volume;
-
-  explicit Bench(const rtapi::DeviceDesc& desc) {
-    device = rtapi::CreateDevice(desc).value();
-    queue = device.CreateCommandQueue().value();
-    const Camera& camera = scene.cameras.front();
-    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-    FrameDesc frame_desc;
-    frame_desc.width = kWidth;
-    frame_desc.height = kHeight;
-    frame = Frame::create(device, scene, gpu, camera, frame_desc).value();
+struct Bench : FrameStage {
+  explicit Bench(const rtapi::DeviceDesc& desc) : FrameStage(make_lounge(), kWidth, kHeight, desc) {
     lighting = Lighting::create(device, frame, gpu, lighting_library().value(), 0).value();
-    volume = GpuVolume::create(device, {}, camera.position()).value();
-    const RayPass gbuffer =
-        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-    rtapi::CommandList list = device.CreateCommandList().value();
-    gbuffer.dispatch(list, frame, {}, kHeight);
-    lighting->update(list, frame);
-    queue.ExecuteAndWait(list).value();
+    volume = GpuVolume::create(device, {}, scene.cameras.front().position()).value();
+    const RayPass gbuffer = make_pass(gbuffer_pass(gbuffer_library().value()));
+    FrameStage::run([&](rtapi::CommandList& list) {
+      gbuffer.dispatch(list, frame, {}, kHeight);
+      lighting->update(list, frame);
+    });
   }
 
   // Two samples of the pass, in two bands of rows. It writes u0 of space3, and visibility,
@@ -110,6 +94,9 @@ struct Bench {
           << desc.name;
     }
   }
+
+  std::optional<Lighting> lighting;
+  GpuVolume volume;
 };
 
 constexpr const ReflectionConstants* kNone = nullptr;
