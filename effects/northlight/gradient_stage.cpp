@@ -30,7 +30,7 @@ rtapi::Status GradientStage::add(const ActiveEffect& effect) {
   const auto channel = gradients_->add(context_.device, context_.frame,
                                        effect.pictures().signals[0], pictures->signals[0]);
   if (!channel) return channel.error();
-  effects_.push_back({&effect, *views, *channel});
+  effects_.push_back({&effect, *pictures, *views, *channel});
   return {};
 }
 

@@ -50,6 +50,7 @@ class GradientStage {
  private:
   struct Repeated {
     const ActiveEffect* effect = nullptr;
+    SignalPictures pictures;  // which the views name
     PassViews views;
     std::uint32_t channel = 0;
   };
