@@ -54,8 +54,10 @@ Status read_animation(GltfReader& reader, const tinygltf::Animation& from, const
     const std::string place = where + ", channel " + std::to_string(i);
     Channel channel;
     if (!path_of(part.target_path, channel.path)) {
-      reader.warn(place + ": its target \"" + part.target_path +
-                  "\" is none of translation, rotation and scale and is left out");
+      reader.warn(part.target_path == "weights"
+                      ? place + ": moves morph weights, which stay at rest"
+                      : place + ": its target \"" + part.target_path +
+                            "\" is none of translation, rotation and scale and is left out");
       continue;
     }
     if (part.target_node < 0) continue;  // no target, or one of an extension

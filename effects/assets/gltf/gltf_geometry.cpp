@@ -4,103 +4,11 @@
 #include <cmath>
 
 #include "effects/assets/gltf/gltf_accessor.h"
-#include "effects/assets/gltf/gltf_reader.h"
+#include "effects/assets/gltf/gltf_piece.h"
 #include "effects/assets/scene/tangents.h"
 
 namespace kaamos::effects {
 namespace {
-
-/// The triangles of one primitive, before they become a geometry.
-struct Piece {
-  std::vector<Vertex> vertices;
-  std::vector<SkinVertex> skin;  // empty, or one per vertex
-  std::vector<std::uint32_t> indices;
-  std::uint32_t material = 0;
-  bool has_normals = false;
-  bool has_tangents = false;
-};
-
-int attribute(const tinygltf::Primitive& primitive, const char* name) {
-  const auto found = primitive.attributes.find(name);
-  return found == primitive.attributes.end() ? -1 : found->second;
-}
-
-Status count_error(const std::string& where, const char* name, std::size_t actual,
-                   std::size_t expected) {
-  return make_error(ErrorId::kGltf, where + ", " + name + ": has " + std::to_string(actual) +
-                                        " elements, POSITION has " + std::to_string(expected));
-}
-
-/// Reads an optional attribute. `values` stays empty if the primitive does not have it.
-Status optional_attribute(const GltfReader& reader, const tinygltf::Primitive& primitive,
-                          const char* name, std::uint32_t components, std::size_t count,
-                          const std::string& where, std::vector<float>& values) {
-  const int id = attribute(primitive, name);
-  if (id < 0) return {};
-  Result<std::vector<float>> read = read_floats(reader.model, id, components, where + ", " + name);
-  if (!read.ok()) return read.error();
-  if (read.value().size() != count * components)
-    return count_error(where, name, read.value().size() / components, count);
-  values = std::move(read.value());
-  return {};
-}
-
-bool make_unit(glm::vec3& v) {
-  const float length = glm::length(v);
-  if (!(length > 1e-20f) || !std::isfinite(length)) return false;
-  // What a unit vector loses by rounding stays, so that a file that is written again keeps its
-  // bits.
-  if (std::abs(length - 1.0f) > 3e-7f) v /= length;
-  return true;
-}
-
-Status read_positions(const GltfReader& reader, const tinygltf::Primitive& primitive,
-                      const std::string& where, Piece& piece) {
-  const Result<std::vector<float>> positions =
-      read_floats(reader.model, attribute(primitive, "POSITION"), 3, where + ", POSITION");
-  if (!positions.ok()) return positions.error();
-  const std::vector<float>& p = positions.value();
-  piece.vertices.resize(p.size() / 3);
-  for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
-    piece.vertices[v].position = glm::vec3(p[3 * v], p[3 * v + 1], p[3 * v + 2]);
-    for (std::size_t c = 0; c < 3; ++c)
-      if (!std::isfinite(p[3 * v + c]))
-        return make_error(ErrorId::kGltf,
-                          where + ", POSITION: element " + std::to_string(v) + " is not finite");
-  }
-  return {};
-}
-
-Status read_vertices(const GltfReader& reader, const tinygltf::Primitive& primitive,
-                     const std::string& where, Piece& piece) {
-  Status status = read_positions(reader, primitive, where, piece);
-  if (!status.ok()) return status;
-  const std::size_t count = piece.vertices.size();
-  std::vector<float> normals, tangents, uvs;
-  status = optional_attribute(reader, primitive, "NORMAL", 3, count, where, normals);
-  if (status.ok())
-    status = optional_attribute(reader, primitive, "TANGENT", 4, count, where, tangents);
-  if (status.ok())
-    status = optional_attribute(reader, primitive, "TEXCOORD_0", 2, count, where, uvs);
-  if (!status.ok()) return status;
-  piece.has_normals = !normals.empty();
-  piece.has_tangents = piece.has_normals && !tangents.empty();
-  for (std::size_t v = 0; v < count; ++v) {
-    Vertex& vertex = piece.vertices[v];
-    if (!normals.empty()) {
-      vertex.normal = glm::vec3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
-      piece.has_normals &= make_unit(vertex.normal);
-    }
-    if (!tangents.empty()) {
-      glm::vec3 tangent(tangents[4 * v], tangents[4 * v + 1], tangents[4 * v + 2]);
-      piece.has_tangents &= make_unit(tangent);
-      vertex.tangent = glm::vec4(tangent, tangents[4 * v + 3] < 0.0f ? -1.0f : 1.0f);
-    }
-    if (!uvs.empty() && std::isfinite(uvs[2 * v]) && std::isfinite(uvs[2 * v + 1]))
-      vertex.uv = glm::vec2(uvs[2 * v], uvs[2 * v + 1]);
-  }
-  return {};
-}
 
 /// Converts a list, strip or fan to the indices of a triangle list. [glTF 2.0: primitive.mode]
 std::vector<std::uint32_t> as_list(const std::vector<std::uint32_t>& in, int mode) {
@@ -121,7 +29,7 @@ std::vector<std::uint32_t> as_list(const std::vector<std::uint32_t>& in, int mod
 }
 
 Status read_triangles(const GltfReader& reader, const tinygltf::Primitive& primitive,
-                      const std::string& where, Piece& piece) {
+                      const std::string& where, GltfPiece& piece) {
   std::vector<std::uint32_t> raw;
   if (primitive.indices >= 0) {
     Result<std::vector<std::uint32_t>> read =
@@ -143,7 +51,7 @@ Status read_triangles(const GltfReader& reader, const tinygltf::Primitive& primi
 }
 
 Status read_material_id(const GltfReader& reader, const tinygltf::Primitive& primitive,
-                        const std::string& where, Piece& piece) {
+                        const std::string& where, GltfPiece& piece) {
   // The default material comes after the file's materials.
   const std::size_t count = reader.model.materials.size();
   if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= count)
@@ -155,13 +63,20 @@ Status read_material_id(const GltfReader& reader, const tinygltf::Primitive& pri
   return {};
 }
 
-void finish(const Scene& scene, Piece& piece, Mesh& mesh) {
+/// What make_flat_normals does to the vertices.
+template <class T>
+void duplicate(std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
+  if (values.empty()) return;
+  std::vector<T> out;
+  out.reserve(indices.size());
+  for (const std::uint32_t i : indices) out.push_back(values[i]);
+  values = std::move(out);
+}
+
+void finish(const Scene& scene, GltfPiece& piece, Mesh& mesh) {
   if (!piece.has_normals) {
-    if (!piece.skin.empty()) {
-      std::vector<SkinVertex> skin;
-      for (const std::uint32_t i : piece.indices) skin.push_back(piece.skin[i]);
-      piece.skin = std::move(skin);
-    }
+    duplicate(piece.skin, piece.indices);
+    duplicate(piece.colors, piece.indices);
     make_flat_normals(piece.vertices, piece.indices);
     piece.has_tangents = false;
   }
@@ -170,6 +85,7 @@ void finish(const Scene& scene, Piece& piece, Mesh& mesh) {
       (scene.materials[piece.material].constants.flags & kMaterialAlphaTested) != 0;
   mesh.skin.insert(mesh.skin.end(), piece.skin.begin(), piece.skin.end());
   mesh.add_geometry(piece.vertices, piece.indices, piece.material, alpha_tested);
+  mesh.add_colors(piece.colors);
 }
 
 bool is_triangles(int mode) {
@@ -177,75 +93,9 @@ bool is_triangles(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// Applies the weighted joints to each vertex in place. [glTF 2.0: Skins]
-Status pose(const GltfReader& reader, const tinygltf::Primitive& primitive,
-            const std::vector<glm::dmat4>& joints, const std::string& where, Piece& piece) {
-  std::vector<float> ids, weights;
-  const std::size_t count = piece.vertices.size();
-  Status status = optional_attribute(reader, primitive, "JOINTS_0", 4, count, where, ids);
-  if (status.ok())
-    status = optional_attribute(reader, primitive, "WEIGHTS_0", 4, count, where, weights);
-  if (!status.ok() || ids.empty() || weights.empty()) return status;
-  for (std::size_t v = 0; v < count; ++v) {
-    glm::dmat4 m(0.0);
-    double sum = 0.0;
-    for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
-      if (!(weights[k] > 0.0f) || !std::isfinite(weights[k])) continue;
-      const std::size_t joint = static_cast<std::size_t>(std::max(0.0f, ids[k]));
-      if (joint >= joints.size())
-        return make_error(ErrorId::kGltf, where + ", JOINTS_0: element " + std::to_string(v) +
-                                              " names joint " + std::to_string(joint) + " of " +
-                                              std::to_string(joints.size()));
-      m += joints[joint] * static_cast<double>(weights[k]);
-      sum += weights[k];
-    }
-    if (sum <= 0.0) continue;
-    m /= sum;
-    Vertex& vertex = piece.vertices[v];
-    vertex.position = glm::vec3(m * glm::dvec4(glm::dvec3(vertex.position), 1.0));
-    vertex.normal =
-        glm::vec3(glm::transpose(glm::inverse(glm::dmat3(m))) * glm::dvec3(vertex.normal));
-    piece.has_normals &= make_unit(vertex.normal);
-    glm::vec3 tangent(glm::dmat3(m) * glm::dvec3(vertex.tangent));
-    piece.has_tangents &= make_unit(tangent);
-    vertex.tangent = glm::vec4(tangent, vertex.tangent.w);
-    const glm::vec3& p = vertex.position;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      return make_error(ErrorId::kGltf, where + ": element " + std::to_string(v) +
-                                            " is not finite in the pose of its skin");
-  }
-  return {};
-}
-
-/// Reads joints and weights, and scales the weights to a sum of 1. Vertices without weights follow
-/// the first joint.
-Status read_skin(const GltfReader& reader, const tinygltf::Primitive& primitive,
-                 const std::string& where, Piece& piece) {
-  std::vector<float> ids, weights;
-  const std::size_t count = piece.vertices.size();
-  Status status = optional_attribute(reader, primitive, "JOINTS_0", 4, count, where, ids);
-  if (status.ok())
-    status = optional_attribute(reader, primitive, "WEIGHTS_0", 4, count, where, weights);
-  if (!status.ok() || ids.empty() || weights.empty()) return status;
-  piece.skin.resize(count);
-  for (std::size_t v = 0; v < count; ++v) {
-    SkinVertex& to = piece.skin[v];
-    float sum = 0.0f;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const float weight = weights[4 * v + k];
-      const bool used = weight > 0.0f && std::isfinite(weight);
-      const int lane = static_cast<int>(k);
-      to.weights[lane] = used ? weight : 0.0f;
-      to.joints[lane] =
-          used ? static_cast<std::uint16_t>(std::clamp(ids[4 * v + k], 0.0f, 65535.0f)) : 0;
-      sum += to.weights[lane];
-    }
-    to.weights = sum > 0.0f && std::isfinite(sum) ? to.weights / sum : glm::vec4(1, 0, 0, 0);
-  }
-  return {};
-}
-
-Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm::dmat4>* joints) {
+/// `joints`: of the pose to stand in; none: the bind pose.
+Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, std::span<const double> weights,
+                       const std::vector<glm::dmat4>* joints) {
   const tinygltf::Mesh& from = reader.model.meshes[id];
   const std::string mesh_where = gltf_part("mesh", id, from.name);
   Mesh mesh;
@@ -254,21 +104,20 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm
     const tinygltf::Primitive& primitive = from.primitives[i];
     const std::string where = mesh_where + ", primitive " + std::to_string(i);
     if (!is_triangles(primitive.mode)) {
-      if (!joints) reader.warn(where + ": is made of points or lines and is left out");
+      reader.warn_once(where + ": is made of points or lines and is left out");
       continue;
     }
-    if (attribute(primitive, "POSITION") < 0) {
-      if (!joints) reader.warn(where + ": has no POSITION and is left out");
+    if (gltf_attribute(primitive, "POSITION") < 0) {
+      reader.warn_once(where + ": has no POSITION and is left out");
       continue;
     }
-    if (!primitive.targets.empty() && !joints) reader.warn(where + ": morph targets are left out");
-    Piece piece;
-    Status status = read_vertices(reader, primitive, where, piece);
+    GltfPiece piece;
+    Status status = read_material_id(reader, primitive, where, piece);
+    if (status.ok()) status = read_gltf_vertices(reader, primitive, weights, where, piece);
     if (status.ok()) status = read_triangles(reader, primitive, where, piece);
-    if (status.ok()) status = read_material_id(reader, primitive, where, piece);
-    if (status.ok() && joints) status = pose(reader, primitive, *joints, where, piece);
+    if (status.ok() && joints) status = pose_gltf_piece(reader, primitive, *joints, where, piece);
     if (status.ok() && !joints && reader.animated)
-      status = read_skin(reader, primitive, where, piece);
+      status = read_gltf_skin(reader, primitive, where, piece);
     if (!status.ok()) return status.error();
     if (!piece.indices.empty()) finish(reader.scene, piece, mesh);
   }
@@ -280,7 +129,7 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm
 
 Status read_gltf_meshes(GltfReader& reader) {
   for (std::size_t id = 0; id < reader.model.meshes.size(); ++id) {
-    Result<Mesh> mesh = read_mesh(reader, id, nullptr);
+    Result<Mesh> mesh = read_mesh(reader, id, reader.model.meshes[id].weights, nullptr);
     if (!mesh.ok()) return mesh.error();
     const bool empty = mesh.value().geometries.empty();
     reader.mesh_ids.push_back(empty ? -1 : static_cast<int>(reader.scene.meshes.size()));
@@ -289,9 +138,13 @@ Status read_gltf_meshes(GltfReader& reader) {
   return {};
 }
 
-Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh,
+Result<Mesh> read_morphed_mesh(GltfReader& reader, int mesh, std::span<const double> weights) {
+  return read_mesh(reader, static_cast<std::size_t>(mesh), weights, nullptr);
+}
+
+Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, std::span<const double> weights,
                                const std::vector<glm::dmat4>& joints) {
-  return read_mesh(reader, static_cast<std::size_t>(mesh), &joints);
+  return read_mesh(reader, static_cast<std::size_t>(mesh), weights, &joints);
 }
 
 }  // namespace kaamos::effects

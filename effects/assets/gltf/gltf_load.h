@@ -3,10 +3,10 @@
 /// Loads glTF 2.0 files (.gltf with its parts, or .glb) as scenes.
 ///
 /// It reads triangle lists, strips and fans, indexed or not, with every component type, normalised
-/// and sparse; node hierarchies; metallic-roughness materials with KHR_texture_transform and
-/// KHR_materials_emissive_strength; KHR_lights_punctual; perspective cameras; and skins, either in
-/// the pose of the file or, on request, as skins and animations. Whatever it ignores (points,
-/// lines, morph targets, vertex colours) is named in the warnings.
+/// and sparse; vertex colours; morph targets at rest; node hierarchies and instances of a node;
+/// metallic-roughness and unlit materials; local lights; perspective cameras; and skins, either in
+/// the pose of the file or, on request, as skins and animations. Whatever it ignores is named in
+/// the warnings: README.md has the table.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "effects/assets/gltf/gltf_accessor.h"
@@ -85,6 +87,19 @@ void texture_transform(const tinygltf::ExtensionMap& extensions, std::uint32_t s
       glm::vec2(number(member(t, "offset", 0, 0.0), 0), number(member(t, "offset", 1, 0.0), 0));
 }
 
+/// The kind of a picture that is neither PNG nor JPEG, by its first bytes; empty: unknown.
+std::string picture_kind(std::span<const std::uint8_t> bytes) {
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
+                               std::min<std::size_t>(bytes.size(), 16));
+  if (start.starts_with("RIFF") && start.substr(8).starts_with("WEBP"))
+    return "a WebP picture (EXT_texture_webp)";
+  if (start.starts_with("\xABKTX 20")) return "a KTX2 picture (KHR_texture_basisu)";
+  if (start.starts_with("DDS ")) return "a DDS picture (MSFT_texture_dds)";
+  if (start.substr(std::min<std::size_t>(4, start.size())).starts_with("ftypavif"))
+    return "an AVIF picture (EXT_texture_avif)";
+  return {};
+}
+
 class MaterialReader {
  public:
   explicit MaterialReader(GltfReader& reader) : reader_(reader), model_(reader.model) {}
@@ -92,6 +107,7 @@ class MaterialReader {
 
  private:
   struct TextureUse {
+    TextureSlot slot;
     int texture;
     int tex_coord;
     const tinygltf::ExtensionMap& extensions;
@@ -101,8 +117,9 @@ class MaterialReader {
     std::uint32_t sampler;  // in Scene::samplers
   };
   static int tex_coord_of(const TextureUse& use);
+  static int uv_set_of(std::span<const TextureUse> uses);
   Status material(const tinygltf::Material& from, std::size_t id);
-  Status texture(const TextureUse& use, TextureSlot slot, const std::string& where,
+  Status texture(const TextureUse& use, int uv_set, const std::string& where,
                  MaterialConstants& to);
   Result<std::optional<ImageUse>> image_of(int texture, bool srgb, const std::string& where);
   Status slide(const tinygltf::Node& node, std::size_t id);
@@ -134,6 +151,8 @@ Result<TextureImage> MaterialReader::decode(int source, const std::string& where
   const int size =
       static_cast<int>(std::min<std::size_t>(bytes.size(), std::numeric_limits<int>::max()));
   int width = 0, height = 0, channels = 0;
+  if (const std::string kind = picture_kind(bytes); !kind.empty())
+    return make_error(ErrorId::kGltf, place + ": is " + kind + ", PNG and JPEG are read");
   if (size == 0 || !stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
     return make_error(ErrorId::kGltf, place + ": is neither a readable PNG nor a readable JPEG");
   if (width > kMaxImageSide || height > kMaxImageSide)
@@ -175,14 +194,23 @@ int MaterialReader::tex_coord_of(const TextureUse& use) {
   return static_cast<int>(member(found->second, "texCoord", 0, use.tex_coord));
 }
 
-Status MaterialReader::texture(const TextureUse& use, TextureSlot slot, const std::string& where,
+/// The texture coordinates of the first texture, because a vertex has one set.
+int MaterialReader::uv_set_of(std::span<const TextureUse> uses) {
+  for (const TextureUse& use : uses)
+    if (use.texture >= 0) return std::max(0, tex_coord_of(use));
+  return 0;
+}
+
+Status MaterialReader::texture(const TextureUse& use, int uv_set, const std::string& where,
                                MaterialConstants& to) {
   if (use.texture < 0) return {};
-  if (const int tex_coord = tex_coord_of(use); tex_coord != 0) {
+  if (const int tex_coord = tex_coord_of(use); tex_coord != uv_set) {
     reader_.warn(where + ", texture " + std::to_string(use.texture) + ": uses TEXCOORD_" +
-                 std::to_string(tex_coord) + ", only TEXCOORD_0 is read; the texture is left out");
+                 std::to_string(tex_coord) + ", and the material's others TEXCOORD_" +
+                 std::to_string(uv_set) + "; a vertex has one set, so the texture is left out");
     return {};
   }
+  const TextureSlot slot = use.slot;
   const bool srgb = slot == kBaseColorTexture || slot == kEmissiveTexture;
   const Result<std::optional<ImageUse>> from = image_of(use.texture, srgb, where);
   if (!from.ok()) return from.error();
@@ -202,7 +230,10 @@ Result<std::optional<MaterialReader::ImageUse>> MaterialReader::image_of(int id,
   const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(id)];
   const std::string place = where + ", texture " + std::to_string(id);
   if (texture.source < 0) {
-    reader_.warn(place + ": has no PNG or JPEG source; the texture is left out");
+    std::string kind;
+    for (const auto& [name, value] : texture.extensions) kind += (kind.empty() ? "" : ", ") + name;
+    reader_.warn(place + ": has no PNG or JPEG source" + (kind.empty() ? "" : ", only " + kind) +
+                 "; the texture is left out");
     return std::optional<ImageUse>();
   }
   if (static_cast<std::size_t>(texture.source) >= model_.images.size())
@@ -240,7 +271,10 @@ Status MaterialReader::alpha(const tinygltf::Material& from, const std::string& 
     to.flags |= kMaterialMask | kMaterialAlphaTested;
     to.alpha_cutoff = number(from.alphaCutoff, 0.5f);
   } else if (from.alphaMode == "BLEND") {
-    to.flags |= kMaterialBlend | (alpha_texture ? kMaterialAlphaTested : 0u);
+    // Leaves that are blended are cut: they cast shadows, which glass does not.
+    const bool is_cut = alpha_texture && to.base_color.a == 1.0f &&
+                        is_cut_out(reader_.scene.images[static_cast<std::size_t>(id)]);
+    to.flags |= kMaterialBlend | (is_cut ? kMaterialAlphaTested : 0u);
   } else if (from.alphaMode != "OPAQUE" && !from.alphaMode.empty()) {
     return make_error(ErrorId::kGltf, where + ": alphaMode is \"" + from.alphaMode +
                                           "\", OPAQUE, MASK and BLEND are allowed");
@@ -268,22 +302,29 @@ Status MaterialReader::material(const tinygltf::Material& from, std::size_t id) 
   to.roughness = factor(pbr.roughnessFactor, 1.0f);
   to.normal_scale = number(from.normalTexture.scale, 1.0f);
   if (from.doubleSided) to.flags |= kMaterialDoubleSided;
-  const std::pair<TextureSlot, TextureUse> uses[] = {
-      {kBaseColorTexture,
-       {pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord,
-        pbr.baseColorTexture.extensions}},
-      {kMetallicRoughnessTexture,
-       {pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord,
-        pbr.metallicRoughnessTexture.extensions}},
-      {kNormalTexture,
-       {from.normalTexture.index, from.normalTexture.texCoord, from.normalTexture.extensions}},
-      {kEmissiveTexture,
-       {from.emissiveTexture.index, from.emissiveTexture.texCoord,
-        from.emissiveTexture.extensions}}};
-  for (const auto& [slot, use] : uses) {
-    const Status status = texture(use, slot, where, to);
+  if (from.extensions.contains("KHR_materials_unlit")) {
+    to.flags |= kMaterialUnlit;
+    to.emissive = glm::vec3(0.0f);
+  }
+  const TextureUse uses[] = {
+      {kBaseColorTexture, pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord,
+       pbr.baseColorTexture.extensions},
+      {kMetallicRoughnessTexture, pbr.metallicRoughnessTexture.index,
+       pbr.metallicRoughnessTexture.texCoord, pbr.metallicRoughnessTexture.extensions},
+      {kNormalTexture, from.normalTexture.index, from.normalTexture.texCoord,
+       from.normalTexture.extensions},
+      {kEmissiveTexture, from.emissiveTexture.index, from.emissiveTexture.texCoord,
+       from.emissiveTexture.extensions}};
+  const int uv_set = uv_set_of(uses);
+  for (const TextureUse& use : uses) {
+    // What is unlit has a base colour, and nothing else counts.
+    if ((to.flags & kMaterialUnlit) && use.slot != kBaseColorTexture) continue;
+    const Status status = texture(use, uv_set, where, to);
     if (!status.ok()) return status;
   }
+  reader_.uv_sets.push_back(uv_set);
+  if (from.occlusionTexture.index >= 0 && !(to.flags & kMaterialUnlit))
+    reader_.warn_once("occlusion textures are not read: occlusion is computed");
   const Status status = alpha(from, where, to);
   if (status.ok()) reader_.scene.materials.push_back(std::move(out));
   return status;

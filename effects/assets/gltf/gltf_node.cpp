@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <span>
+#include <utility>
 
 #include "effects/assets/gltf/gltf_accessor.h"
+#include "effects/assets/gltf/gltf_copies.h"
 #include "effects/assets/gltf/gltf_reader.h"
 
 namespace kaamos::effects {
@@ -23,8 +27,12 @@ class NodeReader {
   Status contents(std::size_t id);
   Status mesh(const tinygltf::Node& node, std::size_t id, const std::string& where,
               const glm::dmat4& world);
-  Status skinned(const tinygltf::Node& node, const std::string& where);
-  Status animated_skin(const tinygltf::Node& node, const std::string& where,
+  Result<int> mesh_of(const tinygltf::Node& node);
+  std::span<const double> weights_of(const tinygltf::Node& node) const;
+  Status instance(const tinygltf::Node& node, std::size_t id, const std::string& where,
+                  const glm::dmat4& world, const GltfCopy& copy, std::uint32_t mesh);
+  Status skinned(const tinygltf::Node& node, const std::string& where, std::uint32_t mesh);
+  Status animated_skin(const tinygltf::Node& node, const std::string& where, std::uint32_t mesh,
                        const std::vector<glm::dmat4>& inverse_binds);
   Status inverse_binds(const tinygltf::Skin& skin, const std::string& where,
                        std::vector<glm::dmat4>& out) const;
@@ -42,6 +50,7 @@ class NodeReader {
   std::vector<std::size_t> order_;
   std::vector<bool> moves_;  // set if `animated`: the first animation moves the node or a parent
   std::vector<std::int32_t> skin_ids_;
+  std::map<std::pair<int, std::vector<double>>, int> morphed_;  // in Scene::meshes
 };
 
 Error id_error(const std::string& where, const char* noun, int id, std::size_t count) {
@@ -157,37 +166,97 @@ bool is_rigid(const glm::dmat4& m) {
   return worst < 1e-9 && glm::determinant(rotation) > 0.0;
 }
 
-/// Glass gets a mask of its own, so that shadow and occlusion rays miss it.
+/// Glass gets a mask of its own, so that shadow and occlusion rays miss it. What is unlit neither
+/// gives light nor takes it away, as pictures of lamps do.
 std::uint8_t mask_of(const Scene& scene, const Mesh& mesh) {
+  bool glass = true, unlit = true;
   for (const Geometry& geometry : mesh.geometries) {
     const std::uint32_t flags = scene.materials[geometry.material].constants.flags;
-    if (!(flags & kMaterialBlend) || (flags & kMaterialAlphaTested)) return kMaskOpaque;
+    glass &= (flags & kMaterialBlend) && !(flags & kMaterialAlphaTested);
+    unlit &= (flags & kMaterialUnlit) != 0;
   }
-  return kMaskTransparent;
+  if (glass) return kMaskTransparent;
+  return unlit ? kMaskEmissiveProxy : kMaskOpaque;
+}
+
+/// Morph weights of a node: its own, or those of its mesh. [glTF 2.0: Morph Targets]
+std::span<const double> NodeReader::weights_of(const tinygltf::Node& node) const {
+  return node.weights.empty() ? model_.meshes[static_cast<std::size_t>(node.mesh)].weights
+                              : node.weights;
+}
+
+/// The mesh of a node in Scene::meshes, or -1 if it has no triangles. A node with morph weights of
+/// its own gets a mesh of its own.
+Result<int> NodeReader::mesh_of(const tinygltf::Node& node) {
+  const auto place = static_cast<std::size_t>(node.mesh);
+  const int id = reader_.mesh_ids[place];
+  const tinygltf::Mesh& from = model_.meshes[place];
+  const bool has_targets =
+      std::any_of(from.primitives.begin(), from.primitives.end(),
+                  [](const tinygltf::Primitive& p) { return !p.targets.empty(); });
+  if (id < 0 || !has_targets || node.weights.empty() || node.weights == from.weights) return id;
+  const auto [found, is_new] = morphed_.try_emplace({node.mesh, node.weights}, id);
+  if (!is_new) return found->second;
+  Result<Mesh> mesh = read_morphed_mesh(reader_, node.mesh, node.weights);
+  if (!mesh.ok()) return mesh.error();
+  mesh.value().name += " (morphed)";
+  found->second = static_cast<int>(reader_.scene.meshes.size());
+  reader_.scene.meshes.push_back(std::move(mesh.value()));
+  return found->second;
 }
 
 Status NodeReader::mesh(const tinygltf::Node& node, std::size_t node_id, const std::string& where,
                         const glm::dmat4& world) {
   if (!in_range(node.mesh, model_.meshes.size()))
     return id_error(where, "mesh", node.mesh, model_.meshes.size());
-  const int id = reader_.mesh_ids[static_cast<std::size_t>(node.mesh)];
-  if (id < 0) return {};
-  if (node.skin >= 0) return skinned(node, where);
+  const Result<int> mesh = mesh_of(node);
+  if (!mesh.ok()) return mesh.error();
+  if (mesh.value() < 0) return {};
+  const auto id = static_cast<std::uint32_t>(mesh.value());
+  const Result<std::vector<GltfCopy>> copies = read_gltf_copies(reader_, node, where);
+  if (!copies.ok()) return copies.error();
+  if (node.skin >= 0) {
+    if (!copies.value().empty())
+      reader_.warn(where +
+                   ": EXT_mesh_gpu_instancing of a skinned mesh is left out; it stands once");
+    return skinned(node, where, id);
+  }
+  const std::string name = node.name.empty() ? where : node.name;
+  if (copies.value().empty()) return instance(node, node_id, where, world, {name}, id);
+  for (const GltfCopy& copy : copies.value()) {
+    const Status status = instance(node, node_id, where, world, copy, id);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+Status NodeReader::instance(const tinygltf::Node& node, std::size_t node_id,
+                            const std::string& where, const glm::dmat4& world, const GltfCopy& copy,
+                            std::uint32_t mesh) {
   Instance instance;
-  instance.name = node.name.empty() ? where : node.name;
-  instance.mesh = static_cast<std::uint32_t>(id);
-  instance.transform = world;
+  instance.name = copy.name;
+  instance.mesh = mesh;
+  instance.transform = copy.transform ? world * *copy.transform : world;
   instance.mask = read_instance_mask(node.extras, where, reader_.warnings)
-                      .value_or(mask_of(reader_.scene, reader_.scene.meshes[instance.mesh]));
-  const double determinant = glm::determinant(glm::dmat3(world));
+                      .value_or(mask_of(reader_.scene, reader_.scene.meshes[mesh]));
+  const double determinant = glm::determinant(glm::dmat3(instance.transform));
   if (determinant == 0.0 || !std::isfinite(determinant)) {
     reader_.warn(where + ": its transform is singular; the instance is left out");
+    if (reader_.singular.empty()) reader_.singular = where;
     return {};
   }
   if (reader_.animated && moves_[node_id]) {
     instance.transform = glm::dmat4(1.0);
     instance.motion.node = reader_.node_ids[node_id];
     instance.motion.animation = 0;
+    if (copy.transform) {  // a node of its own below the one that moves
+      Node below;
+      below.name = copy.name;
+      below.parent = instance.motion.node;
+      below.matrix = copy.transform;
+      instance.motion.node = static_cast<std::int32_t>(reader_.scene.nodes.size());
+      reader_.scene.nodes.push_back(std::move(below));
+    }
   }
   const Status levels = read_gltf_levels(reader_, node, where, instance);
   if (!levels.ok()) return levels;
@@ -267,7 +336,7 @@ void NodeReader::keep_nodes() {
 
 // The instance keeps its skin, and the mesh stays in its bind pose.
 Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& where,
-                                 const std::vector<glm::dmat4>& binds) {
+                                 std::uint32_t mesh, const std::vector<glm::dmat4>& binds) {
   const tinygltf::Skin& from = model_.skins[static_cast<std::size_t>(node.skin)];
   Scene& scene = reader_.scene;
   std::int32_t& id = skin_ids_[static_cast<std::size_t>(node.skin)];
@@ -289,7 +358,7 @@ Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& 
   }
   Instance instance;
   instance.name = node.name.empty() ? where : node.name;
-  instance.mesh = static_cast<std::uint32_t>(reader_.mesh_ids[static_cast<std::size_t>(node.mesh)]);
+  instance.mesh = mesh;
   instance.mask = mask_of(scene, scene.meshes[instance.mesh]);
   instance.motion.skin = id;
   if (!model_.animations.empty()) instance.motion.animation = 0;
@@ -306,7 +375,8 @@ Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& 
   return {};
 }
 
-Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where) {
+Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where,
+                           std::uint32_t mesh) {
   if (!in_range(node.skin, model_.skins.size()))
     return id_error(where, "skin", node.skin, model_.skins.size());
   const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(node.skin)];
@@ -314,17 +384,16 @@ Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where)
   const Status status = inverse_binds(skin, where + ", skin " + std::to_string(node.skin), joints);
   if (!status.ok()) return status;
   if (reader_.animated) {
-    const int mesh = reader_.mesh_ids[static_cast<std::size_t>(node.mesh)];
-    const Mesh& bind = reader_.scene.meshes[static_cast<std::size_t>(mesh)];
+    const Mesh& bind = reader_.scene.meshes[mesh];
     if (!joints.empty() && bind.skin.size() == bind.vertices.size())
-      return animated_skin(node, where, joints);
+      return animated_skin(node, where, mesh, joints);
     reader_.warn(where +
                  ": its mesh has primitives without joints and weights; it stays in the "
                  "pose of the file");
   }
   for (std::size_t j = 0; j < joints.size(); ++j)
     joints[j] = world_[static_cast<std::size_t>(skin.joints[j])] * joints[j];
-  Result<Mesh> posed = read_skinned_mesh(reader_, node.mesh, joints);
+  Result<Mesh> posed = read_skinned_mesh(reader_, node.mesh, weights_of(node), joints);
   if (!posed.ok()) return posed.error();
   Instance instance;
   instance.name = node.name.empty() ? where : node.name;
@@ -342,6 +411,10 @@ Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
     return id_error(where, "camera", node.camera, model_.cameras.size());
   const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
   const double fov = from.perspective.yfov;
+  if (from.type == "orthographic") {
+    reader_.warn(where + ": its camera is orthographic; perspective ones are read, it is left out");
+    return {};
+  }
   if (from.type != "perspective" || !(fov > 0.0) || !(fov < 3.14159)) {
     reader_.warn(where +
                  ": its camera is not perspective with a field of view of 0..pi and is "

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct GltfReader {
   std::vector<std::string>& warnings;
   /// Per mesh of the file: its index in Scene::meshes, or -1 if it has no triangles.
   std::vector<int> mesh_ids = {};
+  /// Per material of the file: which TEXCOORD_n its textures are read with.
+  std::vector<int> uv_sets = {};
   /// Keep what moves instead of the file's pose.
   bool animated = false;
   /// Per node of the file: its index in Scene::nodes, or kNoIndex if the scene does not have it.
@@ -38,7 +42,16 @@ struct GltfReader {
   };
   std::optional<MarkedSun> sun = {};
 
+  /// The first node whose transform is singular, so that its mesh is left out.
+  std::string singular = {};
+  /// What warn_once has said.
+  std::set<std::string> said = {};
+
   void warn(std::string text) { warnings.push_back(std::move(text)); }
+  /// The same for what many parts of a file may have alike.
+  void warn_once(const std::string& text) {
+    if (said.insert(text).second) warn(text);
+  }
 };
 
 /// `noun 3 "name"`, as messages name a part of a file.
@@ -58,8 +71,11 @@ Status read_gltf_levels(GltfReader& reader, const tinygltf::Node& node, const st
 /// If `animated`, reads one animation per animation of the file.
 Status read_gltf_animations(GltfReader& reader);
 
+/// Reads a mesh with morph weights that are not its own.
+Result<Mesh> read_morphed_mesh(GltfReader& reader, int mesh, std::span<const double> weights);
 /// Reads a mesh in the pose that the file's joints have, in world space. `joints` are the nodes'
 /// object-to-world transforms times the inverse bind matrices.
-Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, const std::vector<glm::dmat4>& joints);
+Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, std::span<const double> weights,
+                               const std::vector<glm::dmat4>& joints);
 
 }  // namespace kaamos::effects

@@ -91,9 +91,10 @@ struct QuadFile {
   }
 };
 
-/// A quad with a 2 x 1 texture of one opaque and one clear texel.
-inline std::vector<std::uint8_t> textured(const std::string& material,
-                                          const std::string& extra = "") {
+/// A quad with a 2 x 1 texture of these RGBA texels.
+inline std::vector<std::uint8_t> textured_with(const std::vector<std::uint8_t>& texels,
+                                               const std::string& material,
+                                               const std::string& extra = "") {
   Glb glb;
   glb.add(kQuad);
   glb.add(std::vector<std::uint8_t>{0, 1, 2, 2, 1, 3});
@@ -101,7 +102,7 @@ inline std::vector<std::uint8_t> textured(const std::string& material,
   image.width = 2;
   image.height = 1;
   image.channels = 4;
-  image.values = {200, 100, 50, 255, 0, 0, 0, 0};
+  image.values = texels;
   const std::vector<std::uint8_t> png = encode_png(image).value();
   const std::size_t at = glb.add(png);
   return glb.bytes(
@@ -115,6 +116,12 @@ inline std::vector<std::uint8_t> textured(const std::string& material,
       "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":"
       "0}]}],\"nodes\":[{\"mesh\":0}]" +
       extra);
+}
+
+/// The same with one opaque and one clear texel.
+inline std::vector<std::uint8_t> textured(const std::string& material,
+                                          const std::string& extra = "") {
+  return textured_with({200, 100, 50, 255, 0, 0, 0, 0}, material, extra);
 }
 
 }  // namespace kaamos::effects

@@ -129,6 +129,15 @@ void Writer::add_mesh(const Mesh& mesh) {
         add_accessor(vertex_view, kTangentOffset, kFloat, TINYGLTF_TYPE_VEC4, g.vertex_count);
     primitive.attributes["TEXCOORD_0"] =
         add_accessor(vertex_view, kUvOffset, kFloat, TINYGLTF_TYPE_VEC2, g.vertex_count);
+    if (!mesh.colors.empty()) {
+      const int color_view =
+          add_view(mesh.colors.data() + g.first_vertex, g.vertex_count * sizeof(VertexColor),
+                   TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(VertexColor));
+      primitive.attributes["COLOR_0"] =
+          add_accessor(color_view, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                       g.vertex_count);
+      model_.accessors.back().normalized = true;
+    }
     const int index_view = add_view(mesh.indices.data() + g.index_offset_bytes,
                                     std::size_t{g.index_count} * g.index_size_bytes,
                                     TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
@@ -204,6 +213,10 @@ void Writer::add_material(const Material& material) {
     use_extension("KHR_materials_emissive_strength");
     to.extensions["KHR_materials_emissive_strength"] =
         tinygltf::Value(tinygltf::Value::Object{{"emissiveStrength", number(strength)}});
+  }
+  if (from.flags & kMaterialUnlit) {
+    use_extension("KHR_materials_unlit");
+    to.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
   }
   to.normalTexture.scale = from.normal_scale;
   to.doubleSided = (from.flags & kMaterialDoubleSided) != 0;

@@ -27,6 +27,8 @@ Mesh mesh_of(const Mesh& mesh, const Geometry& geometry) {
   }
   out.add_geometry(std::span(mesh.vertices).subspan(geometry.first_vertex, geometry.vertex_count),
                    indices, geometry.material, geometry.alpha_tested);
+  if (!mesh.colors.empty())
+    out.add_colors(std::span(mesh.colors).subspan(geometry.first_vertex, geometry.vertex_count));
   return out;
 }
 

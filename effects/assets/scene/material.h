@@ -28,9 +28,12 @@ enum MaterialFlags : std::uint32_t {
   kMaterialBlend = 1u << 1,        ///< alphaMode BLEND
   kMaterialDoubleSided = 1u << 2,  ///< back faces are shaded, with the normal turned
   /// Any-hit shaders of visibility rays test alpha against alpha_cutoff. Set for MASK, and for
-  /// BLEND whose base colour texture has alpha (cutoff 0.5: shadow and AO rays know only open or
-  /// closed).
+  /// BLEND whose base colour texture is cut out (cutoff 0.5: shadow and AO rays know only open or
+  /// closed). What else has BLEND is glass.
   kMaterialAlphaTested = 1u << 3,
+  /// Shows its base colour as it is, whatever light falls on it: upload_scene makes it emission, of
+  /// a radiance that the exposure takes back, and takes reflection away. [KHR_materials_unlit]
+  kMaterialUnlit = 1u << 4,
 };
 
 /// A texture slot without an image.

@@ -106,8 +106,9 @@ bool split_glass(Scene& scene, std::uint32_t mesh_id) {
   return true;
 }
 
-// An instance's mask says whether it is glass, so a mesh must be either all glass or none.
-void sort_glass(Scene& scene) {
+}  // namespace
+
+void separate_glass(Scene& scene) {
   const std::size_t mesh_count = scene.meshes.size();
   for (std::uint32_t id = 0; id < mesh_count; ++id) {
     if (!split_glass(scene, id)) continue;
@@ -117,9 +118,17 @@ void sort_glass(Scene& scene) {
       if (scene.instances[i].mesh != id) continue;
       Instance copy = scene.instances[i];
       copy.mesh = panes;
+      copy.mask = kMaskTransparent;
       scene.instances.push_back(std::move(copy));
     }
   }
+}
+
+namespace {
+
+// An instance's mask says whether it is glass, so a mesh must be either all glass or none.
+void sort_glass(Scene& scene) {
+  separate_glass(scene);
   for (Instance& instance : scene.instances) {
     const std::vector<Geometry>& pieces = scene.meshes[instance.mesh].geometries;
     const bool glass = !pieces.empty() && is_glass(scene, pieces.front());

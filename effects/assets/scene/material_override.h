@@ -25,6 +25,10 @@ struct MaterialOverride {
 /// number or out of range.
 Result<MaterialOverride> parse_material_override(const std::string& text);
 
+/// Glass is told from the rest by its instance: pieces of glass in meshes that have others, too,
+/// become instances of their own.
+void separate_glass(Scene& scene);
+
 /// Replaces them in every material of that name. Alpha below 1 makes glass: the pieces of meshes
 /// with that material become instances of their own, which rays tell apart; alpha 1 makes it
 /// opaque.

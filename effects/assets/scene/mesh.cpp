@@ -36,6 +36,15 @@ void Mesh::add_geometry(std::span<const Vertex> piece, std::span<const std::uint
   geometries.push_back(geometry);
 }
 
+void Mesh::add_colors(std::span<const VertexColor> of_last) {
+  if (of_last.empty() && colors.empty()) return;
+  const std::uint32_t first = geometries.back().first_vertex;
+  assert(of_last.empty() || of_last.size() == geometries.back().vertex_count);
+  colors.resize(first, kWhite);
+  colors.insert(colors.end(), of_last.begin(), of_last.end());
+  colors.resize(vertices.size(), kWhite);
+}
+
 std::uint32_t Mesh::index(const Geometry& geometry, std::uint32_t i) const {
   std::uint32_t value = 0;
   std::memcpy(

@@ -33,6 +33,12 @@ inline constexpr std::uint32_t kTangentOffset = offsetof(Vertex, tangent);
 inline constexpr std::uint32_t kUvOffset = offsetof(Vertex, uv);
 ///@}
 
+/// A vertex colour and its opacity, linear, 65535 = 1: the base colour times this. Only meshes that
+/// have colours pay for them.
+using VertexColor = glm::u16vec4;
+/// What a vertex without a colour has.
+inline constexpr VertexColor kWhite{65535, 65535, 65535, 65535};
+
 /// Root constants of a hit group's local root signature: how to read the two root SRVs of a
 /// geometry, and its material. 32 bytes.
 struct HitConstants {
@@ -92,6 +98,7 @@ struct Mesh {
   std::string name;                   ///< for people and messages
   std::vector<Vertex> vertices;       ///< of all geometries
   std::vector<SkinVertex> skin;       ///< one per vertex where the mesh is skinned, else empty
+  std::vector<VertexColor> colors;    ///< one per vertex, or empty: all are white
   std::vector<std::uint8_t> indices;  ///< 16- or 32-bit per geometry, little endian
   std::vector<Geometry> geometries;   ///< in the order of GeometryIndex
 
@@ -99,6 +106,8 @@ struct Mesh {
   /// stored with 16 bits where the piece has at most 65,536 vertices.
   void add_geometry(std::span<const Vertex> piece, std::span<const std::uint32_t> piece_indices,
                     std::uint32_t material, bool alpha_tested);
+  /// Gives the vertices of the geometry that was added last these colours; empty: white.
+  void add_colors(std::span<const VertexColor> of_last);
   /// Index `i` of a geometry, relative to its first vertex.
   std::uint32_t index(const Geometry& geometry, std::uint32_t i) const;
   /// Corner 0..2 of a triangle of a geometry.

@@ -86,6 +86,7 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
     const std::uint32_t id = part[i].geometry;
     const Geometry& geometry = mesh.geometries[id];
     std::vector<Vertex> vertices;
+    std::vector<VertexColor> colors;
     std::vector<std::uint32_t> indices;
     std::unordered_map<std::uint32_t, std::uint32_t> place;  // from a vertex of the mesh
     for (; i < part.size() && part[i].geometry == id; ++i) {
@@ -94,10 +95,13 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
         const auto [found, is_new] =
             place.try_emplace(from, static_cast<std::uint32_t>(vertices.size()));
         if (is_new) vertices.push_back(mesh.vertices[geometry.first_vertex + from]);
+        if (is_new && !mesh.colors.empty())
+          colors.push_back(mesh.colors[geometry.first_vertex + from]);
         indices.push_back(found->second);
       }
     }
     piece.add_geometry(vertices, indices, geometry.material, geometry.alpha_tested);
+    piece.add_colors(colors);
   }
   return piece;
 }

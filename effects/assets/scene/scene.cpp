@@ -163,6 +163,9 @@ void Checker::mesh(const Mesh& mesh) {
   require(mesh.skin.empty() || mesh.skin.size() == mesh.vertices.size(), where,
           std::to_string(mesh.skin.size()) + " skinned vertices of " +
               std::to_string(mesh.vertices.size()));
+  require(mesh.colors.empty() || mesh.colors.size() == mesh.vertices.size(), where,
+          std::to_string(mesh.colors.size()) + " coloured vertices of " +
+              std::to_string(mesh.vertices.size()));
   for (std::size_t i = 0; i < mesh.geometries.size(); ++i)
     geometry(mesh, mesh.geometries[i], where + ", geometry " + std::to_string(i));
 }

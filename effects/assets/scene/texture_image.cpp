@@ -100,6 +100,14 @@ bool has_alpha(const TextureImage& image) {
   return false;
 }
 
+bool is_cut_out(const TextureImage& image) {
+  if (image.mips.empty()) return false;
+  const auto& bytes = image.mips[0];
+  std::size_t between = 0;
+  for (std::size_t i = 3; i < bytes.size(); i += 4) between += bytes[i] > 8 && bytes[i] < 247;
+  return 20 * between <= bytes.size() / 4;
+}
+
 float alpha_coverage(const TextureImage& image, std::uint32_t level, float cutoff, float scale) {
   assert(level < image.mips.size());
   const auto& bytes = image.mips[level];

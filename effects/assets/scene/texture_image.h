@@ -28,6 +28,10 @@ glm::vec4 texel(const TextureImage& image, std::uint32_t level, std::uint32_t x,
 /// True where at least one texel of level 0 is not fully opaque.
 bool has_alpha(const TextureImage& image);
 
+/// True where all but a twentieth of the texels of level 0 are either opaque or clear, to 8 of 255,
+/// as those of leaves and fences are.
+bool is_cut_out(const TextureImage& image);
+
 /// Part of the texels of a level whose alpha times `scale` reaches `cutoff`.
 float alpha_coverage(const TextureImage& image, std::uint32_t level, float cutoff,
                      float scale = 1.0f);

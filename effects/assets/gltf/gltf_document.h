@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The JSON of a glTF file, checked before the parser sees it: what is wrong has a sentence that
+// says where. gltf_extensions.h judges the extensions that it names.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "effects/assets/common/errors.h"
+
+namespace kaamos::effects {
+
+/// Indices that the parser must not see: it refuses their accessor, because it has no bufferView
+/// and so is all zeros, or sparse.
+struct HiddenIndices {
+  std::size_t mesh;
+  std::size_t primitive;
+  int accessor;
+};
+
+/// What the parser is to read in place of the file's JSON.
+struct GltfDocument {
+  std::optional<std::string> json;    // none: the file's own
+  std::vector<HiddenIndices> hidden;  // to be put back into what the parser made
+};
+
+/// Checks versions, extensions, required members, their types, and the sizes of buffers.
+/// `binary_bytes`: of the binary chunk of a .glb; none: the file has no such chunk.
+/// @errors KA3020 the first broken rule, named by place and value.
+Result<GltfDocument> check_gltf_document(std::string_view json,
+                                         std::optional<std::size_t> binary_bytes,
+                                         std::vector<std::string>& warnings);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "effects/assets/gltf/gltf_extensions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace kaamos::effects {
+namespace {
+
+constexpr std::array<std::string_view, 7> kRead = {"EXT_mesh_gpu_instancing",
+                                                   "KHR_lights_punctual",
+                                                   "KHR_materials_emissive_strength",
+                                                   "KHR_materials_unlit",
+                                                   "KHR_mesh_quantization",
+                                                   "KHR_texture_transform",
+                                                   "MSFT_lod"};
+
+struct Unread {
+  std::string_view name;
+  std::string_view loss;  // a sentence's end
+};
+
+constexpr std::array kUnread = {
+    Unread{"EXT_mesh_manifold", "no picture depends on it"},
+    Unread{"EXT_meshopt_compression", "the uncompressed copy is read"},
+    Unread{"EXT_texture_avif", "textures are read from their PNG or JPEG"},
+    Unread{"EXT_texture_webp", "textures are read from their PNG or JPEG"},
+    Unread{"KHR_animation_pointer", "what it moves stands still"},
+    Unread{"KHR_draco_mesh_compression", "the uncompressed copy is read"},
+    Unread{"KHR_materials_anisotropy", "highlights are round"},
+    Unread{"KHR_materials_clearcoat", "surfaces have no clear coat"},
+    Unread{"KHR_materials_diffuse_transmission", "no light shines through thin surfaces"},
+    Unread{"KHR_materials_dispersion", "glass does not split colours"},
+    Unread{"KHR_materials_ior", "surfaces reflect 4 % of light that comes straight at them"},
+    Unread{"KHR_materials_iridescence", "surfaces do not iridesce"},
+    Unread{"KHR_materials_pbrSpecularGlossiness",
+           "materials have what metallic-roughness says, or its defaults"},
+    Unread{"KHR_materials_sheen", "cloth has no sheen"},
+    Unread{"KHR_materials_specular", "surfaces reflect 4 % of light that comes straight at them"},
+    Unread{"KHR_materials_transmission", "surfaces are as opaque as alphaMode says"},
+    Unread{"KHR_materials_variants", "each mesh shows its own material"},
+    Unread{"KHR_materials_volume", "glass has no thickness and no colour inside"},
+    Unread{"KHR_meshopt_compression", "the uncompressed copy is read"},
+    Unread{"KHR_texture_basisu", "textures are read from their PNG or JPEG"},
+    Unread{"KHR_xmp_json_ld", "no picture depends on it"},
+    Unread{"MSFT_texture_dds", "textures are read from their PNG or JPEG"},
+};
+
+}  // namespace
+
+bool is_gltf_extension_read(std::string_view name) {
+  return std::find(kRead.begin(), kRead.end(), name) != kRead.end();
+}
+
+Status check_required_extensions(const std::vector<std::string>& required) {
+  for (const std::string& name : required)
+    if (!is_gltf_extension_read(name))
+      return make_error(ErrorId::kGltf, "requires the extension " + name +
+                                            ", which is not supported: export the file without it");
+  return {};
+}
+
+void warn_of_extensions(const std::vector<std::string>& used, std::vector<std::string>& warnings) {
+  std::vector<std::string> names = used;
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (const std::string& name : names) {
+    if (is_gltf_extension_read(name)) continue;
+    const auto row = std::find_if(kUnread.begin(), kUnread.end(),
+                                  [&](const Unread& unread) { return unread.name == name; });
+    warnings.push_back(
+        "the extension " + name + " is not read: " +
+        (row == kUnread.end() ? "what it describes is left out" : std::string(row->loss)));
+  }
+}
+
+}  // namespace kaamos::effects
