@@ -96,7 +96,8 @@ bool has_glass(const Scene& scene);
 /// materials.
 bool scene_offers(const Scene& scene, const EffectNeeds& needs);
 
-/// Returns whether an effect among these is not plain and so needs a whole frame. [Effect::is_plain]
+/// Returns whether an effect among these is not plain and so needs a whole frame.
+/// [Effect::is_plain]
 bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
                       const std::vector<Effect>& effects = northlight_effects());
 

@@ -3,7 +3,6 @@
 
 #include <cstring>
 
-
 namespace kaamos::observed {
 
 using namespace rtapi;

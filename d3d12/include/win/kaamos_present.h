@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Frames that a swap chain presents, handed to the program's own function. No Windows program needs
-/// it; a test or a viewer on Linux may.
+/// Frames that a swap chain presents, handed to the program's own function. No Windows program
+/// needs it; a test or a viewer on Linux may.
 #pragma once
 
 #include <directx/dxgiformat.h>

@@ -79,8 +79,7 @@ TEST_F(ImageTest, PngRefusesWhatItCannotHold) {
 TEST_F(ImageTest, BrokenPngIsAnErrorAndNamesTheFile) {
   const std::string text = "\x89PNG\r\n\x1a\nnonsense";
   ASSERT_TRUE(
-      write_file(path("bad.png"), std::vector<std::uint8_t>(text.begin(), text.end()))
-          .ok());
+      write_file(path("bad.png"), std::vector<std::uint8_t>(text.begin(), text.end())).ok());
   const auto read = read_png(path("bad.png"));
   ASSERT_FALSE(read.ok());
   EXPECT_NE(read.error().message.find("bad.png"), std::string::npos);
