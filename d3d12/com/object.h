@@ -63,7 +63,8 @@ class ComObject : public First, public Rest... {
   /// False hides an interface: that of the debug layer where it is off.
   virtual bool offers(REFIID) const { return true; }
 
-  /// Where the object's messages go: those of a device and of its objects to that device's.
+  /// The reporter that gets the object's messages; those of a device and of its objects to that
+  /// device's.
   Reporter& reporter() const override { return process_reporter(); }
   /// As the reporter's.
   ///@{

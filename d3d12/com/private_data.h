@@ -16,13 +16,13 @@
 
 namespace kaamos::d3d12 {
 
-/// What SetPrivateData and SetPrivateDataInterface have attached. Thread-safe.
+/// The data that SetPrivateData and SetPrivateDataInterface have attached. Thread-safe.
 class PrivateData {
  public:
   HRESULT get(REFGUID guid, UINT* size, void* data) const;
   HRESULT set(REFGUID guid, UINT size, const void* data);
   HRESULT set(REFGUID guid, const IUnknown* object);
-  /// What SetName, or else a debug name among the data, says; UTF-8.
+  /// Returns the name set by SetName, or else a debug name among the data; UTF-8.
   std::string name() const;
 
  private:
@@ -67,7 +67,7 @@ class NamedObject : public ComObject<First, Rest...> {
 
  protected:
   std::string name() const { return private_data_.name(); }
-  /// What messages are to call the object from now on.
+  /// Sets the name by which messages call the object from now on.
   virtual void rename(const std::string&) {}
 
  private:

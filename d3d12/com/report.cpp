@@ -15,14 +15,14 @@ struct Output {
   bool printed_once = false;  // that shaders are interpreted
 };
 
-// What lives on: programs release global devices after main.
+// Returns an object that is never destroyed, because programs release global devices after main.
 template <class T>
 T& immortal() {
   static T* const object = new T;
   return *object;
 }
 
-// Which messages are printed: those at least this severe. Severities count downwards.
+// Messages at least this severe are printed. Severities count downwards.
 int printed_severity() {
   const char* setting = std::getenv("KAAMOS_D3D12_MESSAGES");
   const std::string_view text = setting != nullptr ? setting : "errors";

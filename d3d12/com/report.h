@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where messages go: to the standard error stream, which on Linux stands for a debugger's output
-// window, and to the info queue of the device that they are of.
+// Messages go to the standard error stream, which on Linux stands for a debugger's output window,
+// and to the info queue of the device that they are of.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ namespace kaamos::d3d12 {
 /// The HRESULT of an error's family.
 HRESULT to_hresult(rtapi::ErrorCode code);
 
-/// What gets messages, on any thread.
+/// A function that gets messages, on any thread.
 using MessageSink = std::function<void(D3D12_MESSAGE_SEVERITY, const rtapi::Error&)>;
 
 /// The messages of one device, or those of the calls that have none (process_reporter). The

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tests hear of messages.
+// Helpers with which tests silence and collect messages.
 #pragma once
 
 #include <cstdlib>

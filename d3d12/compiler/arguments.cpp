@@ -45,7 +45,7 @@ const DxcOption* find_option(std::string_view word) {
   return best;
 }
 
-// Whether a word with a slash in front is a path and no option: "/shaders/a.hlsl", not
+// Returns whether a word with a slash in front is a path and no option: "/shaders/a.hlsl", not
 // "/Fo/out/a.cso".
 bool is_path(const std::string& word) {
   std::error_code ignored;
@@ -67,7 +67,7 @@ class ArgumentParser {
   rtapi::Result<DxcArguments> parse(const std::vector<std::string>& words);
 
  private:
-  // What an option does; an error text, or empty.
+  // Applies an option; returns an error text, or an empty one.
   std::string apply(std::string_view name, const std::string& value);
   std::string set_profile(const std::string& value);
   std::string set_version(const std::string& value);

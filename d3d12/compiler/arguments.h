@@ -37,7 +37,7 @@ struct DxcArguments {
 /// @errors KA4024 names the argument.
 rtapi::Result<DxcArguments> parse_dxc_arguments(const std::vector<std::string>& words);
 
-/// What -help prints.
+/// Returns the text that -help prints.
 std::string dxc_help();
 
 }  // namespace kaamos::d3d12

@@ -50,7 +50,8 @@ void make_absolute(ShaderSource& source) {
   for (rtapi::ShaderSourceFile& file : source.files) file.Path = absolute(file.Path);
 }
 
-// What the container is to hold: the main file's text is an option, the others are files.
+// Returns the source for the container to hold: the main file's text is an option, the others are
+// files.
 ShaderSource source_of(const rtapi::ShaderCompileOptions& options,
                        const rtapi::ShaderCompilation& compiled) {
   ShaderSource out;

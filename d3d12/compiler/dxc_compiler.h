@@ -38,7 +38,7 @@ class DxcCompiler final
   HRESULT STDMETHODCALLTYPE GetFlags(UINT32* flags) override;
 };
 
-/// What only that one answers.
+/// An interface that only DxcDefaultIncludeHandler answers, by which it is recognised.
 inline constexpr GUID kDefaultIncludeHandler = {
     0x6B61616D, 0x6F73, 0x4469, {0x88, 0x1A, 0x01, 0x7C, 0x5E, 0x30, 0x92, 0xD4}};
 

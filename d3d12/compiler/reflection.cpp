@@ -16,7 +16,7 @@ namespace {
 
 constexpr char kCreator[] = "Kaamos";
 
-// What generated entries have.
+// The interface and the reporter that generated entries expect of their base.
 class ShaderReflectionBase : public ReflectionBase<ID3D12ShaderReflection> {
  public:
   static constexpr InterfaceId kInterfaces[] = {

@@ -83,8 +83,8 @@ class ReflectedBuffer final : public ReflectionBase<ID3D12ShaderReflectionConsta
 ID3D12ShaderReflectionConstantBuffer* no_buffer();
 ID3D12ShaderReflectionVariable* no_variable();
 
-/// What a shader or function reaches, in DXC's order: constant buffers, samplers, shader resource
-/// views, unordered access views.
+/// The resources that a shader or function reaches, in DXC's order: constant buffers, samplers,
+/// shader resource views, unordered access views.
 class ReflectedResources {
  public:
   ReflectedResources(const rtapi::ShaderReflection& reflection,

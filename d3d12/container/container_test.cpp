@@ -84,7 +84,7 @@ TEST(Container, WithoutPartsIsOne) {
   EXPECT_TRUE(parts->empty());
 }
 
-// What D3D's serializer gives for a root signature without parameters, version 1.0.
+// D3D's serializer gives this checksum for a root signature without parameters, version 1.0.
 TEST(Container, ChecksumOfAnEmptyRootSignatureIsD3ds) {
   const uint32_t body[] = {1, 0, 24, 0, 24, 0};
   const auto container =

@@ -135,7 +135,8 @@ class Reader {
     std::memcpy(&value, bytes_.data() + offset, sizeof(value));
     return value;
   }
-  /// Whether `count` elements of `stride` bytes lie inside, before anything is made of them.
+  /// Returns whether `count` elements of `stride` bytes lie inside; asked before anything is made
+  /// of them.
   bool holds(uint64_t offset, uint64_t count, uint64_t stride) {
     const bool inside = offset <= bytes_.size() && count * stride <= bytes_.size() - offset;
     if (!inside && !failed_) failed_ = offset;

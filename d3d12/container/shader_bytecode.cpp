@@ -15,7 +15,7 @@ namespace kaamos::d3d12 {
 
 namespace {
 
-// Of a source that compiles and cannot be built on this machine.
+// Returns whether the source compiles but cannot be built on this machine.
 bool cannot_be_built(const rtapi::Status& status) {
   return !status.ok() && (status.error().id == rtapi::error_ids::compiler::kNoCompiler ||
                           status.error().id == rtapi::error_ids::compiler::kCompilerFailed);

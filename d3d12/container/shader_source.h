@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the private part of a shader's container holds: the options and every file that the
-// compiler read, so that the shader can be compiled for either backend where it is used.
+// The private part of a shader's container: the options and every file that the compiler read, so
+// that the shader can be compiled for either backend where it is used.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace kaamos::d3d12 {
 
 inline constexpr uint32_t kSourcePart = fourcc("KAAM");
 
-/// Whether a part is what a program asks for. The source stands for DXIL.
+/// Returns whether a part is of the kind that a program asks for. The source stands for DXIL.
 inline bool is_part(const Part& part, uint32_t kind) {
   return part.fourcc == kind || (kind == fourcc("DXIL") && part.fourcc == kSourcePart);
 }

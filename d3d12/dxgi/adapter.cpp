@@ -16,7 +16,7 @@ namespace kaamos::d3d12 {
 
 namespace {
 
-// Of /proc/self/statm: pages that are in memory.
+// Returns the bytes of memory that the process occupies: the resident pages in /proc/self/statm.
 UINT64 used_bytes() {
   std::ifstream in("/proc/self/statm");
   UINT64 virtual_pages = 0, resident_pages = 0;

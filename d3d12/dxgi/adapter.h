@@ -12,7 +12,7 @@
 
 namespace kaamos::d3d12 {
 
-/// What DXGI and DXCore tell of a backend.
+/// The description of a backend that DXGI and DXCore give.
 struct AdapterInfo {
   std::string backend;
   std::wstring description;

@@ -6,7 +6,7 @@
 
 namespace kaamos::d3d12 {
 
-/// What CreateDXGIFactory makes.
+/// The object that CreateDXGIFactory makes.
 class Factory final : public DxgiObject<IDXGIFactoryEntries> {
  public:
   explicit Factory(UINT flags) : DxgiObject(nullptr), flags_(flags) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of presented frames: PNG files, and the program's callback.
+// Presented frames become PNG files and go to the program's callback.
 #pragma once
 
 #include <kaamos_present.h>
@@ -8,8 +8,9 @@
 
 namespace kaamos::d3d12 {
 
-/// Whether anybody wants to see frame `number` of a swap chain: KAAMOS_PRESENT names a folder and
-/// KAAMOS_PRESENT_EVERY (a whole number ≥ 1, default 1) divides it, or there is a callback.
+/// Returns whether anybody wants to see frame `number` of a swap chain: KAAMOS_PRESENT names a
+/// folder and KAAMOS_PRESENT_EVERY (a whole number ≥ 1, default 1) divides it, or there is a
+/// callback.
 bool wants_frame(UINT64 number);
 
 /// Calls the callback and writes `KAAMOS_PRESENT/frame_00007.png`, of swap chain 2 and later

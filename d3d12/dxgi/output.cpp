@@ -71,7 +71,7 @@ HRESULT Output::GetDesc1(DXGI_OUTPUT_DESC1* desc) {
   if (const HRESULT result = describe(desc); result != S_OK) return result;
   desc->BitsPerColor = 8;
   desc->ColorSpace = DXGI_COLOR_SPACE_RGB_FULL_G22_NONE_P709;
-  // Of ITU-R BT.709.
+  // The primaries of ITU-R BT.709.
   const float primaries[4][2] = {{0.64F, 0.33F}, {0.3F, 0.6F}, {0.15F, 0.06F}, {0.3127F, 0.329F}};
   float* const to[4] = {desc->RedPrimary, desc->GreenPrimary, desc->BluePrimary, desc->WhitePoint};
   for (int i = 0; i < 4; ++i) std::copy(primaries[i], primaries[i] + 2, to[i]);

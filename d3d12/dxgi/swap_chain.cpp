@@ -49,7 +49,7 @@ HRESULT refuse_call(Reporter& reporter, const std::string& detail) {
   return DXGI_ERROR_INVALID_CALL;
 }
 
-// What is wrong with a description, or "". [DXGI: DXGI_SWAP_CHAIN_DESC1; DXGI_SWAP_EFFECT]
+// Returns what is wrong with a description, or "". [DXGI: DXGI_SWAP_CHAIN_DESC1; DXGI_SWAP_EFFECT]
 std::string find_fault(const DXGI_SWAP_CHAIN_DESC1& desc) {
   if (desc.BufferCount < 2 || desc.BufferCount > DXGI_MAX_SWAP_CHAIN_BUFFERS) {
     return "BufferCount is " + std::to_string(desc.BufferCount) + "; the flip model has 2 to 16.";

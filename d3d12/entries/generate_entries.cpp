@@ -41,7 +41,7 @@ std::string collapse(const std::string& text) {
   return out;
 }
 
-// Of `#if defined(_MSC_VER) || !defined(_WIN32)` the first branch counts, here as for programs.
+// Takes the first branch of `#if defined(_MSC_VER) || !defined(_WIN32)`, as programs do.
 std::string choose_branches(const std::string& body) {
   std::istringstream in(body);
   std::string out, line;

@@ -6,8 +6,8 @@
 
 namespace kaamos::d3d12 {
 
-/// Whether devices that are made from now on have the debug layer, which is rtapi's checked mode:
-/// after EnableDebugLayer, or where the environment variable KAAMOS_D3D12_DEBUG is 1.
+/// Returns whether devices that are made from now on have the debug layer, which is rtapi's checked
+/// mode: after EnableDebugLayer, or where the environment variable KAAMOS_D3D12_DEBUG is 1.
 bool debug_layer_enabled();
 
 /// The debug object as the interface asked for.

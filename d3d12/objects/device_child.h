@@ -12,7 +12,7 @@ namespace kaamos::d3d12 {
 /// That of a device of this library.
 Reporter& reporter_of(ID3D12Device* device);
 
-/// What a device made. `First` derives from ID3D12DeviceChild.
+/// The base of the objects that a device made. `First` derives from ID3D12DeviceChild.
 template <class First, class... Rest>
 class DeviceChild : public NamedObject<First, Rest...> {
  public:

@@ -17,8 +17,8 @@ namespace kaamos::d3d12 {
 
 namespace {
 
-// Whether a blob is a library that can only have a root signature as a subobject, which is no part
-// of the container.
+// Returns whether a blob is a library that can only have a root signature as a subobject, which is
+// no part of the container.
 bool declares_root_signature(const void* blob, size_t size) {
   if (blob == nullptr) return false;
   const auto parts = read_container(blob, size);
@@ -96,7 +96,8 @@ rtapi::DepthStencilDesc depth_stencil_desc(const D3D12_DEPTH_STENCIL_DESC& desc)
   return out;
 }
 
-// What rtapi's description has no member for. What it has and refuses is left to it.
+// Refuses what rtapi's description has no member for. What it has a member for, rtapi refuses
+// itself.
 rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
   const auto refuse = [](const std::string& detail) {
     return rtapi::Status(make_error(ErrorId::kPipeline, detail));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t kPlacement = D3D12_DEFAULT_RESOURCE_PLACEMENT_ALIGNMENT;
 
-// What a heap of properties is among the three that rtapi has. A custom heap is told by its page
+// Returns which of rtapi's three heap types has these properties. A custom heap is told by its page
 // property. [D3D12: D3D12_HEAP_PROPERTIES]
 rtapi::Result<rtapi::HeapType> heap_type(const D3D12_HEAP_PROPERTIES& heap) {
   switch (heap.Type) {

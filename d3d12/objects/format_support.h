@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a device can do with a format, found by trying it.
+// Finds out what a device can do with a format, by trying it.
 #pragma once
 
 #include <directx/d3d12.h>

@@ -286,8 +286,8 @@ void GraphicsCommandList::ExecuteBundle(ID3D12GraphicsCommandList* bundle) {
   calls->execute(this);
 }
 
-// What PIX's headers pass: 0 a wide string, 1 a narrow one; others encode it in a way of their own.
-// [pix.h: PIXBeginEvent]
+// PIX's headers pass a wide string as metadata 0 and a narrow one as 1; other numbers mean
+// encodings of PIX's own. [pix.h: PIXBeginEvent]
 void GraphicsCommandList::BeginEvent(UINT metadata, const void* data, UINT size) {
   std::string name = "event";
   if (data != nullptr && metadata == 0) {

@@ -99,7 +99,7 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
                                                        ID3D12Resource* resource,
                                                        const FLOAT values[4], UINT rect_count,
                                                        const D3D12_RECT* rects) override;
-  // What is discarded keeps its values here.
+  // A discarded resource keeps its values here.
   void STDMETHODCALLTYPE DiscardResource(ID3D12Resource*, const D3D12_DISCARD_REGION*) override {}
   void STDMETHODCALLTYPE EndQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type,
                                   UINT index) override;

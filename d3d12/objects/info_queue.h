@@ -34,8 +34,8 @@ struct FilterLists {
   bool empty() const { return categories.empty() && severities.empty() && ids.empty(); }
 };
 
-/// What a filter lets through: everything on an allow list (or everything, where that is empty)
-/// that is on no deny list.
+/// A filter. It lets through everything on an allow list (or everything, where that is empty) that
+/// is on no deny list.
 struct MessageFilter {
   FilterLists allow;
   FilterLists deny;

@@ -225,7 +225,7 @@ class TwoInfoQueues : public InfoQueueCalls {
               S_OK);
   }
 
-  // How many messages the queues have; forgets them.
+  // Returns how many messages the queues have, and forgets them.
   std::pair<UINT64, UINT64> counts() {
     const std::pair out{info_->GetNumStoredMessages(), other_info_->GetNumStoredMessages()};
     info_->ClearStoredMessages();

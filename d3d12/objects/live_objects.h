@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a device made and programs still hold, for ReportLiveDeviceObjects.
+// The objects that a device made and programs still hold, for ReportLiveDeviceObjects.
 #pragma once
 
 #include <map>

@@ -50,7 +50,7 @@ class CommandSignature final : public DeviceChild<ID3D12CommandSignatureEntries>
   rtapi::CommandSignature signature_;
 };
 
-/// What is behind an interface of this library; an empty handle of null.
+/// Returns the object behind an interface of this library; an empty handle for null.
 ///@{
 inline rtapi::RootSignature rtapi_root_signature(ID3D12RootSignature* object) {
   return object != nullptr ? static_cast<RootSignature*>(object)->rtapi_root_signature()

@@ -46,7 +46,7 @@ class Resource final : public DeviceChild<ID3D12ResourceEntries> {
   Microsoft::WRL::ComPtr<ID3D12Heap> placed_in_;
 };
 
-/// What is behind an interface of this library; nothing of null.
+/// Returns the object behind an interface of this library; an empty handle for null.
 ///@{
 inline rtapi::Resource rtapi_resource(ID3D12Resource* resource) {
   return resource != nullptr ? static_cast<Resource*>(resource)->rtapi_resource()

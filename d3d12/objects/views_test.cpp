@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What programs bind: views and samplers made in one heap and copied to another, textures filled by
-// d3dx12.h's UpdateSubresources, and render passes.
+// Tests the things that programs bind: views and samplers made in one heap and copied to another,
+// textures filled by d3dx12.h's UpdateSubresources, and render passes.
 #include <cstring>
 #include <string>
 

@@ -168,7 +168,7 @@ std::optional<Scan<C>> read_scan(const C* format, va_list arguments) {
   return scan;
 }
 
-// What `scan` makes of a format and kMostConversions pointers.
+// Runs `call`, a function such as sscanf, with the format and kMostConversions pointers.
 template <class C, class Call>
 int run_scan(const C* format, va_list arguments, const Call& call) {
   const auto scan = format != nullptr ? read_scan(format, arguments) : std::nullopt;

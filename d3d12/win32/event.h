@@ -19,7 +19,7 @@ class Event final : public HandleObject {
 HANDLE make_event(bool manual_reset, bool set);
 /// Sets or resets it, and lets waits go.
 void set_event(Event& event, bool value);
-/// How many threads wait at this moment.
+/// Returns how many threads wait at this moment.
 size_t waiting_threads();
 
 }  // namespace kaamos::d3d12

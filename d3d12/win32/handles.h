@@ -11,7 +11,7 @@
 
 namespace kaamos::d3d12 {
 
-/// What a handle names: an event or a file.
+/// The object that a handle names: an event or a file.
 class HandleObject {
  public:
   HandleObject() = default;

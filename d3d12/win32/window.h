@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a swap chain needs of a window: its size, and that it counts frames.
+// A swap chain needs two things of a window: its size, and that it counts frames.
 #pragma once
 
 #include <windows.h>

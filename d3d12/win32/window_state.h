@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a window holds, the queue of messages of each thread, and the list of both.
+// The state of a window, the queue of messages of each thread, and the list of both.
 #pragma once
 
 #include <windows.h>

@@ -427,7 +427,7 @@ __CRT_UUID_DECL(IDxcVersionInfo2, 0xFB6904C4, 0x42F0, 0x4B62, 0x9C, 0x46, 0x98, 
                 0x7C, 0x83)
 #endif
 
-// What DxcCreateInstance makes. Each is the same object in every file of a program.
+// The classes that DxcCreateInstance makes. Each is the same object in every file of a program.
 inline constexpr CLSID CLSID_DxcCompiler = {
     0x73E22D93, 0xE6CE, 0x47F3, {0xB5, 0xBF, 0xF0, 0x66, 0x4F, 0x39, 0xC1, 0xB0}};
 inline constexpr CLSID CLSID_DxcLinker = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an adapter of DXGI or DXCore tells D3D12CreateDevice.
+// The interface by which an adapter of DXGI or DXCore tells D3D12CreateDevice its backend.
 #pragma once
 
 #include <unknwn.h>

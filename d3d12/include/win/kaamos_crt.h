@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What programs use of MSVC's C library beyond the standard. kaamos_add_d3d12_program includes it
-// into every source, as MSVC has these names in <stdio.h>, <string.h> and so on.
+// The part of MSVC's C library beyond the standard that programs use. kaamos_add_d3d12_program
+// includes it into every source, as MSVC has these names in <stdio.h>, <string.h> and so on.
 //
 // Formats of the functions here are MSVC's: in wide ones %s is a wide string, l makes an integer
 // 32 bits wide, and I64 makes it 64. The standard's own (swprintf, wprintf) keep this system's.

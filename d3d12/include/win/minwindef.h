@@ -75,7 +75,7 @@ typedef LPCSTR PCTSTR, LPCTSTR;
 #define STDAPI EXTERN_C HRESULT STDAPICALLTYPE
 #define STDAPI_(type) EXTERN_C type STDAPICALLTYPE
 
-// What only MS mode of clang (-fms-extensions) understands.
+// Only the MS mode of clang (-fms-extensions) understands these.
 #ifdef __has_declspec_attribute
 #if __has_declspec_attribute(uuid)
 #define KAAMOS_MS_MODE

@@ -9,7 +9,7 @@
 #define STRSAFE_E_INSUFFICIENT_BUFFER ((HRESULT)0x8007007Au)
 #define STRSAFE_E_INVALID_PARAMETER ((HRESULT)0x80070057u)
 
-// What does not fit is cut.
+// The result of copying a text, which is cut where it does not fit.
 inline HRESULT kaamos_fit(errno_t result) {
   return result == 0           ? S_OK
          : result == STRUNCATE ? STRSAFE_E_INSUFFICIENT_BUFFER

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What wsl/wrladapter.h includes.
+// The header that wsl/wrladapter.h includes.
 #pragma once
 
 #include <windows.h>

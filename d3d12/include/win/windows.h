@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What D3D12 programs use of Win32. README.md lists it.
+// The part of Win32 that D3D12 programs use. README.md lists it.
 #pragma once
 
 #include <limits.h>

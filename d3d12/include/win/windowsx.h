@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What windowsx.h unpacks out of messages. [Win32: windowsx.h]
+// The macros by which windowsx.h unpacks messages. [Win32: windowsx.h]
 #pragma once
 
 #include <winuser.h>
