@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the crown is made for: crevices that are dark, and samples by the cosine that beat uniform
-// ones about twofold.
+// Tests what the crown is made for: crevices that are dark, and samples by the cosine that beat
+// uniform ones about twofold.
 #include "effects/assets/built_in/crown.h"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,7 @@ constexpr int kBurstFrame = 20;
 constexpr double kGravity = 9.81;
 const glm::dvec3 kBlast(0.3, 0.9, -0.9);  // behind the wall
 
-// Where something is at each frame.
+// The places and turns of a thing, one for each frame.
 struct Track {
   std::vector<glm::dvec3> at;
   std::vector<glm::dquat> turned;

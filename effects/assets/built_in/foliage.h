@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kLeafTexels = 32;    ///< along each side of the 
 inline constexpr std::uint32_t kLeavesOfTwig = 20;  ///< cards of one mesh
 inline constexpr double kFenceWireRadius = 0.001;   ///< metres
 
-/// What make_foliage makes.
+/// The parameters of make_foliage.
 struct FoliageDesc {
   std::uint32_t twigs = 100;  ///< instances of kLeavesOfTwig leaves each: 2000 leaves
   /// The leaves are meshes of squares, one for each texel of the mask that is not open, instead of
@@ -28,7 +28,7 @@ struct FoliageDesc {
 /// that its edges are those of the squares.
 Scene make_foliage(const FoliageDesc& desc);
 
-/// Whether a texel of the leaf's mask is leaf. `x` and `y` below kLeafTexels, row 0 on top.
+/// Returns whether a texel of the leaf's mask is leaf. `x` and `y` below kLeafTexels, row 0 on top.
 bool is_leaf(std::uint32_t x, std::uint32_t y);
 
 }  // namespace kaamos::effects

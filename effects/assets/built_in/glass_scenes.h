@@ -28,7 +28,7 @@ struct Pane {
 /// pane i.
 Scene make_pane_oracle(std::span<const Pane> panes, const glm::vec3& background);
 
-/// What make_glass_stack makes.
+/// The parameters of make_glass_stack.
 struct GlassStackDesc {
   std::uint32_t panes = 5;  ///< 1..8; other numbers are taken for the nearest of these
   bool crossed = false;     ///< every second one turned by a right angle, all through one axis

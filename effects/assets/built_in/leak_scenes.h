@@ -12,7 +12,7 @@ inline constexpr double kDomeRadius = 5.0;      ///< metres, of the inside
 inline constexpr double kOculusRadius = 1.0;    ///< metres, of the opening at the top
 inline constexpr double kSealedRoomSize = 2.0;  ///< metres inside, of each room, along each axis
 
-/// What make_thin_dome makes.
+/// The parameters of make_thin_dome.
 struct ThinDomeDesc {
   double thickness = 0.005;  ///< metres, of the shell; 0.0005 to 0.05 is what shows failures
   bool sealed = false;       ///< without the opening: what is inside is black in truth
@@ -24,7 +24,7 @@ struct ThinDomeDesc {
 /// column lies along a meridian.
 Scene make_thin_dome(const ThinDomeDesc& desc);
 
-/// What make_sealed_cells makes.
+/// The parameters of make_sealed_cells.
 struct SealedCellsDesc {
   double thickness = 0.005;  ///< metres, of all walls
 };
@@ -39,7 +39,7 @@ inline constexpr double kHallWall = 0.3;            ///< metres, thickness of it
 inline constexpr float kHallAlbedo = 0.7f;          ///< of everything in it
 inline constexpr float kHallLamp = 600.0f;          ///< candela, of the lamp in the lit one
 
-/// What make_sealed_hall makes.
+/// The parameters of make_sealed_hall.
 struct SealedHallDesc {
   bool lit = false;  ///< a lamp hangs in it
 };

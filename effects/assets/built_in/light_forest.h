@@ -10,7 +10,7 @@
 
 namespace kaamos::effects {
 
-/// What make_light_forest makes.
+/// The parameters of make_light_forest.
 struct LightForestDesc {
   std::uint32_t lights = 100;  ///< every third one a spot; 1 to 10,000
   std::uint32_t seed = 1;      ///< of where they are and what they are like

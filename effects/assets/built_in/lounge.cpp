@@ -129,7 +129,7 @@ constexpr Look kLooks[] = {
 };
 static_assert(std::size(kLooks) == kMaterialCount);
 
-// Where the floor lamps stand, and what their bulbs give, in candela.
+// The places of the floor lamps, and the colour and intensity of their bulbs, in candela.
 constexpr glm::dvec3 kFloorLamps[] = {{-5.1, 0, -4.3}, {1.9, 0, -4.4}};
 constexpr glm::vec3 kBulbColor(1.0f, 0.78f, 0.5f);
 constexpr float kBulbIntensity = 2.0f;

@@ -57,8 +57,8 @@ TEST(Lounge, OnlyLeavesAreAlphaTested) {
   EXPECT_EQ(tested, 1);
 }
 
-// What glows beside a local light is that light's picture: an instance of its own, as bright as the
-// lamp, so that no ray meets the light twice.
+// A thing that glows beside a local light is that light's picture: an instance of its own, as
+// bright as the lamp, so that no ray meets the light twice.
 TEST(Lounge, BulbsAreThePicturesOfTheirLamps) {
   int lamps = 0;
   for (const Light& light : lounge().lights) {

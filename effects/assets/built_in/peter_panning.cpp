@@ -171,7 +171,7 @@ Scene make_peter_panning(const PeterPanningDesc& desc) {
   }
   for (std::size_t i = 0; i < stool_legs().size(); ++i) {
     const StoolLeg& leg = stool_legs()[i];
-    // Of 24 sides, at most 0.13 mm thinner than the cylinder.
+    // The mesh has 24 sides and is at most 0.13 mm thinner than the cylinder.
     if (i % 4 == 0) add_mesh(scene, "leg", post(leg.radius, kLegHeight, 24), steel);
     add_instance(scene, "leg " + std::to_string(i),
                  static_cast<std::uint32_t>(scene.meshes.size() - 1),

@@ -12,7 +12,7 @@
 
 namespace kaamos::effects {
 
-/// What make_peter_panning makes. The sun stands over +x, so that shadows fall towards -x.
+/// The parameters of make_peter_panning. The sun stands over +x, so that shadows fall towards -x.
 struct PeterPanningDesc {
   double sun_elevation = 0.45;  ///< radians over the horizon; 0.052 (3 degrees) to 1.4
   double angular_radius = kSunAngularRadius;  ///< radians, of the sun; 0: hard shadows
@@ -32,7 +32,7 @@ struct StoolLeg {
 /// The twelve legs, thin ones first.
 std::span<const StoolLeg> stool_legs();
 
-/// How the floor is lit at a point.
+/// The light at a point of the floor.
 enum class FloorLight : std::uint8_t {
   kLit,     ///< all around the point sees the sun's middle
   kShadow,  ///< nothing around it does
@@ -40,17 +40,17 @@ enum class FloorLight : std::uint8_t {
 };
 /// For the point (x, z) of the floor; `margin` in metres.
 FloorLight floor_light(const PeterPanningDesc& desc, const glm::dvec2& point, double margin);
-/// Whether the floor's point (x, z) sees the sun's middle.
+/// Returns whether the floor's point (x, z) sees the sun's middle.
 bool sees_sun(const PeterPanningDesc& desc, const glm::dvec2& point);
 
-/// Where the middle of a leg's shadow begins, `distance` metres from the leg on: floor x and z. A
-/// technique's shadow comes loose by the distance over which it is lit there (the gap; 0 in truth).
-/// Of the six legs with at.x > 0, below an elevation of 1 radian and up to 0.25 m no other shadow
-/// lies there.
+/// Returns the point in the middle of a leg's shadow that is `distance` metres from the leg: floor
+/// x and z. A technique's shadow comes loose by the distance over which it is lit there (the gap; 0
+/// in truth). For the six legs with at.x > 0, below an elevation of 1 radian and up to 0.25 m, no
+/// other shadow lies there.
 glm::dvec2 shadow_middle(const StoolLeg& leg, double distance);
 
-/// Where the sheets' shadows end (x), and the middle z of the three parts of that line: the lower
-/// sheet alone, both, the higher one alone.
+/// The line where the sheets' shadows end (x), and the middle z of its three parts: the lower sheet
+/// alone, both, the higher one alone.
 ///@{
 inline constexpr double kSheetShadowX = -0.6;
 inline constexpr double kSheetPartZ[3] = {-1.5, -2.1, -2.7};

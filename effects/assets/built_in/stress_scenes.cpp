@@ -36,7 +36,7 @@ struct Builder {
     scene = start_scene(std::move(name));
   }
 
-  // How many steps something of `full` ones at detail 1 has.
+  // Returns the number of steps for a thing that has `full` of them at detail 1.
   int steps(double full, int least) const {
     return std::max(least, static_cast<int>(std::lround(full * detail)));
   }
@@ -108,7 +108,7 @@ struct Builder {
     counted = instanced_triangle_count(scene);
     const double target = target_triangles(desc);
     double missing = target - static_cast<double>(counted);
-    // Of so few triangles that one more or less does not matter.
+    // Each has so few triangles that one thing more or less does not matter.
     int segments = 12, rings = 7;
     while (segments > 3 && segments * (2 * rings - 2) > 0.01 * target) {
       --segments;

@@ -13,20 +13,20 @@
 
 namespace kaamos::effects {
 
-/// Which of them.
+/// Names one of the scenes.
 enum class StressKind : std::uint8_t {
   kPub,        ///< a room, large lamps over tables, chairs with thin legs
   kResort,     ///< outdoors, the sun, houses, palms and parasols
   kBreakfast,  ///< a room, one laid table after another, seen from below their tops too
 };
 
-/// What make_stress_scene makes.
+/// The parameters of make_stress_scene.
 struct StressDesc {
   StressKind kind = StressKind::kPub;  ///< which scene it stands for
   /// 1 or 4. The resort's first one is the sun; all others are large lamps.
   std::uint32_t lights = 4;
-  /// Of the triangles; 1: as many as the original has. From 1/32 on. Things keep their place and
-  /// size and are made of fewer triangles, and small ones are fewer.
+  /// The share of the triangles; 1: as many as the original has. From 1/32 on. Things keep their
+  /// place and size and are made of fewer triangles, and small ones are fewer.
   double scale = 1.0 / 32;
   std::uint32_t seed = 1;  ///< of where small things lie
 };
@@ -38,8 +38,8 @@ std::uint64_t original_triangles(StressKind kind);
 /// things that fill up what is missing are last.
 Scene make_stress_scene(const StressDesc& desc);
 
-/// Which one a scene is, by its name: "pub", "resort" or "breakfast", "-full" where the scale is 1,
-/// "-1" with one light. None: another scene.
+/// Returns which one a scene is, by its name: "pub", "resort" or "breakfast", "-full" where the
+/// scale is 1, "-1" with one light. None: another scene.
 std::optional<StressKind> stress_kind(const Scene& scene);
 
 /// The camera's way through it, 20 s long, from the first camera on.

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kTowers = 7;
 inline constexpr double kLeastTower = 1e-3;
 ///@}
 
-/// What make_terrain makes.
+/// The parameters of make_terrain.
 struct TerrainDesc {
   glm::dvec3 offset{0.0};      ///< metres: the scene and its cameras are moved by so much
   double sun_elevation = 0.2;  ///< radians over the horizon, towards -x

@@ -67,7 +67,7 @@ struct Facet {
   }
 };
 
-// How far down the cap light is mirrored above the surface. At its top it is.
+// Returns how far down the cap light is mirrored above the surface. At its top it is.
 double lit_height(const View& view, const glm::dvec2& angle) {
   if (Facet(view, 1, angle).light > 0) return 1;
   double above = 0, below = 1;

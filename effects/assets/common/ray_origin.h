@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where a ray that leaves a triangle must start, so that it neither hits that triangle again nor
-/// misses what is close by. Instead of a fixed epsilon it uses a bound of the point's own rounding
-/// error. The same as effects/shaders/geometry.hlsli, value for value. [error bound of Waechter,
-/// van Antwerpen and Klehm 2023]
+/// Computes where a ray that leaves a triangle must start, so that it neither hits that triangle
+/// again nor misses what is close by. Instead of a fixed epsilon it uses a bound of the point's own
+/// rounding error. The same as effects/shaders/geometry.hlsli, value for value. [error bound of
+/// Waechter, van Antwerpen and Klehm 2023]
 #pragma once
 
 #include <algorithm>

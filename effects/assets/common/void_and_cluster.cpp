@@ -11,9 +11,9 @@
 namespace kaamos::effects {
 namespace {
 
-/// Which cells are set, and how crowded the surroundings of each cell are. The extremes of each row
-/// are cached, because a change touches few rows and nearly all time goes into finding the extreme
-/// cell.
+/// The cells that are set, and how crowded the surroundings of each cell are. The extremes of each
+/// row are cached, because a change touches few rows and nearly all time goes into finding the
+/// extreme cell.
 class Pattern {
  public:
   explicit Pattern(std::uint32_t size)

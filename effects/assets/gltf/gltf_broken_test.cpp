@@ -102,7 +102,7 @@ TEST(GltfBroken, NotAGltfFile) {
   const auto buffer =
       load_text(R"({"asset":{"version":"2.0"},"buffers":[{"uri":"gone.bin","byteLength":4}]})");
   expect_error(buffer, "gone.bin");
-  // What the size of a folder is taken for must not be asked of memory.
+  // The size that a folder seems to have must not be allocated.
   expect_error(load_text(R"({"asset":{"version":"2.0"},"buffers":[{"uri":"/","byteLength":9}]})"),
                "cannot read");
 }

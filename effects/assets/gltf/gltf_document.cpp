@@ -25,7 +25,8 @@ struct Member {
   bool required = false;
 };
 
-// What the parser would refuse without saying where, or would read as something else.
+// Members whose mistakes the parser would refuse without saying where, or would read as something
+// else.
 constexpr std::array kAccessor = {
     Member{"componentType", Kind::kWhole, true}, Member{"count", Kind::kWhole, true},
     Member{"type", Kind::kText, true},           Member{"bufferView", Kind::kWhole},

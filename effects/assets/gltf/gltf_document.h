@@ -21,7 +21,7 @@ struct HiddenIndices {
   int accessor;
 };
 
-/// What the parser is to read in place of the file's JSON.
+/// The document for the parser to read in place of the file's JSON.
 struct GltfDocument {
   std::optional<std::string> json;    // none: the file's own
   std::vector<HiddenIndices> hidden;  // to be put back into what the parser made

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which extensions of glTF are read, and what is lost without the others.
+// Tells which extensions of glTF are read, and what is lost without the others.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What glTF has no place for, in `extras` under the key "kaamos": written by gltf_write.cpp, read
-/// back by the loader. README.md has the table. Only gltf_*.cpp include it.
+/// The data that glTF has no place for, in `extras` under the key "kaamos": written by
+/// gltf_write.cpp, read back by the loader. README.md has the table. Only gltf_*.cpp include it.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -21,13 +21,13 @@ struct SceneExtras {
   float exposure = 1.0f;  ///< radiance times this goes to the tone curve
 };
 
-/// Of the node that holds the sun's directional light.
+/// The extras of the node that holds the sun's directional light.
 struct SunExtras {
   std::optional<glm::vec3> irradiance;       ///< none: colour times intensity of the light
   float angular_radius = kSunAngularRadius;  ///< radians
 };
 
-/// Of the node of a spot that throws a slide.
+/// The extras of the node of a spot that throws a slide.
 struct ProjectionExtras {
   int texture = -1;       ///< of the file
   glm::vec3 up{0, 1, 0};  ///< ProjectionMap::up

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What files have besides plain triangles: colours, morph targets, further joints, instances,
+// Tests what files have besides plain triangles: colours, morph targets, further joints, instances,
 // extensions. Each is read with the right value, or named in a warning, or refused by its name.
 #include <gtest/gtest.h>
 

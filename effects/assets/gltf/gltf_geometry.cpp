@@ -63,7 +63,7 @@ Status read_material_id(const GltfReader& reader, const tinygltf::Primitive& pri
   return {};
 }
 
-/// What make_flat_normals does to the vertices.
+/// Repeats values as make_flat_normals repeats the vertices.
 template <class T>
 void duplicate(std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
   if (values.empty()) return;

@@ -28,7 +28,7 @@ struct LoadedScene {
   bool complete = false;
 };
 
-/// How a file is read.
+/// Options for reading a file.
 struct GltfOptions {
   /// Skinned meshes keep their bind pose, joints and weights, nodes their hierarchy, and the first
   /// animation drives all instances: for a StructureManager. Else everything stands in the pose of

@@ -248,7 +248,7 @@ Result<std::optional<MaterialReader::ImageUse>> MaterialReader::image_of(int id,
       decoded.value(), texture.sampler < 0 ? 0 : static_cast<std::uint32_t>(texture.sampler) + 1});
 }
 
-/// What the node's light throws, as a picture of the scene's; its colours are sRGB.
+/// Reads the slide that the node's light throws, as a picture of the scene's; its colours are sRGB.
 Status MaterialReader::slide(const tinygltf::Node& node, std::size_t id) {
   const std::string where = gltf_part("node", id, node.name);
   const auto projection = read_projection_extras(node.extras, where, reader_.warnings);
@@ -317,7 +317,7 @@ Status MaterialReader::material(const tinygltf::Material& from, std::size_t id) 
        from.emissiveTexture.extensions}};
   const int uv_set = uv_set_of(uses);
   for (const TextureUse& use : uses) {
-    // What is unlit has a base colour, and nothing else counts.
+    // An unlit material has a base colour, and nothing else of it counts.
     if ((to.flags & kMaterialUnlit) && use.slot != kBaseColorTexture) continue;
     const Status status = texture(use, uv_set, where, to);
     if (!status.ok()) return status;

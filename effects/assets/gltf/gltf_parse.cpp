@@ -17,8 +17,8 @@
 namespace kaamos::effects {
 namespace {
 
-/// How deep arrays and objects may nest: far deeper than glTF needs, and shallow enough for the
-/// parser, which recurses over extensions.
+/// The depth to which arrays and objects may nest: far deeper than glTF needs, and shallow enough
+/// for the parser, which recurses over extensions.
 constexpr int kMaxJsonDepth = 128;
 
 /// Keeps the encoded bytes of images that come by URI, and decodes nothing. It does not touch
@@ -34,7 +34,7 @@ bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::st
   return true;
 }
 
-/// What happened to the files that a scene names: the parser's words about them are its own.
+/// A log of the files that a scene names, because the parser's words about them are its own.
 struct FileLog {
   std::string trouble;    // why one could not be read
   std::string last_read;  // what was read of the last one

@@ -15,7 +15,7 @@ class Model;
 
 namespace kaamos::effects {
 
-/// What is said of a file that breaks a rule which gltf_document.cpp does not check.
+/// The message about a file that breaks a rule which gltf_document.cpp does not check.
 inline constexpr char kGltfRefused[] =
     "cannot be parsed as glTF 2.0: a member has a type or value that glTF does not allow; the "
     "Khronos glTF validator says which";

@@ -18,7 +18,8 @@
 
 namespace kaamos::effects {
 
-/// What the stages share: the parsed file, the scene under construction, and the warnings.
+/// The state that the stages share: the parsed file, the scene under construction, and the
+/// warnings.
 struct GltfReader {
   const tinygltf::Model& model;
   /// Per image of the file: its encoded bytes if it came by URI, else empty.
@@ -44,7 +45,7 @@ struct GltfReader {
 
   /// The first node whose transform is singular, so that its mesh is left out.
   std::string singular = {};
-  /// What warn_once has said.
+  /// The texts that warn_once has said.
   std::set<std::string> said = {};
 
   void warn(std::string text) { warnings.push_back(std::move(text)); }

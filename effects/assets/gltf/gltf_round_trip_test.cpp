@@ -124,7 +124,8 @@ bool is_trs(const std::vector<double>& m) {
   return worst < 2e-7;
 }
 
-// What the Khronos validator reports as errors and a writer of scenes can get wrong.
+// Expects the rules that a writer of scenes can break and whose breach the Khronos validator
+// reports as an error.
 void expect_rules(const std::vector<std::uint8_t>& bytes) {
   tinygltf::Model model;
   tinygltf::TinyGLTF loader;

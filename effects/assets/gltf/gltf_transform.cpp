@@ -7,7 +7,7 @@
 namespace kaamos::effects {
 namespace {
 
-/// How far from a right angle two axes may be, as a cosine.
+/// Two axes may be this far from a right angle, as a cosine.
 constexpr double kSquare = 1e-7;
 
 double worst_cosine(const glm::dmat3& m) {

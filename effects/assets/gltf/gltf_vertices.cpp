@@ -71,7 +71,7 @@ Status read_colors(GltfReader& reader, const tinygltf::Primitive& primitive,
 bool is_read(const std::string& name) {
   static const char* const kNames[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
   if (std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames)) return true;
-  // Of texture coordinates the materials say which are read.
+  // The materials say which texture coordinates are read.
   return name.starts_with("TEXCOORD_") || name.starts_with("JOINTS_") ||
          name.starts_with("WEIGHTS_");
 }
@@ -86,8 +86,7 @@ void warn_of_unread(GltfReader& reader, const tinygltf::Primitive& primitive) {
 bool make_unit(glm::vec3& v) {
   const float length = glm::length(v);
   if (!(length > 1e-20f) || !std::isfinite(length)) return false;
-  // What a unit vector loses by rounding stays, so that a file that is written again keeps its
-  // bits.
+  // A unit vector keeps its rounding error, so that a file that is written again keeps its bits.
   if (std::abs(length - 1.0f) > 3e-7f) v /= length;
   return true;
 }

@@ -11,14 +11,14 @@
 
 namespace kaamos::effects {
 
-/// What compare found, over all values of all pixels.
+/// The result of compare, over all values of all pixels.
 struct ImageDifference {
   double mse = 0.0;           ///< mean of (a - b)^2
   double psnr = 0.0;          ///< decibels against `peak`; +inf for equal pictures
   double bias = 0.0;          ///< mean of a - b
   double max_abs = 0.0;       ///< +inf where a value is finite in one picture only
   std::uint64_t unequal = 0;  ///< values that differ at all
-  /// Where max_abs is.
+  /// The place of max_abs.
   ///@{
   std::uint32_t worst_x = 0, worst_y = 0, worst_channel = 0;
   ///@}

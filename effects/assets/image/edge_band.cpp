@@ -10,11 +10,12 @@ namespace kaamos::effects {
 
 namespace {
 
-// Of the nearer depth: what a step must be more than, besides what the surface's slope explains.
+// A step must be more than this part of the nearer depth, besides what the surface's slope
+// explains.
 constexpr double kTolerance = 0.03;
 
-// Whether an edge is between the second and the third of four depths in a line; 0: there is no
-// surface, or the picture has ended.
+// Returns whether an edge is between the second and the third of four depths in a line; 0: there is
+// no surface, or the picture has ended.
 bool is_edge(double before, double left, double right, double after) {
   if ((left > 0) != (right > 0)) return true;
   if (!(left > 0)) return false;

@@ -21,7 +21,7 @@ struct ExrLayer {
   std::vector<std::string> channels = {};
 };
 
-/// What an OpenEXR file holds here.
+/// The contents that an OpenEXR file has here.
 struct ExrFile {
   std::vector<ExrLayer> layers;  ///< all of the same width and height
   /// Text attributes: how the picture was made (seed, sample count, ...).

@@ -22,7 +22,7 @@ struct Taps {
   double weight[4];
 };
 
-// Where the pixel's surface was in the previous frame; empty if it was not visible.
+// Finds where the pixel's surface was in the previous frame; empty if it was not visible.
 std::optional<Taps> find(const FloatImage& previous_view_z, const FrameSurfaces& surfaces,
                          std::uint32_t x, std::uint32_t y) {
   const double z = surfaces.view_z.at(x, y);

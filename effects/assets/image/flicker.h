@@ -11,7 +11,7 @@
 
 namespace kaamos::effects {
 
-/// What a frame of a sequence says of its surfaces.
+/// The surfaces of a frame of a sequence.
 struct FrameSurfaces {
   FloatImage view_z;  ///< 1 channel, metres, 0 nothing
   /// 3 channels or more: where each surface was a frame ago, picture widths and heights from here,

@@ -12,7 +12,7 @@ namespace kaamos::effects {
 /// A monitor of 0.7 m width and 3840 pixels, 0.7 m away.
 inline constexpr double kDefaultPixelsPerDegree = 67.0206;
 
-/// What flip found.
+/// The result of flip.
 struct Flip {
   FloatImage map;   ///< 1 channel, 0 equal .. 1 as different as can be
   double mean = 0;  ///< over the map

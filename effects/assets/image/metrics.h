@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How far a picture is from its reference, in the measures that rendering papers use.
+/// Tells how far a picture is from its reference, in the measures that rendering papers use.
 ///
 /// Every measure leaves out values that are not finite in either picture and counts them in
 /// `not_finite`, so that a broken picture cannot look good silently.
@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// What measure found, over the values x of the picture and r of the reference.
+/// The result of measure, over the values x of the picture and r of the reference.
 struct Metrics {
   double rmse = 0;          ///< square root of the mean of (x - r)^2
   double relative_mse = 0;  ///< mean of (x - r)^2 / (r^2 + 0.01)
@@ -38,9 +38,9 @@ Result<Metrics> measure(const FloatImage& picture, const FloatImage& reference,
 /// @errors KA3004 different sizes.
 Result<double> ssim(const FloatImage& picture, const FloatImage& reference);
 
-/// What several renderings with independent seeds say of an estimator: bias^2 and variance, mean
-/// over all values; bias^2 is corrected for the variance that is left in the mean of finitely many
-/// pictures, so it may come out slightly negative.
+/// The parts of an estimator's error, found from several renderings with independent seeds: bias^2
+/// and variance, mean over all values; bias^2 is corrected for the variance that is left in the
+/// mean of finitely many pictures, so it may come out slightly negative.
 struct ErrorParts {
   double bias_squared = 0;  ///< of the mean of the pictures
   double variance = 0;      ///< of one picture

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Which of several ways to the same result are worth their price.
+/// Finds which of several ways to the same result are worth their price.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace kaamos::effects {
 
-/// What something costs, and how far off it is; less is better of both.
+/// The cost of something, and how far off it is; less is better of both.
 struct Trade {
   double cost = 0;   ///< any unit
   double error = 0;  ///< any unit

@@ -13,7 +13,7 @@
 namespace kaamos::effects {
 namespace {
 
-// What is wrong with the text as XML (tags that do not match, bare < and &), or nothing.
+// Returns what is wrong with the text as XML (tags that do not match, bare < and &), or nothing.
 std::string xml_fault(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < text.size(); ++i) {

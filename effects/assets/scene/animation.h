@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What moves in a scene: a hierarchy of nodes, skins whose joints are nodes, and animations of the
-/// nodes' translation, rotation and scale. The host evaluates poses; the device deforms the
+/// The moving parts of a scene: a hierarchy of nodes, skins whose joints are nodes, and animations
+/// of the nodes' translation, rotation and scale. The host evaluates poses; the device deforms the
 /// vertices. [glTF 2.0: Skins, Animations]
 #pragma once
 
@@ -43,9 +43,9 @@ struct Skin {
   std::vector<glm::dmat4> inverse_binds;  ///< as many
 };
 
-/// Which property of a node a channel moves.
+/// The property of a node that a channel moves.
 enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale };
-/// How values between two times are found. [glTF 2.0: Animations]
+/// The way in which values between two times are found. [glTF 2.0: Animations]
 enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
 
 /// One property of one node over time.
@@ -66,7 +66,7 @@ struct Animation {
   double duration = 0.0;          ///< seconds; then it begins anew
 };
 
-/// How an instance moves.
+/// The motion of an instance.
 struct Motion {
   std::int32_t skin = kNoIndex;       ///< in Scene::skins; its mesh has SkinVertices
   std::int32_t animation = kNoIndex;  ///< in Scene::animations; none: the nodes' rest
@@ -89,11 +89,12 @@ struct InstanceState {
 
 /// Node to scene transforms at `seconds`, which wraps at the animation's end.
 std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds);
-/// Where the instances of a valid scene are at `seconds`, one state for each. [glTF 2.0: Skins]
+/// Returns where the instances of a valid scene are at `seconds`, one state for each. [glTF 2.0:
+/// Skins]
 std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds);
 
-/// What the skinning shader computes, on the host: blended matrices move positions, their cofactors
-/// turn normals.
+/// Computes on the host what the skinning shader does: blended matrices move positions, their
+/// cofactors turn normals.
 std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix> joints);
 
 /// A valid scene as it is at `seconds`, where nothing moves any more: skinned meshes are deformed,

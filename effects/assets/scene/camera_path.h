@@ -13,7 +13,7 @@
 
 namespace kaamos::effects {
 
-/// Where the camera is at one moment.
+/// The camera's place and view at one moment.
 struct CameraKey {
   double seconds = 0.0;       ///< from the start of the sequence
   glm::dvec3 eye{0.0};        ///< world space, metres
@@ -42,8 +42,8 @@ Result<CameraPath> load_camera_path(const std::string& file);
 /// keys.
 Camera evaluate_camera(const CameraPath& path, const Camera& scene_camera, double seconds);
 
-/// Whether the path cuts after `before` and until `now`, seconds: then what earlier frames saw does
-/// not help.
+/// Returns whether the path cuts after `before` and until `now`, seconds: then what earlier frames
+/// saw does not help.
 bool has_cut(const CameraPath& path, double before, double now);
 
 }  // namespace kaamos::effects

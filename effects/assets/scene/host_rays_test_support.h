@@ -12,7 +12,7 @@
 
 namespace kaamos::effects {
 
-/// Where a ray meets a scene.
+/// The point where a ray meets a scene.
 struct HostHit {
   double t = 0.0;                ///< in lengths of the direction
   std::uint32_t instance = 0;    ///< in Scene::instances

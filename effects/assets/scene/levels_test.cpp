@@ -58,7 +58,7 @@ TEST(Levels, FartherIsCoarser) {
     EXPECT_EQ(scene.instances[0].mesh, level);
     EXPECT_TRUE(validate(scene).ok()) << validate(scene).error().message;
   }
-  // What counts is its present distance, not the original one.
+  // Its present distance counts, not the original one.
   const Scene scene = boxes(4, 1);
   const std::vector<glm::dmat4> away = {look_at(glm::dvec3(0, 0, -5), glm::dvec3(0, 0, -6))};
   EXPECT_EQ(select_levels(scene, scene.cameras[0], away), std::vector<std::uint32_t>{2u});

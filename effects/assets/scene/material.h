@@ -74,9 +74,9 @@ struct Material {
   MaterialConstants constants;  ///< what shaders read
 };
 
-/// What lies outside of an image. [glTF 2.0: sampler]
+/// The rule for texels outside of an image. [glTF 2.0: sampler]
 enum class Wrap : std::uint8_t { kRepeat, kMirror, kClamp };
-/// How texels, or mip levels, are mixed. [glTF 2.0: sampler]
+/// The way in which texels, or mip levels, are mixed. [glTF 2.0: sampler]
 enum class Filter : std::uint8_t { kNearest, kLinear };
 
 /// glTF's sampler words; the defaults are glTF's.

@@ -12,7 +12,7 @@
 
 namespace kaamos::effects {
 
-/// What of one material is replaced.
+/// The values of one material that are replaced.
 struct MaterialOverride {
   std::string name;                                   ///< of the material
   std::vector<std::pair<std::string, float>> values;  ///< by key, in the order they were given

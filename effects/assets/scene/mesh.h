@@ -36,7 +36,7 @@ inline constexpr std::uint32_t kUvOffset = offsetof(Vertex, uv);
 /// A vertex colour and its opacity, linear, 65535 = 1: the base colour times this. Only meshes that
 /// have colours pay for them.
 using VertexColor = glm::u16vec4;
-/// What a vertex without a colour has.
+/// The colour of a vertex that has none.
 inline constexpr VertexColor kWhite{65535, 65535, 65535, 65535};
 
 /// Root constants of a hit group's local root signature: how to read the two root SRVs of a
@@ -60,8 +60,8 @@ static_assert(sizeof(HitConstants) == 32);
 struct Geometry {
   std::uint32_t first_vertex = 0;  ///< in Mesh::vertices; indices count from here
   std::uint32_t vertex_count = 0;  ///< from first_vertex on
-  /// Where the indices start in Mesh::indices: a multiple of 16, as raw views have to. A shader may
-  /// read 4-byte words up to the next multiple of 4 after the last index.
+  /// The start of the indices in Mesh::indices: a multiple of 16, as raw views have to. A shader
+  /// may read 4-byte words up to the next multiple of 4 after the last index.
   std::uint32_t index_offset_bytes = 0;
   std::uint32_t index_count = 0;       ///< a multiple of 3
   std::uint32_t index_size_bytes = 4;  ///< 2 or 4
@@ -86,7 +86,7 @@ struct Bounds {
   glm::dvec3 size() const { return empty() ? glm::dvec3(0.0) : max - min; }
 };
 
-/// Which joints of its instance's skin move a vertex. Weights sum to 1; unused ones are 0.
+/// The joints of its instance's skin that move a vertex. Weights sum to 1; unused ones are 0.
 struct SkinVertex {
   glm::u16vec4 joints{0};         ///< in Skin::joints
   glm::vec4 weights{1, 0, 0, 0};  ///< of these joints, 0 to 1

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What is rendered: meshes, instances, materials, pictures, lights, cameras, sky. It is plain data
-/// on the host, from which acceleration structures and buffers are made. Right-handed, +Y up,
-/// metres, linear colours. World positions and transforms are doubles, because they are made
+/// The scene that is rendered: meshes, instances, materials, pictures, lights, cameras, sky. It is
+/// plain data on the host, from which acceleration structures and buffers are made. Right-handed,
+/// +Y up, metres, linear colours. World positions and transforms are doubles, because they are made
 /// relative to the camera before they are rounded to float.
 #pragma once
 
@@ -27,11 +27,12 @@ enum InstanceMask : std::uint8_t {
   /// Shows a lamp of the scene, whose light is counted as the lamp's: the camera and mirrors see
   /// it, all other rays pass through it.
   kMaskEmissiveProxy = 0x10,
-  /// What the bake of indirect light sees. Not set by hand: instance_mask follows is_baked.
+  /// Instances that the bake of indirect light sees. Not set by hand: instance_mask follows
+  /// is_baked.
   kMaskBaked = 0x20,
 };
 
-/// What an acceleration structure is built for. [Northlight deck: Build Flags]
+/// The use that an acceleration structure is built for. [Northlight deck: Build Flags]
 enum class BuildClass : std::uint8_t {
   kStatic,      ///< FAST_TRACE, compacted, shared by all instances of the mesh
   kDeformable,  ///< FAST_BUILD | ALLOW_UPDATE
@@ -54,17 +55,17 @@ struct Instance {
   glm::dmat4 transform{1.0};        ///< object to world, affine
   std::uint8_t mask = kMaskOpaque;  ///< InstanceMask bits
   Motion motion = {};               ///< none by default: it stands still
-  /// How the structure of a skinned instance is kept; kStatic counts as kDeformable there.
+  /// The class for the structure of a skinned instance; kStatic counts as kDeformable there.
   BuildClass build_class = BuildClass::kStatic;
 };
 
-/// Whether the bake of indirect light sees an instance: one that stands still and is neither glass
-/// nor the shape of a lamp.
+/// Returns whether the bake of indirect light sees an instance: one that stands still and is
+/// neither glass nor the shape of a lamp.
 bool is_baked(const Instance& instance);
 /// The mask of an instance in the top level: its own, and kMaskBaked where is_baked says so.
 std::uint8_t instance_mask(const Instance& instance);
 
-/// How a light shines. [KHR_lights_punctual]
+/// The way in which a light shines. [KHR_lights_punctual]
 enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
 
 /// The upper three rows of the transform, as a DXR instance record and HLSL's ObjectToWorld3x4()
@@ -77,7 +78,7 @@ glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin = g
 /// flag than the rest, but glTF's fronts of a mirrored node are the other side.
 bool is_mirrored(const Instance& instance);
 
-/// What a spot throws on what it lights.
+/// The picture that a spot throws on what it lights.
 struct ProjectionMap {
   std::uint32_t image = 0;    ///< in Scene::images
   std::uint32_t sampler = 0;  ///< in Scene::samplers
@@ -132,9 +133,9 @@ struct Camera {
   double vertical_fov = 0.9;        ///< full angle, 0..pi exclusive
   double near_plane = 0.05;         ///< metres; scales stored depths, cuts nothing off
 
-  /// Where it stands, world space.
+  /// Returns where it stands, in world space.
   glm::dvec3 position() const { return glm::dvec3(camera_to_world[3]); }
-  /// Where it looks, unit.
+  /// Returns where it looks, as a unit vector.
   glm::dvec3 forward() const { return -glm::dvec3(camera_to_world[2]); }
 };
 

@@ -278,7 +278,7 @@ TEST(Oracle, FormulasAgreeWithIntegration) {
   EXPECT_EQ(penumbra_visibility(1.0, 0.05, -1.0), 0.0);
 }
 
-/// Whether a ray hits the triangle, computed in float as an intersector would.
+/// Returns whether a ray hits the triangle, computed in float as an intersector would.
 bool hits(const glm::vec3& o, const glm::vec3& d, const glm::vec3& a, const glm::vec3& b,
           const glm::vec3& c) {
   const glm::vec3 e1 = b - a, e2 = c - a, p = glm::cross(d, e2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What scene files often lack: camera, sun, sky, ground.
+/// Makes what scene files often lack: camera, sun, sky, ground.
 #pragma once
 
 #include "effects/assets/scene/scene.h"
