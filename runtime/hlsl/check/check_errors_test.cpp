@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker refuses or warns about, with line and column: `@` marks the place.
+// Tests what the checker refuses or warns about, with line and column: `@` marks the place.
 #include <gtest/gtest.h>
 
 #include "runtime/hlsl/check/check_test_support.h"
@@ -401,7 +401,7 @@ TEST(CheckPayloads, NoWarningWhereEveryPathHasAValue) {
             "");
 }
 
-// What a closest-hit shader writes into its copy matters if it passes the payload on.
+// A closest-hit shader's write to its copy matters if it passes the payload on.
 TEST(CheckPayloads, AWriteForANestedTraceIsNotDropped) {
   EXPECT_EQ(payload_messages("int a : read(miss, caller) : write(caller, miss);",
                              "[shader(\"closesthit\")]\n"

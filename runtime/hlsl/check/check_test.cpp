@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker makes of a text: types, overloads, evaluation order, exports, registers.
+// Tests what the checker makes of a text: types, overloads, evaluation order, exports, registers.
 #include "runtime/hlsl/check/check.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ const ir::Binding* binding(const Compilation& compilation, std::string_view name
   return nullptr;
 }
 
-// Which overload a call picks; each returns a different number.
+// Returns which overload a call picks; each returns a different number.
 std::string picked(const std::string& functions, const std::string& call) {
   const Compilation compilation(kernel("results.Store(0, " + call + ");", functions));
   if (!compilation.module) return compilation.messages();
@@ -419,7 +419,7 @@ TEST(Speed, MostlyDeadLibrary) {
   EXPECT_NE(compilation.module, nullptr) << compilation.messages();
 }
 
-// What DXC accepts with a warning.
+// DXC accepts these with a warning, so strict mode does, too.
 TEST(CheckStrict, RefusesNothingThatDxcTakes) {
   using Id = DiagnosticId;
   FrontendOptions options;

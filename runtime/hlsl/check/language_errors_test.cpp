@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the checker says about interfaces, auto, loop variables, vertex and pixel shaders: `@` marks
-// the place.
+// Tests what the checker says about interfaces, auto, loop variables, vertex and pixel shaders: `@`
+// marks the place.
 #include "runtime/hlsl/check/marked_test_support.h"
 
 namespace kaamos::hlsl {
@@ -190,7 +190,8 @@ TEST(GraphicsStages, AreInTheModule) {
   EXPECT_EQ(compilation.module->entry_points[2].name, "Rays");
 }
 
-// What a pixel shader shares with other stages is made twice, so that theirs does not change.
+// A function that a pixel shader shares with other stages is made twice, so that theirs does not
+// change.
 TEST(GraphicsStages, SharedFunctionsAreCopied) {
   const Compilation compilation(
       "Texture2D t;\nSamplerState s;\nRWByteAddressBuffer r : register(u0);\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the checker refuses or warns about in uses of resources, with line and column: `@` marks the
-// place.
+// Tests what the checker refuses or warns about in uses of resources, with line and column: `@`
+// marks the place.
 #include <gtest/gtest.h>
 
 #include <algorithm>

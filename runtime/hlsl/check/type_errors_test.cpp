@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker refuses about types and their values: `@` marks the place.
+// Tests what the checker refuses about types and their values: `@` marks the place.
 #include "runtime/hlsl/check/marked_test_support.h"
 
 namespace kaamos::hlsl {

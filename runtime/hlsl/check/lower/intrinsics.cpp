@@ -29,7 +29,7 @@ bool takes_floats_only(IntrinsicShape shape) {
          shape == S::kFloatToHalf;
 }
 
-// How many arguments a function of numbers takes that has no IntrinsicRule; 0: it is none.
+// Returns how many arguments a function of numbers takes that has no IntrinsicRule; 0: it is none.
 size_t other_arguments(std::string_view name) {
   if (name == "mul" || name == "and" || name == "or" || name == "modf" || name == "frexp") return 2;
   if (name == "select" || name == "sincos") return 3;

@@ -19,8 +19,8 @@ class Intrinsics : LowerPart {
  public:
   using LowerPart::LowerPart;
 
-  // What the conversions of a call's arguments cost where the function takes numbers; none if it
-  // takes others, or these arguments do not fit.
+  // Returns what the conversions of a call's arguments cost where the function takes numbers; none
+  // if it takes others, or these arguments do not fit.
   std::optional<ConversionCost> cost_of_builtin(std::string_view name,
                                                 const std::vector<Value>& arguments);
   std::optional<Value> call_builtin(const NamePart& part, std::vector<Value>& arguments,

@@ -17,8 +17,8 @@ const ir::Expr* Locals::initial_value(const Expr* initialiser, const Type* type)
   return lower_.conversions.convert(value, type, initialiser->location);
 }
 
-// Whether it is a temporary that nothing else reads, so that the variable it initialises can take
-// its place.
+// Returns whether the value is a temporary that nothing else reads, so that the variable it
+// initialises can take its place.
 bool Locals::is_result_of_last_call(const ir::Expr* value) const {
   return value && value->kind == ir::ExprKind::kVariable && value->variable == body_.call_result &&
          !body_.block->empty() && body_.block->back()->kind == ir::StmtKind::kCall &&

@@ -41,7 +41,7 @@ Value Multisampled::index_multisampled(const Value& base, const Value& index,
   Value use = multisampled_use(type->element, location);
   use.is_const = true;
   if (!traits.is_writable) return use;
-  // What is written goes nowhere.
+  // A write to this place goes nowhere.
   Value place = rvalue(build_.read(body_.empty_temporary(type->element->ir)), type->element);
   place.is_place = true;
   return place;

@@ -53,7 +53,7 @@ std::string_view spelling(BinaryOp op) {
   return kSpellings[static_cast<size_t>(op)];
 }
 
-// What an enum and another operand are both converted to.
+// Returns the type that an enum and another operand are both converted to.
 Scalar beside_enum(Scalar other) {
   if (other == Scalar::kLiteralFloat) return Scalar::kFloat32;
   return other == Scalar::kBool || other == Scalar::kLiteralInt ? Scalar::kInt32 : other;

@@ -74,8 +74,8 @@ TEST(OverloadTables, AreTwo) {
   EXPECT_EQ(tables[1].targets.size(), 10u);
 }
 
-// What a call with one of two overloads does, for every type of argument and every two types of
-// parameters, is what the table says.
+// A call with one of two overloads does what the table says, for every type of argument and every
+// two types of parameters.
 TEST_P(OverloadTable, DecidesBetweenEveryTwoTypes) {
   const CostTable table = written_tables()[GetParam()];
   for (const auto& [from, cells] : table.rows) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What needs the quad of a pixel shader: derivatives, implicit levels of detail; and clip. What is
-// made of them here stays an expression until it is known which stages reach it.
+// Lowers what needs the quad of a pixel shader: derivatives, implicit levels of detail; and clip.
+// What is made of them here stays an expression until it is known which stages reach it.
 // [builder/finish/pixel_functions.h]
 #pragma once
 

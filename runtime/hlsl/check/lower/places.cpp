@@ -25,7 +25,7 @@ Value Places::place(const ir::Variable* variable, const Type* type, bool is_cons
   return value;
 }
 
-// Whether no later statement can change the expression's value.
+// Returns whether no later statement can change the expression's value.
 bool Places::is_fixed(const ir::Expr* expr) {
   switch (expr->kind) {
     case ir::ExprKind::kVariable:

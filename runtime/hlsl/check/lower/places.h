@@ -19,7 +19,7 @@ class Places : LowerPart {
   Value place(const ir::Variable* variable, const Type* type, bool is_const);
   const ir::Expr* load(const Value& value);
   void store(const Value& target, const ir::Expr* value);
-  // Where a component of a numeric place in memory is, counted from the place.
+  // Returns where a component of a numeric place in memory is, in bytes counted from the place.
   static uint32_t component_bytes(const Value& target, uint32_t component);
   Value field_of(const Value& base, uint32_t index, const Type* type);
   Value base_of(const Value& value, StructInfo* base);

@@ -39,7 +39,7 @@ bool uses_variable(const ir::Block& body, const ir::Variable* variable) {
 
 }  // namespace
 
-// Whether the end of the block is unreachable.
+// Returns whether the end of the block is unreachable.
 bool Statements::ends(const ir::Block& body) {
   if (body.empty()) return false;
   const ir::Stmt* last = body.back();

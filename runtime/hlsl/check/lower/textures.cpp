@@ -251,7 +251,7 @@ Value Textures::call_dimensions(const Value& object, std::vector<Value>& argumen
   using K = ir::ResourceKind;
   const Type* type = object.type;
   const ResourceTraits& traits = traits_of(type->resource);
-  // Which component of ir::ExprKind::kDimensions goes to each output.
+  // For each output, the component of ir::ExprKind::kDimensions that goes to it.
   std::vector<uint8_t> outputs;
   bool has_mips = is_sampled_texture(type->resource);
   if (has_elements(type->resource)) {

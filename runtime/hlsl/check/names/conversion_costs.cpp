@@ -69,8 +69,8 @@ Scalar integer(int bits, bool is_unsigned, bool min_precision) {
   return is_unsigned ? Scalar::kUint32 : Scalar::kInt32;
 }
 
-// Whether a value of `from` becomes one of `to` that has more bits and is of the same kind. Signed
-// and unsigned count as the same kind, unless they are min16 types.
+// Returns whether a value of `from` becomes one of `to` that has more bits and is of the same kind.
+// Signed and unsigned count as the same kind, unless they are min16 types.
 bool is_promotion(Scalar from, Scalar to) {
   if (from == to || is_untyped(from) || is_untyped(to)) return false;
   if (is_floating(from) != is_floating(to)) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What implicit conversions cost when overloads are chosen. The table is in OVERLOADS.md.
+// The costs of implicit conversions when overloads are chosen. The table is in OVERLOADS.md.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a declaration of any kind adds to a scope; what is built in.
+// Adds to a scope what a declaration of any kind declares, and what is built in.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What names ask about expressions: a size, a template argument or the type of `auto` may be any
-// expression, and the lowerer knows what it is.
+// Answers what names ask about expressions: a size, a template argument or the type of `auto` may
+// be any expression, and the lowerer knows what it is.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class Evaluator {
                                                   std::string_view purpose,
                                                   const Type** type = nullptr) = 0;
   virtual Value value_of(const Expr* expression, Scope* scope) = 0;
-  // How many scalars, vectors and so on the list gives. [flat_component_count]
+  // Returns how many scalars, vectors and so on the list gives. [flat_component_count]
   virtual uint64_t component_count(const InitListExpr* list, Scope* scope) = 0;
 };
 

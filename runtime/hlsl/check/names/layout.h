@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where members are in memory, for the checker's types; the rules are in ir/layout.h.
+// Computes where members are in memory, for the checker's types; the rules are in ir/layout.h.
 #pragma once
 
 #include <cstdint>

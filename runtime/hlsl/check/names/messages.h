@@ -35,7 +35,7 @@ class Messages {
   ir::Location locate(SourceLocation location);
   const SourceManager& sources() const { return sources_; }
 
-  // What DXC refuses is an error, not a warning.
+  // Sets whether what DXC refuses is an error instead of a warning.
   void set_strict(bool strict) { strict_ = strict; }
   // While something is tried that may fail, messages are only counted.
   void mute() { ++muted_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What bodies ask about names: the lowerer knows nothing else of how they are declared.
+// Answers what bodies ask about names: the lowerer knows nothing else of how they are declared.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ class Names {
   virtual void add_variable(Scope* scope, std::string_view name, SourceLocation location,
                             VariableInfo* variable) = 0;
   virtual Symbol* find_local(Scope* scope, std::string_view name) = 0;
-  // What keeps variables and functions from having the name in this scope.
+  // Returns what keeps variables and functions from having the name in this scope.
   virtual Symbol* find_taken(Scope* scope, std::string_view name) = 0;
   virtual Symbol* find(Scope* scope, std::string_view name) = 0;
   virtual Symbol* find_member(StructInfo* structure, std::string_view name) = 0;
@@ -72,7 +72,7 @@ class Names {
                                              Scope* use_scope,
                                              const std::vector<Value>& arguments) = 0;
   virtual FunctionInfo* copy_function(const FunctionInfo& function) = 0;
-  // Whether it may be a function of another library, without a body here.
+  // Returns whether it may be a function of another library, without a body here.
   virtual bool is_importable(const FunctionInfo& function) const = 0;
   virtual void make_import(FunctionInfo* function, SourceLocation use) = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a check is told: the options of a library, and libraries that are linked.
+// The input of a check besides the source: the options of a library, and libraries that are linked.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct CheckOptions {
   // Before HLSL 2021, logical operators and ?: work on vectors and always evaluate both sides.
   // [-HV]
   uint32_t hlsl_version = 2021;
-  // Whether payload access qualifiers take effect. [-enable-payload-qualifiers,
+  // True if payload access qualifiers take effect. [-enable-payload-qualifiers,
   // -disable-payload-qualifiers]
   bool payload_qualifiers = false;
   bool strict = false;  // what DXC refuses is an error, not a warning

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What names and types mean, as they are written at a place in the source.
+// Resolves what names and types mean, as they are written at a place in the source.
 #pragma once
 
 #include <optional>

@@ -8,7 +8,7 @@
 
 namespace kaamos::hlsl {
 
-// What an unknown name was probably meant to be; empty if there is no guess.
+// Returns what an unknown name was probably meant to be; empty if there is no guess.
 std::string Scopes::similar_name(std::string_view text, Scope* scope, bool with_outer) {
   if (text.size() > 64) return {};
   size_t best = (text.size() <= 4 ? 1 : 2) + 1;

@@ -24,7 +24,7 @@ class Scopes {
   Scope* make_scope(ScopeKind kind, Scope* parent, std::string_view name = {});
   Symbol* add_symbol(Scope* scope, SymbolKind kind, std::string_view name, SourceLocation location);
   Symbol* find_local(Scope* scope, std::string_view name);
-  // What keeps variables and functions from having the name in this scope.
+  // Returns what keeps variables and functions from having the name in this scope.
   Symbol* find_taken(Scope* scope, std::string_view name);
   Symbol* find_in_scope(Scope* scope, std::string_view name, bool check_order);
   Symbol* find_member(StructInfo* structure, std::string_view name);

@@ -9,7 +9,7 @@
 
 namespace kaamos::hlsl {
 
-// Whether the types and directions agree.
+// Returns whether the types and directions agree.
 bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other);
 // As in messages: "float f(inout Payload)".
 std::string describe(const FunctionInfo& function);

@@ -70,7 +70,7 @@ bool Specializations::match_partial(StructTemplate* structure, const StructDecl*
     }
   }
   if (!parts_.templates.complete_arguments(parameters, structure->scope, found)) return false;
-  // What the pattern means with these values must be what was asked for.
+  // With these values the pattern must mean what was asked for.
   TemplateValues meant;
   const auto primary = structure->decl->template_parameters;
   Scope* scope = parts_.templates.template_scope(parameters, found, structure->scope);

@@ -24,7 +24,7 @@ bool has_memory(const Type* type) {
 
 }  // namespace
 
-// What is known about the variable while its parts are made.
+// The facts about the variable that are known while its parts are made.
 struct SplitStructs::SplitPlan {
   const VariableDecl* decl;
   BindingInfo* buffer;

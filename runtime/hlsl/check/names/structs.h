@@ -26,7 +26,7 @@ class Structs : NamesPart {
   void reuse_struct(StructInfo* info);
 
   std::set<std::string> names_;
-  // Of libraries that are linked.
+  // The structs of libraries that are linked.
   std::unordered_multimap<std::string, const StructInfo*> by_name_;
 };
 

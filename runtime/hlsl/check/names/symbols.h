@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the checker knows about names (bindings, variables, functions, scopes), and the values that
+// The checker's knowledge about names (bindings, variables, functions, scopes), and the values that
 // expressions evaluate to.
 #pragma once
 
@@ -194,14 +194,14 @@ struct Value {
   const FieldInfo* bits = nullptr;  // a bit field of the place, which has the type of its unit
   bool is_sampler_heap = false;
   const InitListExpr* init_list = nullptr;
-  // What the place held when it was evaluated, if a later argument may have changed it.
+  // The value that the place held when it was evaluated, if a later argument may have changed it.
   const ir::Expr* saved = nullptr;
   SourceLocation location;
 
   bool failed() const { return kind == ValueKind::kError; }
 };
 
-// Whether a type says `const` anywhere.
+// Returns whether a type says `const` anywhere.
 bool is_const_type(const TypeSyntax* syntax);
 
 struct ConversionRank {

@@ -146,7 +146,7 @@ class TypeTable {
   const Type* with_scalar(const Type* shape, Scalar scalar);
   const Type* array(const Type* element, uint32_t count);
   const Type* resource(ir::ResourceKind kind, const Type* element, bool written = true);
-  // What a texel of that type holds: two 32-bit components for each of 64 bits.
+  // Returns what a texel of that type holds: two 32-bit components for each of 64 bits.
   const Type* texel_of(const Type* element);
   const Type* ray_query(uint32_t flags);
   const Type* structure(StructInfo* info);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every part of the checker makes the module with.
+// The tools with which every part of the checker makes the module.
 #pragma once
 
 #include <memory>

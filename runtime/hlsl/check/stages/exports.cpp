@@ -24,7 +24,7 @@ std::vector<std::string> Exports::export_names(const FunctionInfo* function) {
   return names;
 }
 
-// What a library exports that is not an entry point. [-default-linkage external, -exports]
+// Returns what a library exports that is not an entry point. [-default-linkage external, -exports]
 std::vector<Exported> Exports::exported_functions(uint32_t unit) {
   const CheckOptions* const before = program_.options;
   program_.enter_unit(unit);

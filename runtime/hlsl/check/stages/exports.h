@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a library exports, and by which names.
+// Finds what a library exports, and by which names.
 #pragma once
 
 #include <cstdint>

@@ -25,8 +25,8 @@ bool is_generated(SystemValue value) {
          value == SystemValue::kBarycentrics;
 }
 
-// How many vectors of four components the elements fill: each goes to the first one of its kind
-// that has room.
+// Returns how many vectors of four components the elements fill: each goes to the first one of its
+// kind that has room.
 uint32_t count_vectors(const std::vector<ir::SignatureElement>& elements, bool shares) {
   struct Vector {
     const ir::SignatureElement* first;
@@ -62,7 +62,7 @@ class GraphicsSignature : StagePart {
     const Semantic* semantic = nullptr;
     uint32_t next = 0;
   };
-  // Where a value stands in the source.
+  // The place of a value in the source.
   struct Source {
     SourceLocation location;
     std::string_view name;

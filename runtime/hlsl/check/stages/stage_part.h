@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the parts that make entry points share.
+// The base that the parts which make entry points share.
 #pragma once
 
 #include <initializer_list>

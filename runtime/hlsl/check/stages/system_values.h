@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the semantics of vertex and pixel shaders mean.
-// [HLSL: Semantics; DXIL: Semantic Interpretations]
+// The meanings of the semantics of vertex and pixel shaders. [HLSL: Semantics; DXIL: Semantic
+// Interpretations]
 #pragma once
 
 #include <string_view>
@@ -27,7 +27,7 @@ struct SemanticRule {
 // `base` is a semantic without its number. Case does not count.
 SemanticRule find_semantic(std::string_view base, SignaturePoint point);
 
-// Whether a system value can have that type; `wanted` says which it can have.
+// Returns whether a system value can have that type; `wanted` says which it can have.
 bool fits_system_value(shader::SystemValue value, const Type* type, std::string_view& wanted);
 
 bool same_letters(std::string_view a, std::string_view b);
