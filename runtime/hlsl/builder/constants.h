@@ -25,7 +25,7 @@ std::optional<uint64_t> fold_unary(ir::UnaryOp op, Scalar scalar, uint64_t opera
 
 // The components of a numeric expression in row-major order, if all of them are known.
 std::optional<std::vector<uint64_t>> evaluate(const ir::Expr* expression);
-// Whether the expression, which may be an array or a struct, is known at compile time.
+// Returns whether the expression, which may be an array or a struct, is known at compile time.
 bool is_constant(const ir::Expr* expression);
 
 }  // namespace kaamos::hlsl

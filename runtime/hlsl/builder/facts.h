@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a front end learns about functions, globals and resources while it lowers them, and what
-// finish/ makes a module of. A front end derives its own structs, with what it knows besides.
+// The facts that a front end learns about functions, globals and resources while it lowers them.
+// finish/ makes a module of them. A front end derives its own structs, with what it knows besides.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace kaamos::hlsl {
 
-// Where the source says something: a number that only the front end understands.
+// A place in the source: a number that only the front end understands.
 using SourcePlace = uint32_t;
 
 // An operation that only some stages allow.
@@ -45,7 +45,7 @@ struct BindingFacts {
   std::vector<ir::Expr*> uses;
 };
 inline constexpr uint64_t kUnboundedCount = 0xFFFFFFFFu;
-// Of registers, by BindingFacts::register_class.
+// The letters of registers, by BindingFacts::register_class.
 inline constexpr char kClassLetters[] = {'t', 'u', 'b', 's'};
 
 struct FunctionFacts;

@@ -47,7 +47,7 @@ struct PayloadLeaf {
 // Those of a struct, in the order of declaration.
 using PayloadLeaves = std::vector<PayloadLeaf>;
 
-// Whether the stage may read and write every field, so that nothing needs a separate copy.
+// Returns whether the stage may read and write every field, so that nothing needs a separate copy.
 bool all_access(const PayloadLeaves& leaves, uint8_t stage);
 
 // The statements that trace with a payload object of its own: what the caller may not write does

@@ -40,7 +40,7 @@ struct ModuleFacts {
   bool reserve_unused = false;  // registers of bindings that nothing reads are not given to others
 };
 
-// What is wrong with a module as a whole. The front end has the words for it.
+// Takes reports of what is wrong with a module as a whole. The front end has the words for them.
 class FinishReport {
  public:
   virtual ~FinishReport() = default;

@@ -8,7 +8,7 @@ namespace {
 
 using shader::WaveOp;
 
-// What the operation gives in a wave of one lane.
+// Returns what the operation gives in a wave of one lane.
 const ir::Expr* value_in_lone_lane(IrBuilder& build, const ir::Stmt& wave) {
   const ir::Type* type = wave.result->type;
   const ir::Expr* value = wave.operands.empty() ? nullptr : wave.operands[0];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What becomes of operations of several threads where a thread is alone: those of waves in ray
-// tracing and vertex shaders, and levels of detail without derivatives.
+// Replaces operations of several threads where a thread is alone: those of waves in ray tracing and
+// vertex shaders, and levels of detail without derivatives.
 #pragma once
 
 #include "runtime/hlsl/builder/facts.h"

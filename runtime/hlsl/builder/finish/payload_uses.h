@@ -14,7 +14,7 @@
 
 namespace kaamos::hlsl {
 
-// Where a payload is passed to TraceRay.
+// A payload that is passed to TraceRay, and the place where that happens.
 struct TracePayload {
   const ir::Variable* variable = nullptr;
   const ir::Struct* structure = nullptr;
@@ -23,7 +23,8 @@ struct TracePayload {
 
 struct PayloadFacts {
   std::unordered_map<const ir::Struct*, PayloadLeaves> structs;  // those with access qualifiers
-  // Where the source names a field of a payload struct, and where it passes one to TraceRay.
+  // The places where the source names a field of a payload struct, and where it passes one to
+  // TraceRay.
   std::unordered_map<const ir::Expr*, SourcePlace> accesses;
   std::unordered_map<const ir::Stmt*, TracePayload> traces;
 };

@@ -26,7 +26,7 @@ using shader::WaveOp;
 
 namespace {
 
-// How many variables an expression may replace by their values.
+// An expression may replace at most this many variables by their values.
 constexpr int kMostReplaced = 8;
 
 class PixelFunctions {
@@ -434,7 +434,7 @@ class PixelFunctions {
   ir::Block* out_ = nullptr;
 };
 
-// What the functions that an entry point reaches can do.
+// Returns what the functions that an entry point reaches can do, as flags.
 uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& seen) {
   if (!seen.insert(&function).second) return 0;
   uint32_t flags = 0;

@@ -94,7 +94,7 @@ void check_overlaps(const ir::Module& module, const ModuleFacts& facts, FinishRe
       for (size_t j = i + 1; j < entry.bindings.size(); ++j) {
         const BindingFacts& a = *by_index[entry.bindings[i]];
         const BindingFacts& b = *by_index[entry.bindings[j]];
-        // What two libraries declare may be the same resource.
+        // Bindings that two libraries declare may be the same resource.
         const bool overlap = a.unit == b.unit && a.register_class == b.register_class &&
                              a.space == b.space && a.register_index < end_of(b) &&
                              b.register_index < end_of(a);
