@@ -18,8 +18,8 @@ using shader::DescriptorKind;
 using shader::RegisterClass;
 using shader::SlotSource;
 
-// How many descriptors of an array are examined for acceleration structures. An array may have room
-// for far more than is ever indexed.
+// At most this many descriptors of an array are examined for acceleration structures. An array may
+// have room for far more than is ever indexed.
 constexpr uint32_t kMostDescriptors = 1024;
 
 struct Heap {

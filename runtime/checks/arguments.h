@@ -11,7 +11,7 @@
 
 namespace kaamos::checks {
 
-// Where to find the arguments of a shader.
+// The places where the arguments of a shader are found.
 struct Arguments {
   const uint8_t* global = nullptr;               // kRootArgumentBytes
   const uint8_t* local = nullptr;                // null: no record

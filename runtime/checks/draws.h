@@ -28,7 +28,7 @@ class Draws {
   void created(const runtime::LinkedGraphics& pipeline);
   // Before the draw; counts it. `label` names the command.
   void check(const runtime::DrawCommand& command, const std::string& label);
-  // What became of it, while it is the last one checked.
+  // Takes the draw's counts and reports what became of it, while it is the last one checked.
   void drawn(const runtime::DrawCommand& command, const runtime::DrawCounts& counts);
   // The arguments of an ExecuteIndirect that draws.
   void check(const runtime::ExecuteIndirectCommand& command);
@@ -54,7 +54,7 @@ class Draws {
   bool draws_nothing_ = false;  // the draw's rectangles are empty, and it was said
   std::set<std::string> said_;
 
-  // What a pipeline's draws of this list came to, by its name.
+  // The outcome of a pipeline's draws of this list, by the pipeline's name.
   struct Drawn {
     bool arrived = false;
     uint64_t silent = 0;  // draws of which nothing arrived; the rest is of the first

@@ -168,7 +168,7 @@ void Layer::check(const runtime::ExecuteIndirectCommand& command) {
     hazards_.use(command.count->address(), ResourceStates::kIndirectArgument, "the count");
   }
   draws_.check(command);
-  // What is wrong with the arguments is reported when they are used.
+  // Mistakes in the arguments are reported when they are used.
   (void)runtime::execute_indirect(
       addresses_, command, label(), [&](const runtime::Command& dispatch, uint32_t) {
         const auto* rays = std::get_if<runtime::DispatchRaysCommand>(&dispatch);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What messages of checked mode call things.
+// The names that messages of checked mode give to things.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ const char* record_kind_name(runtime::RecordKind kind);  // "ray generation", "h
 // The record of a dispatch that contains an address: "hit group table record 7"; "ray generation
 // record"; "" if none does.
 std::string record_name(const rtapi::DispatchRaysDesc& desc, uint64_t address);
-// What a shader declares: "t1 \"vertices\"", "b0, space 1 \"material\"".
+// Names a binding as the shader declares it: "t1 \"vertices\"", "b0, space 1 \"material\"".
 std::string binding_name(const shader::BindingDesc& binding);
 // "Texture2DArray of uint", for shader::texture_shape().
 std::string texture_name(uint32_t shape);

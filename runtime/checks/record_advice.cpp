@@ -6,7 +6,7 @@
 namespace kaamos::checks {
 namespace {
 
-// How far to search for identifiers: no record is longer.
+// The bytes to search for identifiers; no record is longer.
 constexpr uint64_t kReach = 4096;
 
 }  // namespace

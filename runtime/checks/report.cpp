@@ -17,7 +17,7 @@ rtapi::Message make_message(Id id, const std::string& detail) {
   return errors::make_message(kTable, errors::public_id(id), detail);
 }
 
-// How many different findings of one command are kept apart; the rest are only counted.
+// At most this many different findings of one command are kept apart; the rest are only counted.
 constexpr size_t kMostKept = 256;
 
 }  // namespace

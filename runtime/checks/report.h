@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How checked mode reports. Whoever finds something (the layer in this folder, or a backend that
+// Reports for checked mode. Whoever finds something (the layer in this folder, or a backend that
 // reads what instrumented shader code left behind) hands it to the device's Reporter, which reports
 // it once with a count, and limits how many are reported per command. A finding never stops
 // anything: execution goes on as the conformance list says for the case.
@@ -33,7 +33,8 @@ errors::MessageTable message_table();
 class Reporter {
  public:
   using Sink = std::function<void(const rtapi::Message&)>;
-  // How many different findings per command are reported in full; the rest become a number.
+  // By default this many different findings per command are reported in full; the rest become a
+  // number.
   static constexpr uint32_t kDefaultLimit = 16;
 
   explicit Reporter(Sink sink, uint32_t limit = kDefaultLimit)

@@ -13,7 +13,7 @@ using rtapi::HasAny;
 using runtime::BuildFlags;
 using Type = rtapi::RaytracingAccelerationStructureType;
 
-// How many structures that no longer exist are remembered.
+// At most this many structures that no longer exist are remembered.
 constexpr size_t kMostGone = 4096;
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Which acceleration structures are where, what they were made of, and whether they may still be
-// used. It is kept apart from the backend's own map because it also remembers structures that are
-// gone, to say what happened to them. [DXR: Acceleration structure memory restrictions; Data rules]
+// Tracks which acceleration structures are where, what they were made of, and whether they may
+// still be used. It is kept apart from the backend's own map because it also remembers structures
+// that are gone, to say what happened to them. [DXR: Acceleration structure memory restrictions;
+// Data rules]
 #pragma once
 
 #include <array>
@@ -70,7 +71,7 @@ class Structures {
   // A command of the list wrote something else there.
   void written(uint64_t address, uint64_t size_bytes) { end_in(address, size_bytes, 0); }
 
-  // What is or was at exactly this address; null only for kNever and kBytesCopied.
+  // Returns what is or was at exactly this address; null only for kNever and kBytesCopied.
   const TrackedStructure* find(uint64_t address, StructureState& state) const;
   // Grows with every change to any structure.
   uint64_t version() const { return next_version_; }
@@ -83,7 +84,7 @@ class Structures {
   // bytes.
   void end_in(uint64_t address, uint64_t size_bytes, uint64_t by);
   uint64_t structure_bytes(uint64_t address) const;
-  // Where the structure whose bytes are at this address was built; 0: none.
+  // Returns where the structure whose bytes are at this address was built; 0: none.
   uint64_t copied_from(uint64_t address) const;
 
   const runtime::AddressMap& addresses_;

@@ -19,7 +19,7 @@ using runtime::LinkedShader;
 using runtime::RecordKind;
 using shader::TraceCall;
 
-// How a ray gets to a record, for messages.
+// The reason why a ray gets to a record, for messages.
 struct Reason {
   const TraceCall* call = nullptr;
   const LinkedShader* shader = nullptr;
@@ -40,8 +40,8 @@ std::string call_place(const TraceCall& call) {
   return " (" + file + ":" + std::to_string(call.line) + ")";
 }
 
-// Whether a ray with these flags needs any shader of the record; if it needs none, the record is
-// not reached. [DXR: TraceRay control flow]
+// Returns whether a ray with these flags needs any shader of the record; if it needs none, the
+// record is not reached. [DXR: TraceRay control flow]
 bool reaches(const TraceCall& call, const TrackedInstance& instance,
              const runtime::GeometryShape& geometry, uint32_t pipeline_flags) {
   enum : uint32_t {

@@ -20,7 +20,8 @@
 
 namespace kaamos::checks {
 
-// Whether two root signatures have the same parameters, samplers and flags; rtapi knows.
+// A function that tells whether two root signatures have the same parameters, samplers and flags;
+// rtapi knows.
 using SameDefinition = bool (*)(const rtapi::RootSignature&, const rtapi::RootSignature&);
 
 struct ProofInputs {

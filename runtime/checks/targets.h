@@ -32,7 +32,7 @@ class Targets {
   // Something else wrote to the texture.
   void written(const std::shared_ptr<runtime::BackendTexture>& texture);
 
-  // Whether check() said that nothing can pass the depth test of the last draw.
+  // Returns whether check() said that nothing can pass the depth test of the last draw.
   bool told_of_clear() const { return told_of_clear_; }
   // "was cleared to 0 and not drawn to since"; empty if something was drawn to it.
   std::string only_cleared(const runtime::TargetView& depth) const;
@@ -62,7 +62,7 @@ class Targets {
   std::set<const runtime::BackendTexture*> bound_before_;  // drawn to in this list
 };
 
-// Which depth test a draw has, if it has one.
+// Returns whether a draw has a depth test and a depth buffer for it.
 bool tests_depth(const runtime::DrawCommand& command);
 bool writes_depth(const runtime::DrawCommand& command);
 const char* comparison_name(rtapi::ComparisonFunc func);  // "LESS_EQUAL"

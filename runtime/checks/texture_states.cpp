@@ -139,7 +139,8 @@ std::string TextureStates::demand(const State& state, ResourceStates wanted) {
          state_name(wanted) + " first.";
 }
 
-// Whether a use in state `wanted` is allowed. If the use promotes the texture, notes its new state.
+// Returns whether a use in state `wanted` is allowed. If the use promotes the texture, notes its
+// new state.
 bool TextureStates::allows(State& state, ResourceStates wanted, const std::string& label) {
   if (state.state != ResourceStates::kCommon && (state.state & wanted) == wanted) return true;
   const bool read = is_read(wanted);

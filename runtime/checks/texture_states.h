@@ -46,13 +46,13 @@ class TextureStates {
   void use(const runtime::BackendTexture* texture, const Subresources& used,
            rtapi::ResourceStates wanted, const std::string& what, const std::string& label,
            Id id = Id::kResourceState, const std::string& hint = {});
-  // Whether all of it is in that state by now.
+  // Returns whether all of it is in that state by now.
   bool is_in(const runtime::BackendTexture* texture, const Subresources& used,
              rtapi::ResourceStates state);
   std::string name_of(const runtime::BackendTexture* texture);  // "texture \"depth\""
   // Null if the texture was made without one.
   std::optional<rtapi::ClearValue> optimized_clear(const runtime::BackendTexture* texture);
-  // Whether the view shows some of these subresources.
+  // Returns whether the view shows some of these subresources.
   bool shows(uint64_t key, const runtime::BackendTexture* texture, const Subresources& some);
   // The texture that it shows; null if it is gone.
   std::shared_ptr<runtime::BackendTexture> texture_of(uint64_t key);

@@ -22,7 +22,7 @@ struct UploadRange {
   std::string what;  // "draw 3, pipeline \"gbuffer\": the vertex buffer of slot 0"
 };
 
-// What the draws of a list read as vertices, indices and root descriptors, as it is now.
+// Returns what the draws of a list read as vertices, indices and root descriptors, as it is now.
 std::vector<UploadRange> read_uploads(const runtime::AddressMap& addresses,
                                       std::span<const runtime::Command> commands);
 // Reports those that have changed since.
