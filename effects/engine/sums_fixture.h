@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What ambient occlusion and the sun add their samples to, for tests that dispatch the passes
-// themselves.
+// The sums to which ambient occlusion and the sun add their samples, for tests that dispatch the
+// passes themselves.
 #pragma once
 
 #include "effects/engine/frame.h"

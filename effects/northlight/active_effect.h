@@ -27,7 +27,7 @@ struct EffectInputs {
   bool is_sorted = false;        ///< rays are sorted, where a pass has keys for them
 };
 
-/// What an effect writes, by signal.
+/// The pictures that an effect writes, by signal.
 struct SignalPictures {
   std::vector<rtapi::Texture> signals;    ///< sums, or final pictures
   std::vector<rtapi::Texture> sharpness;  ///< of visibility, else null
@@ -84,7 +84,7 @@ class ActiveEffect {
   const RayEffect* rays() const {
     return passes_.empty() ? nullptr : passes_.front()->pass->rays();
   }
-  /// What it writes; nothing: it has no passes.
+  /// Returns what it writes; nothing: it has no passes.
   const SignalPictures& pictures() const { return pictures_; }
   /// Samples that the sums hold.
   ///@{

@@ -102,7 +102,7 @@ RWTexture2D<uint2> g_ids : register(u7);          // instance + 1, primitive; 0:
 // it does not hit its own surface.
 RWTexture2D<float4> g_position : register(u8);
 
-// What the camera sees of the surfaces, the sky and glass.
+// The radiance that the camera sees of the surfaces, the sky and glass.
 RWTexture2D<float4> radiance : register(u9);
 
 // The place of the pixel's surface in the previous frame: xy is the offset from here in picture

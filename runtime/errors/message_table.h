@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tables of messages have in common. A layer's table is an .inc file of rows, each
+// The common part of the tables of messages. A layer's table is an .inc file of rows, each
 //   KAAMOS_MESSAGE(number, name, severity, code, title, rule, cure)
 // sorted by number. Including it with
 //   #define KAAMOS_MESSAGE(number, name, ...) name = number,
@@ -45,7 +45,7 @@ const MessageRow* find_row(MessageTable table, rtapi::ErrorId id);
 // Precondition: the table has the id.
 const MessageRow& row_of(MessageTable table, rtapi::ErrorId id);
 
-// What a message of the row begins with: "KA0504 title: ".
+// Returns the beginning of a message of the row: "KA0504 title: ".
 std::string head_of(const MessageRow& row);
 
 // "KA0504 title: detail". `detail` says what, where, the actual and the allowed value, what to do.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How messages write names and numbers.
+// Writes names and numbers as they stand in messages.
 #pragma once
 
 #include <cstdint>

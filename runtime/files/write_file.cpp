@@ -19,7 +19,7 @@ namespace {
 constexpr mode_t kPermissions = 07777;
 constexpr int kMostLinks = 40;  // as the kernel follows
 
-// Where a file goes: the target of all links of its path.
+// The place where a file goes: the target of all links of its path.
 struct Target {
   std::string path;
   bool in_place = false;  // no regular file, or one that somebody has open under this name

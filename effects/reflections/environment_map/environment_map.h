@@ -81,7 +81,7 @@ class EnvironmentFallback {
   /// Its part of EffectPass::begin_frame.
   /// @errors those of EnvironmentMap::set_origin.
   rtapi::Status begin_frame(const Camera& camera);
-  /// Whether there is a map.
+  /// True if there is a map.
   explicit operator bool() const { return map_.has_value(); }
   /// Bytes of its cubes.
   std::uint64_t bytes() const { return map_ ? map_->bytes() : 0; }

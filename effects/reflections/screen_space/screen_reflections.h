@@ -84,8 +84,8 @@ rtapi::Status check_screen_reflections(const ScreenReflectionConstants& constant
 /// @errors those of rtapi::Device::CreateBuffer.
 rtapi::Result<rtapi::Buffer> bind_instance_masks(const EffectScope& scope);
 
-/// What a march in the picture reads besides it: masks of instances, and what is seen where it
-/// finds nothing.
+/// The inputs that a march in the picture reads besides it: masks of instances, and what is seen
+/// where it finds nothing.
 class ScreenInputs {
  public:
   /// Checks the constants, binds the masks, and makes an environment map where the constants want

@@ -7,8 +7,8 @@
 
 // Samples that see the sun.
 RWTexture2D<float> sun_visibility_sum : register(u0, space3);
-// Of the others, summed up: 1 / radius of their penumbra, 1/m, in x, and how many were blocked by what
-// moves in z.
+// Sums over the other samples: 1 / radius of their penumbra, 1/m, in x, and how many were blocked
+// by what moves in z.
 RWTexture2D<float4> sun_sharpness_sum : register(u1, space3);
 
 float3 SunDirection(float2 tile, uint index) {

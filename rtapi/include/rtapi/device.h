@@ -151,7 +151,7 @@ class Device {
   /// buffer that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`,
   /// rounded up to 512, the others behind it. Appends to each vector that is not null one element
   /// for each subresource: the footprint, its rows per slice, the bytes of a row without padding.
-  /// Of a block-compressed format rows are rows of blocks, and footprints whole blocks large.
+  /// For a block-compressed format rows are rows of blocks, and footprints are whole blocks.
   /// Returns the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
   /// [D3D12: GetCopyableFootprints]
   /// @errors KA0817 more subresources than there are; KA0570, KA0571, KA0907-0909 as of

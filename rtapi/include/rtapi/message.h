@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a device says without being asked, see DeviceDesc::OnMessage.
+/// The messages that a device gives without being asked, see DeviceDesc::OnMessage.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace rtapi {
 
-/// How grave a message is.
+/// The severity of a message.
 enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
 
-/// What DeviceDesc::OnMessage is given.
+/// The message that DeviceDesc::OnMessage is given.
 struct Message {
   MessageSeverity Severity = MessageSeverity::kError;  ///< how grave it is
   ErrorId Id;                                          ///< KA0715 is number 715

@@ -92,8 +92,9 @@ constexpr bool gives_number(WaveOp op) {
          op == WaveOp::kPrefixCountBits || op == WaveOp::kMultiPrefixCountBits;
 }
 
-// What one caller, which is one thread or `width` neighbouring threads that run at once, brings to
-// an operation. Operands and results have component c of lane i at index c * width + i.
+// The operands and the path that one caller, which is one thread or `width` neighbouring threads
+// that run at once, brings to an operation. Operands and results have component c of lane i at
+// index c * width + i.
 //
 // The path says where the caller is, so that the backend can tell which lanes take part: of all
 // lanes of a wave that have come to an operation, those with the least path, compared like words.
