@@ -113,9 +113,8 @@ class Comparison {
     const std::string source =
         hlsl::emit_cpp(*module, {.entry_point = "cut"}) +
         hlsl::emit_cpp(*module, {.entry_point = "fibers", .split_groups = false});
-    std::string error;
-    const auto compiler = hlsl::find_host_compiler(error);
-    if (!compiler) throw std::runtime_error(error);
+    const auto compiler = hlsl::find_host_compiler();
+    if (!compiler) throw std::runtime_error(compiler.error());
     const auto object =
         hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull, folder_.path);
     if (object.error) throw std::runtime_error(object.error.message());
@@ -123,9 +122,10 @@ class Comparison {
     if (handle_ == nullptr) throw std::runtime_error(dlerror());
     cut_ = pipeline("cut", true);
     fibers_ = pipeline("fibers", false);
-    const auto interpreted = hlsl::InterpretedLibrary::create(module, {}, error);
-    if (interpreted == nullptr) throw std::runtime_error(error);
-    interpreted_ = pipeline(rtapi::LoadShaderLibrary(&interpreted->desc(), interpreted).value());
+    const auto interpreted = hlsl::InterpretedLibrary::create(module, {});
+    if (!interpreted) throw std::runtime_error(interpreted.error());
+    interpreted_ =
+        pipeline(rtapi::LoadShaderLibrary(&(*interpreted)->desc(), *interpreted).value());
   }
 
   rtapi::PipelineState pipeline(const char* name, bool is_cut) {

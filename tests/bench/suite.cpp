@@ -163,8 +163,7 @@ std::string format_line(const Line& line) {
          (line.higher_is_better ? "higher" : "lower");
 }
 
-bool parse_arguments(const std::vector<std::string>& arguments, Options& options,
-                     std::string& error) {
+std::string parse_arguments(const std::vector<std::string>& arguments, Options& options) {
   for (size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument == "--summary") {
@@ -187,27 +186,23 @@ bool parse_arguments(const std::vector<std::string>& arguments, Options& options
     } else if (argument == "--only" || argument == "--pairs" || argument == "--threads" ||
                argument == "--size" || argument == "--clock" || argument == "--precision") {
       if (i + 1 == arguments.size()) {
-        error = argument + " needs a value";
-        return false;
+        return argument + " needs a value";
       }
       std::string allowed;
       if (!parse_value(argument, arguments[++i], options, allowed)) {
-        error = argument + " is \"" + arguments[i] + "\", allowed is " + allowed;
-        return false;
+        return argument + " is \"" + arguments[i] + "\", allowed is " + allowed;
       }
     } else {
-      error = "unknown argument \"" + argument + "\"";
-      return false;
+      return "unknown argument \"" + argument + "\"";
     }
   }
-  return true;
+  return {};
 }
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& errors,
                 bool errors_are_terminal) {
   Options options;
-  std::string error;
-  if (!parse_arguments(arguments, options, error)) {
+  if (const std::string error = parse_arguments(arguments, options); !error.empty()) {
     errors << "kaamos-bench: error: " << error << ". kaamos-bench --help lists the arguments.\n";
     return 2;
   }

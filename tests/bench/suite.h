@@ -71,10 +71,9 @@ std::vector<Case> facade_cases();     // facade_cases.cpp; empty without the D3D
 std::vector<Case> vulkan_cases();     // vulkan_cases.cpp; empty where there is no Vulkan device
 std::vector<Case> raster_cases();     // raster_cases.cpp; last: they change how the heap grows
 
-// If it fails, `error` says which argument is wrong and what is allowed. `arguments` excludes the
-// program.
-bool parse_arguments(const std::vector<std::string>& arguments, Options& options,
-                     std::string& error);
+// Sets `options`. Returns which argument is wrong and what is allowed; "" if none is. `arguments`
+// excludes the program.
+std::string parse_arguments(const std::vector<std::string>& arguments, Options& options);
 
 // Runs the whole program; returns its exit status: 0, 1 if a case failed, 2 for wrong arguments.
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& errors,

@@ -178,15 +178,16 @@ class World {
 std::string interpret_input(std::shared_ptr<const hlsl::ir::Module> module) {
   hlsl::InterpretOptions options;
   options.step_limit = kSteps;
-  std::string error;
-  const auto library = hlsl::InterpretedLibrary::create(std::move(module), options, error);
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options);
   // A value too large for the stack is an error of its own kind; no other error may occur here.
-  if (library == nullptr) {
+  if (!interpreted) {
+    const std::string error = interpreted.error();
     return error.find("use a C++ compiler instead") != std::string::npos ? "" : error;
   }
-  World world(library->desc());
-  for (uint32_t i = 0; i < library->desc().export_count; ++i) {
-    const ExportDesc& code = library->desc().exports[i];
+  const shader::LibraryDesc& library = (*interpreted)->desc();
+  World world(library);
+  for (uint32_t i = 0; i < library.export_count; ++i) {
+    const ExportDesc& code = library.exports[i];
     if (code.stack_bytes <= kMaxStackBytes) world.run(code);
   }
   return {};

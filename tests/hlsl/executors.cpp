@@ -28,24 +28,26 @@ shader::AnyFn no_code() {
 
 }  // namespace
 
-std::unique_ptr<hlsl::ir::Module> compile_module(const hlsl::FrontendOptions& options,
-                                                 std::string& error) {
+hlsl::Result<std::unique_ptr<hlsl::ir::Module>> compile_module(
+    const hlsl::FrontendOptions& options) {
   hlsl::DiskFileLoader loader;
   hlsl::SourceManager sources(loader);
   hlsl::DiagnosticEngine diagnostics;
   auto module = hlsl::compile_to_ir(options, sources, diagnostics);
-  if (!module) error = hlsl::render_all(diagnostics, sources);
+  if (!module) return hlsl::Failure{hlsl::render_all(diagnostics, sources)};
   return module;
 }
 
 Compiled compile_interpreted(const hlsl::FrontendOptions& options) {
   Compiled out;
-  std::shared_ptr<const hlsl::ir::Module> module = compile_module(options, out.error);
+  auto module = compile_module(options);
+  out.error = module.error();
   if (!module) return out;
-  const auto library = hlsl::InterpretedLibrary::create(module, {}, out.error);
+  const auto library = hlsl::InterpretedLibrary::create(*std::move(module), {});
+  out.error = library.error();
   if (!library) return out;
-  out.library = &library->desc();
-  out.owner = library;
+  out.library = &(*library)->desc();
+  out.owner = *library;
   return out;
 }
 
@@ -55,11 +57,12 @@ std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& s
   const auto name_of = [](size_t i) { return "kaamos_test_native_" + std::to_string(i); };
   std::string text;
   for (size_t i = 0; i < sources.size(); ++i) {
-    const auto module = compile_module(sources[i], out[i].error);
-    if (module) text += hlsl::emit_cpp(*module, {.entry_point = name_of(i), .wide = wide});
+    const auto module = compile_module(sources[i]);
+    out[i].error = module.error();
+    if (module) text += hlsl::emit_cpp(**module, {.entry_point = name_of(i), .wide = wide});
   }
-  std::string error;
-  const auto compiler = hlsl::find_host_compiler(error);
+  const auto compiler = hlsl::find_host_compiler();
+  std::string error = compiler.error();
   hlsl::SharedObject object;
   if (compiler) {
     object = hlsl::build_shared_object(*compiler, text, hlsl::Optimisation::kFull,
@@ -81,10 +84,14 @@ std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& s
 
 Compiled compile_vulkan(const hlsl::FrontendOptions& options) {
   Compiled out;
-  std::shared_ptr<const hlsl::ir::Module> module = compile_module(options, out.error);
-  if (!module) return out;
+  auto compiled = compile_module(options);
+  out.error = compiled.error();
+  if (!compiled) return out;
+  const std::shared_ptr<const hlsl::ir::Module> module = *std::move(compiled);
   auto tables = std::make_shared<SpirvTables>();
-  tables->interpreted = hlsl::InterpretedLibrary::create(module, {}, out.error);
+  const auto interpreted = hlsl::InterpretedLibrary::create(module, {});
+  out.error = interpreted.error();
+  if (interpreted) tables->interpreted = *interpreted;
   tables->spirv = hlsl::compile_spirv(*module);
   if (tables->spirv.error) out.error = tables->spirv.error.message();
   if (!out.error.empty()) return out;

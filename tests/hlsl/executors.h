@@ -11,6 +11,7 @@
 
 #include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/ir/result.h"
 
 namespace kaamos::test {
 
@@ -20,8 +21,8 @@ struct Compiled {
   std::shared_ptr<const void> owner;  // keeps the library loaded; null if it stays loaded anyway
 };
 
-std::unique_ptr<hlsl::ir::Module> compile_module(const hlsl::FrontendOptions& options,
-                                                 std::string& error);
+hlsl::Result<std::unique_ptr<hlsl::ir::Module>> compile_module(
+    const hlsl::FrontendOptions& options);
 // For the interpreter of the intermediate representation, on the Embree backend.
 Compiled compile_interpreted(const hlsl::FrontendOptions& options);
 // To native code, all in one shared object that stays loaded: starting the C++ compiler costs more

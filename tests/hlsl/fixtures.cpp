@@ -200,14 +200,15 @@ std::vector<std::byte> run(const Device& device, const shader::LibraryDesc& libr
 
 }  // namespace
 
-std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
-                                     const uint32_t (&size)[3], std::string& error,
-                                     std::vector<std::string>* told, uint32_t wave_lanes) {
+hlsl::Result<std::vector<std::byte>> run_on_device(const std::string& backend,
+                                                   const shader::LibraryDesc& library,
+                                                   const uint32_t (&size)[3],
+                                                   std::vector<std::string>* told,
+                                                   uint32_t wave_lanes) {
   try {
     return run(single_threaded_device(backend, told, wave_lanes), library, size);
   } catch (const ResultError& failure) {
-    error = failure.what();
-    return {};
+    return hlsl::Failure{failure.what()};
   }
 }
 

@@ -23,6 +23,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/hlsl/ir/result.h"
+
 namespace kaamos::shader {
 struct LibraryDesc;
 }
@@ -33,9 +35,10 @@ namespace kaamos::test {
 // returns the contents of `results`. With `told`, uses a checked device and returns its errors and
 // warnings there, except that the library was not compiled for the device (it may be checked
 // already). `wave_lanes` is DeviceDesc::WaveLanes.
-std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
-                                     const uint32_t (&size)[3], std::string& error,
-                                     std::vector<std::string>* told = nullptr,
-                                     uint32_t wave_lanes = 0);
+hlsl::Result<std::vector<std::byte>> run_on_device(const std::string& backend,
+                                                   const shader::LibraryDesc& library,
+                                                   const uint32_t (&size)[3],
+                                                   std::vector<std::string>* told = nullptr,
+                                                   uint32_t wave_lanes = 0);
 
 }  // namespace kaamos::test

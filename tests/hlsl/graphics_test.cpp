@@ -437,10 +437,9 @@ TEST_P(GraphicsStage, Interpreted) {
   check(Way::kInterpreted);
 }
 TEST_P(GraphicsStage, HasSpirv) {
-  std::string error;
-  const auto module = compile_module(options_of(cases()[GetParam()]), error);
-  ASSERT_NE(module, nullptr) << error;
-  const hlsl::SpirvLibrary spirv = hlsl::compile_spirv(*module);
+  const auto module = compile_module(options_of(cases()[GetParam()]));
+  ASSERT_TRUE(module) << module.error();
+  const hlsl::SpirvLibrary spirv = hlsl::compile_spirv(**module);
   EXPECT_FALSE(spirv.error) << spirv.error.message();
 }
 

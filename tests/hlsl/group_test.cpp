@@ -275,10 +275,9 @@ hlsl::FrontendOptions options_of(const Case& test) {
 }
 
 std::unique_ptr<hlsl::ir::Module> module_of(const Case& test) {
-  std::string error;
-  auto module = compile_module(options_of(test), error);
-  EXPECT_EQ(error, "");
-  return module;
+  auto module = compile_module(options_of(test));
+  EXPECT_EQ(module.error(), "");
+  return module ? *std::move(module) : nullptr;
 }
 
 // All cases in one shared object: "cut_3", "fibers_3".
@@ -293,8 +292,7 @@ void* native_code() {
         source += hlsl::emit_cpp(*module, {.entry_point = name, .split_groups = split});
       }
     }
-    std::string error;
-    const auto compiler = hlsl::find_host_compiler(error);
+    const auto compiler = hlsl::find_host_compiler();
     if (!compiler) return nullptr;
     const auto object = hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull,
                                                   std::string(KAAMOS_BINARY_DIR) + "/shader-cache");
@@ -311,10 +309,9 @@ const shader::LibraryDesc* native_library(const std::string& name) {
 }
 
 std::vector<std::byte> run(const shader::LibraryDesc& library) {
-  std::string error;
-  const std::vector<std::byte> out = run_on_device("embree", library, {4, 1, 1}, error);
-  EXPECT_EQ(error, "");
-  return out;
+  const auto out = run_on_device("embree", library, {4, 1, 1});
+  EXPECT_EQ(out.error(), "");
+  return out ? *out : std::vector<std::byte>();
 }
 
 class Groups : public testing::TestWithParam<size_t> {};

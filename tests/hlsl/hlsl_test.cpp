@@ -60,11 +60,11 @@ hlsl::FrontendOptions options_of(const HlslTest& test, bool checked) {
   return options;
 }
 
-// The emitted C++ of a file; empty, with `error` set, if it does not compile.
-std::string emit(size_t index, bool checked, hlsl::WideThreads wide, std::string& error) {
-  const auto module = compile_module(options_of(all_tests()[index], checked), error);
-  return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index, checked), .wide = wide})
-                : std::string();
+// The emitted C++ of a file.
+hlsl::Result<std::string> emit(size_t index, bool checked, hlsl::WideThreads wide) {
+  const auto module = compile_module(options_of(all_tests()[index], checked));
+  if (!module) return hlsl::Failure{module.error()};
+  return hlsl::emit_cpp(**module, {.entry_point = unit_name(index, checked), .wide = wide});
 }
 
 // Tells whether a file is in the sample that checked executors run.
@@ -78,10 +78,13 @@ std::map<size_t, Compiled> compile_batch(size_t batch, bool checked, hlsl::WideT
   std::string source;
   const size_t end = std::min(all_tests().size(), (batch + 1) * kBatch);
   for (size_t i = batch * kBatch; i < end; ++i) {
-    if (!checked || in_checked_sample(i)) source += emit(i, checked, wide, out[i].error);
+    if (checked && !in_checked_sample(i)) continue;
+    const auto emitted = emit(i, checked, wide);
+    out[i].error = emitted.error();
+    if (emitted) source += *emitted;
   }
-  std::string error;
-  const auto compiler = hlsl::find_host_compiler(error);
+  const auto compiler = hlsl::find_host_compiler();
+  std::string error = compiler.error();
   hlsl::SharedObject object;
   if (compiler) {
     object = hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull,
@@ -159,14 +162,13 @@ std::string run(const Executor& executor, size_t index) {
   if (!test.error.empty()) return test.path + ": " + test.error;
   const Compiled code = executor.compile(index, executor.checked);
   if (code.library == nullptr) return code.error;
-  std::string error;
   std::vector<std::string> told;
-  const std::vector<std::byte> results = run_on_device(
-      executor.backend, *code.library, test.dispatch, error, executor.checked ? &told : nullptr);
-  if (!error.empty()) return test.path + ": " + error;
+  const auto results = run_on_device(executor.backend, *code.library, test.dispatch,
+                                     executor.checked ? &told : nullptr);
+  if (!results) return test.path + ": " + results.error();
   std::string wrong = executor.checked ? unexpected(test, told) : "";
   for (const Expectation& expectation : test.expectations) {
-    const std::string difference = compare(expectation, results);
+    const std::string difference = compare(expectation, *results);
     if (!difference.empty()) wrong += test.path + ", " + difference + "\n";
   }
   return wrong;

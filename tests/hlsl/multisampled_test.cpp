@@ -35,8 +35,7 @@ constexpr const char* kRays = "[shader(\"raygeneration\")]";
 
 void expect_removal(const std::string& backend, const Compiled& code) {
   ASSERT_NE(code.library, nullptr) << code.error;
-  std::string error;
-  run_on_device(backend, *code.library, {1, 1, 1}, error);
+  const std::string error = run_on_device(backend, *code.library, {1, 1, 1}).error();
   EXPECT_THAT(error, HasSubstr("KA0844"));
   EXPECT_THAT(error, HasSubstr("it used a Texture2DMS or RWTexture2DMS"));
 }

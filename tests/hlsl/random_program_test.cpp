@@ -30,10 +30,9 @@ hlsl::FrontendOptions options_of(const std::string& text) {
 std::vector<std::byte> run(const std::string& backend, const Compiled& code) {
   EXPECT_EQ(code.error, "");
   if (code.library == nullptr) return {};
-  std::string error;
-  auto out = run_on_device(backend, *code.library, kGroups, error);
-  EXPECT_EQ(error, "");
-  return out;
+  const auto out = run_on_device(backend, *code.library, kGroups);
+  EXPECT_EQ(out.error(), "");
+  return out ? *out : std::vector<std::byte>();
 }
 
 void expect_equal(const std::vector<std::byte>& expected, const std::vector<std::byte>& actual,

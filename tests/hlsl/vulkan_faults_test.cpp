@@ -34,19 +34,16 @@ std::vector<uint32_t> words_after(const std::string& text) {
   const Compiled code = compile(text);
   std::vector<uint32_t> words(8);
   if (code.library == nullptr) return words;
-  std::string error;
-  const auto bytes = run_on_device("vulkan", *code.library, {1, 1, 1}, error);
-  EXPECT_EQ(error, "");
-  if (bytes.size() >= 32) std::memcpy(words.data(), bytes.data(), 32);
+  const auto bytes = run_on_device("vulkan", *code.library, {1, 1, 1});
+  EXPECT_EQ(bytes.error(), "");
+  if (bytes) std::memcpy(words.data(), bytes->data(), 32);
   return words;
 }
 
 std::string error_of(const std::string& text) {
   const Compiled code = compile(text);
   if (code.library == nullptr) return "";
-  std::string error;
-  run_on_device("vulkan", *code.library, {4, 4, 1}, error);
-  return error;
+  return run_on_device("vulkan", *code.library, {4, 4, 1}).error();
 }
 
 std::vector<uint32_t> words_without(const char* workaround, const std::string& text) {
@@ -140,13 +137,12 @@ TEST(VulkanFaults, B11_RowsThatAlternateAreAllThere) {
   ASSERT_NE(code.library, nullptr);
   for (const char* disabled : {"", "B11"}) {
     setenv("KAAMOS_VULKAN_DISABLE_WORKAROUNDS", disabled, 1);
-    std::string error;
-    const auto bytes = run_on_device("vulkan", *code.library, {3, 101, 1}, error);
+    const auto bytes = run_on_device("vulkan", *code.library, {3, 101, 1});
     unsetenv("KAAMOS_VULKAN_DISABLE_WORKAROUNDS");
-    ASSERT_EQ(error, "");
+    ASSERT_TRUE(bytes) << bytes.error();
     for (uint32_t i = 0; i < 3 * 101; ++i) {
       uint32_t word;
-      std::memcpy(&word, bytes.data() + 4 * i, sizeof(word));
+      std::memcpy(&word, bytes->data() + 4 * i, sizeof(word));
       ASSERT_EQ(word, 1 + i / 3) << i;
     }
   }

@@ -386,10 +386,10 @@ std::vector<uint32_t> expected_words(const Case& test, uint32_t lanes) {
 std::string difference(const Case& test, const Compiled& code, const std::string& backend,
                        uint32_t lanes) {
   if (code.library == nullptr) return code.error;
-  std::string error;
-  const std::vector<std::byte> bytes = run_on_device(backend, *code.library, {kGroups, 1, 1}, error,
-                                                     nullptr, backend == "embree" ? lanes : 0);
-  if (!error.empty()) return error;
+  const auto ran = run_on_device(backend, *code.library, {kGroups, 1, 1}, nullptr,
+                                 backend == "embree" ? lanes : 0);
+  if (!ran) return ran.error();
+  const std::vector<std::byte>& bytes = *ran;
   const std::vector<uint32_t> expected = expected_words(test, lanes);
   for (size_t n = 0; n < expected.size(); ++n) {
     uint32_t word = 0;
@@ -454,10 +454,9 @@ uint32_t lanes_on_vulkan() {
       "void main() { results.Store(0, WaveGetLaneCount()); }\n";
   const Compiled code = compile_vulkan(options);
   if (code.library == nullptr) return 0;
-  std::string error;
-  const std::vector<std::byte> bytes = run_on_device("vulkan", *code.library, {1, 1, 1}, error);
+  const auto bytes = run_on_device("vulkan", *code.library, {1, 1, 1});
   uint32_t lanes = 0;
-  if (bytes.size() >= sizeof(lanes)) std::memcpy(&lanes, bytes.data(), sizeof(lanes));
+  if (bytes) std::memcpy(&lanes, bytes->data(), sizeof(lanes));
   return lanes;
 }
 

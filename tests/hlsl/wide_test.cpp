@@ -81,11 +81,9 @@ const Compiled& compiled(size_t index, hlsl::WideThreads wide) {
 std::vector<std::byte> run(const Compiled& code, bool rays) {
   EXPECT_EQ(code.error, "");
   if (code.library == nullptr) return {};
-  std::string error;
-  std::vector<std::byte> out =
-      run_on_device("embree", *code.library, rays ? kRays : kGroups, error);
-  EXPECT_EQ(error, "");
-  return out;
+  const auto out = run_on_device("embree", *code.library, rays ? kRays : kGroups);
+  EXPECT_EQ(out.error(), "");
+  return out ? *out : std::vector<std::byte>();
 }
 
 class Wide : public testing::TestWithParam<size_t> {};
@@ -106,9 +104,9 @@ TEST_P(Wide, GivesWhatSingleThreadsGive) {
 
 // Otherwise the test above would compare scalar code with itself.
 TEST_P(Wide, IsPlannedAtAll) {
-  std::string error;
-  const auto module = compile_module(all_options()[GetParam()], error);
-  ASSERT_NE(module, nullptr) << error;
+  const auto compiled = compile_module(all_options()[GetParam()]);
+  ASSERT_TRUE(compiled) << compiled.error();
+  const auto& module = *compiled;
   hlsl::WidePlan plan;
   std::string reason;
   for (const hlsl::ir::EntryPoint& entry : module->entry_points) {
@@ -145,9 +143,9 @@ TEST(WidePlan, SaysWhyAShaderRunsThreadByThread) {
     hlsl::FrontendOptions options;
     options.path = "refused.hlsl";
     options.text = std::string(kWideHead) + test.body;
-    std::string error;
-    const auto module = compile_module(options, error);
-    ASSERT_NE(module, nullptr) << error;
+    const auto compiled = compile_module(options);
+    ASSERT_TRUE(compiled) << compiled.error();
+    const auto& module = *compiled;
     hlsl::WidePlan plan;
     std::string reason;
     EXPECT_EQ(plan.add(module->entry_points[0], reason), nullptr);

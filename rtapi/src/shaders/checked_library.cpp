@@ -12,6 +12,7 @@
 #include "rtapi/src/shaders/module_library.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
 #include "runtime/hlsl/driver/embedded_source.h"
+#include "runtime/hlsl/ir/result.h"
 
 namespace rtapi::detail {
 namespace {
@@ -19,33 +20,30 @@ namespace {
 namespace hlsl = kaamos::hlsl;
 namespace shader = kaamos::shader;
 
-// The IR of the library's source with checks; null and `error` on failure.
-std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc& library,
-                                                       std::string& error) {
-  if (library.source == nullptr) {
-    error = "it carries no source (-no-source)";
-    return nullptr;
-  }
+using CheckedModule = hlsl::Result<std::shared_ptr<const hlsl::ir::Module>>;
+
+// The IR of the library's source with checks.
+CheckedModule checked_module(const shader::LibraryDesc& library) {
+  if (library.source == nullptr) return hlsl::Failure{"it carries no source (-no-source)"};
   auto source = hlsl::read_embedded_source({library.source, library.source_bytes});
   if (!source) {
-    error = "its source cannot be read; was it made by another version of kaamos-hlsl?";
-    return nullptr;
+    return hlsl::Failure{
+        "its source cannot be read; was it made by another version of kaamos-hlsl?"};
   }
   source->options.check_access = true;
   hlsl::SourceManager sources(source->files);
   hlsl::DiagnosticEngine diagnostics({.strict = source->options.strict});
   std::shared_ptr<const hlsl::ir::Module> module =
       hlsl::compile_to_ir(source->options, sources, diagnostics);
-  if (!module) error = "its source does not compile:\n" + render_all(diagnostics, sources);
-  return module;
+  if (module) return module;
+  return hlsl::Failure{"its source does not compile:\n" + render_all(diagnostics, sources)};
 }
 
 CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
-  std::string error;
-  const auto module = checked_module(desc, error);
-  if (module == nullptr) return {library, error, {}};
-  ModuleLibrary built = library_of(module, desc.flags, spirv);
+  const CheckedModule module = checked_module(desc);
+  if (!module) return {library, module.error(), {}};
+  ModuleLibrary built = library_of(*module, desc.flags, spirv);
   if (!built.library) return {library, std::move(built.error), {}};
   return {std::move(built.library), {}, std::move(built.slow)};
 }

@@ -79,10 +79,9 @@ ModuleLibrary linked_library(const LinkPlan& plan, bool spirv) {
   const std::lock_guard lock(known.mutex);
   const std::string key = key_of(plan, spirv);
   if (const auto found = known.by_key.find(key); found != known.by_key.end()) return found->second;
-  std::string error;
-  std::shared_ptr<const hlsl::ir::Module> module = hlsl::link_libraries(request_of(plan), error);
-  if (module == nullptr) return {{}, error, {}};
-  ModuleLibrary made = library_of(std::move(module), desc_of(plan.libraries[0]).flags, spirv);
+  auto module = hlsl::link_libraries(request_of(plan));
+  if (!module) return {{}, module.error(), {}};
+  ModuleLibrary made = library_of(*std::move(module), desc_of(plan.libraries[0]).flags, spirv);
   if (!made.library) return made;
   known.keys.push_back(key);
   known.by_key[key] = made;

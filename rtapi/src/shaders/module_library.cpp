@@ -15,38 +15,37 @@ namespace {
 namespace hlsl = kaamos::hlsl;
 namespace shader = kaamos::shader;
 
-ShaderLibrary interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spirv,
-                        std::string& error) {
+using Built = hlsl::Result<ShaderLibrary>;
+
+Built loaded(const Result<ShaderLibrary>& library) {
+  if (library.ok()) return *library;
+  return hlsl::Failure{library.error().message};
+}
+
+Built interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spirv) {
   hlsl::InterpretOptions options;
   if (spirv) {
     hlsl::SpirvLibrary compiled = hlsl::compile_spirv(*module);
-    error = compiled.error.message();
-    if (!error.empty()) return {};
+    if (compiled.error) return hlsl::Failure{compiled.error.message()};
     options.spirv = std::move(compiled.modules);
   }
-  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options, error);
-  if (interpreted == nullptr) return {};
-  const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
-  if (library.ok()) return *library;
-  error = library.error().message;
-  return {};
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options);
+  if (!interpreted) return hlsl::Failure{interpreted.error()};
+  return loaded(LoadShaderLibrary(&(*interpreted)->desc(), *interpreted));
 }
 
-ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& module, bool spirv,
-                    bool debug, std::string& error) {
+Built build(const hlsl::ir::Module& module, bool spirv, bool debug) {
+  const auto compiler = hlsl::find_host_compiler();
+  if (!compiler) return hlsl::Failure{compiler.error()};
   hlsl::BuildOptions options;
   options.spirv = spirv;
   // A Vulkan device runs the SPIR-V; the native code next to it only has to exist.
   options.optimisation = debug   ? hlsl::Optimisation::kDebug
                          : spirv ? hlsl::Optimisation::kNone
                                  : hlsl::Optimisation::kFull;
-  const hlsl::SharedObject object = hlsl::build_library(compiler, module, options);
-  error = object.error.message();
-  if (!error.empty()) return {};
-  const auto library = LoadShaderLibraryFromFile(object.path.string());
-  if (library.ok()) return *library;
-  error = library.error().message;
-  return {};
+  const hlsl::SharedObject object = hlsl::build_library(*compiler, module, options);
+  if (object.error) return hlsl::Failure{object.error.message()};
+  return loaded(LoadShaderLibraryFromFile(object.path.string()));
 }
 
 }  // namespace
@@ -54,18 +53,17 @@ ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& 
 ModuleLibrary library_of(std::shared_ptr<const hlsl::ir::Module> module, uint32_t flags,
                          bool spirv) {
   ModuleLibrary out;
-  const bool interpreted = (flags & shader::kLibraryInterpreted) != 0;
-  const bool debug = (flags & shader::kLibraryDebug) != 0;
-  std::string missing;
-  if (!interpreted) {
-    if (const auto compiler = hlsl::find_host_compiler(missing)) {
-      out.library = build(*compiler, *module, spirv, debug, missing);
+  if ((flags & shader::kLibraryInterpreted) == 0) {
+    const Built built = build(*module, spirv, (flags & shader::kLibraryDebug) != 0);
+    if (built) {
+      out.library = *built;
+      return out;
     }
+    if (!spirv) out.slow = built.error();
   }
-  if (!out.library) {
-    out.library = interpret(std::move(module), spirv, out.error);
-    if (!interpreted && !spirv) out.slow = missing;
-  }
+  const Built interpreted = interpret(std::move(module), spirv);
+  if (interpreted) out.library = *interpreted;
+  out.error = interpreted.error();
   return out;
 }
 

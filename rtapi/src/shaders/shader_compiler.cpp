@@ -97,6 +97,10 @@ std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
   return out;
 }
 
+// The compiler, which knows nothing of rtapi, has numbers.
+static_assert(hlsl::kSpirvFailed == static_cast<uint16_t>(detail::Id::kSpirvFailed) &&
+              hlsl::kSpirvBindings == static_cast<uint16_t>(detail::Id::kSpirvBindings));
+
 Error failed(const ShaderCompileOptions& options, const hlsl::BuildFailure& failure) {
   const auto id = failure.id == 0 ? detail::Id::kCompilerFailed : detail::Id(failure.id);
   return detail::make_error(id, options.File, ": ", failure.text);
@@ -105,11 +109,10 @@ Error failed(const ShaderCompileOptions& options, const hlsl::BuildFailure& fail
 // Builds the emitted code and loads it.
 void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
            ShaderCompilation& out) {
-  std::string missing;
-  const auto compiler = hlsl::find_host_compiler(missing, options.CxxCompiler);
+  const auto compiler = hlsl::find_host_compiler(options.CxxCompiler);
   if (!compiler) {
     out.Status =
-        detail::make_error(detail::Id::kNoCompiler, missing,
+        detail::make_error(detail::Id::kNoCompiler, compiler.error(),
                            "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
     return;
   }
@@ -145,13 +148,12 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
     }
     settings.spirv = std::move(spirv.modules);
   }
-  std::string problem;
-  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings, problem);
-  if (interpreted == nullptr) {
-    out.Status = detail::make_error(detail::Id::kInterpreterFailed, problem);
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings);
+  if (!interpreted) {
+    out.Status = detail::make_error(detail::Id::kInterpreterFailed, interpreted.error());
     return;
   }
-  const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
+  const auto library = LoadShaderLibrary(&(*interpreted)->desc(), *interpreted);
   if (!library) {
     out.Status = library.error();
     return;

@@ -99,9 +99,8 @@ class EmitTest : public testing::Test {
     std::string pattern = (fs::temp_directory_path() / "kaamos-emit-XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     cache_ = pattern;
-    std::string error;
-    const auto compiler = find_host_compiler(error);
-    ASSERT_TRUE(compiler.has_value()) << error;
+    const auto compiler = find_host_compiler();
+    ASSERT_TRUE(compiler) << compiler.error();
     compiler_ = *compiler;
   }
   void TearDown() override { fs::remove_all(cache_); }
@@ -206,8 +205,7 @@ TEST_F(EmitTest, ACacheThatCannotBeWrittenIsAnError) {
 
 TEST(HostCompilerTest, AMissingCompilerIsNamed) {
   setenv("KAAMOS_CXX", "/nowhere/c++", 1);
-  std::string error;
-  EXPECT_FALSE(find_host_compiler(error).has_value());
+  const std::string error = find_host_compiler().error();
   unsetenv("KAAMOS_CXX");
   EXPECT_NE(error.find("/nowhere/c++"), std::string::npos) << error;
 }

@@ -166,15 +166,13 @@ const Option* find_option(const std::string& word, std::string& attached) {
 
 }  // namespace
 
-std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
-                                         std::string& error) {
+Result<Arguments> parse_arguments(const std::vector<std::string>& words) {
   Arguments out;
   for (size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word.empty() || word[0] != '-') {
       if (!out.source.empty()) {
-        error = "two source files, \"" + out.source + "\" and \"" + word + "\": give one";
-        return std::nullopt;
+        return Failure{"two source files, \"" + out.source + "\" and \"" + word + "\": give one"};
       }
       out.source = word;
       continue;
@@ -182,34 +180,30 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
     std::string value;
     const Option* option = find_option(word, value);
     if (option == nullptr) {
-      error = "unknown option \"" + word + "\"; -help lists the options";
-      return std::nullopt;
+      return Failure{"unknown option \"" + word + "\"; -help lists the options"};
     }
     if (option->takes_value && value.empty()) {
       if (++i == words.size()) {
-        error = std::string(option->name) + " needs a value after it; -help lists the options";
-        return std::nullopt;
+        return Failure{std::string(option->name) +
+                       " needs a value after it; -help lists the options"};
       }
       value = words[i];
     }
     if (!option->apply(out, value)) {
-      error = std::string(option->name) + " " + value + ": the value must be " + option->allowed;
-      return std::nullopt;
+      return Failure{std::string(option->name) + " " + value + ": the value must be " +
+                     option->allowed};
     }
   }
   out.spirv = out.spirv_wanted.value_or(out.spirv);
   if (out.help || out.version) return out;
   if (out.source.empty()) {
-    error = "no source file given; -help lists the options";
-    return std::nullopt;
+    return Failure{"no source file given; -help lists the options"};
   }
   if (out.emit == Emit::kObject && out.output.empty() && !out.check_only) {
-    error = "-emit object needs a file name: give it with -Fo";
-    return std::nullopt;
+    return Failure{"-emit object needs a file name: give it with -Fo"};
   }
   if (!out.dependency_file.empty() && out.output.empty()) {
-    error = "-MF needs the name of the output: give it with -Fo";
-    return std::nullopt;
+    return Failure{"-MF needs the name of the output: give it with -Fo"};
   }
   return out;
 }

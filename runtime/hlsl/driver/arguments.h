@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/hlsl/ir/result.h"
+
 namespace kaamos::hlsl {
 
 enum class Emit : uint8_t { kCpp, kIr, kReflection, kObject, kGlsl, kSpirv };
@@ -44,8 +46,8 @@ struct Arguments {
   bool version = false;
 };
 
-// The text in `error` says which argument is wrong and what is allowed, and points to -help.
-std::optional<Arguments> parse_arguments(const std::vector<std::string>& words, std::string& error);
+// A failure says which argument is wrong and what is allowed, and points to -help.
+Result<Arguments> parse_arguments(const std::vector<std::string>& words);
 
 const char* help_text();
 

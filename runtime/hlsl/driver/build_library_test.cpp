@@ -20,9 +20,7 @@ class QuickBuild : public testing::Test {
   QuickBuild() {
     std::string name = (fs::temp_directory_path() / "kaamos-quick-XXXXXX").string();
     cache_ = mkdtemp(name.data());
-    std::string error;
-    compiler_ = find_host_compiler(error);
-    EXPECT_TRUE(compiler_) << error;
+    EXPECT_TRUE(compiler_) << compiler_.error();
   }
   ~QuickBuild() override {
     std::error_code ignored;
@@ -45,7 +43,7 @@ class QuickBuild : public testing::Test {
   }
 
   fs::path cache_;
-  std::optional<HostCompiler> compiler_;
+  const Result<HostCompiler> compiler_ = find_host_compiler();
 };
 
 TEST_F(QuickBuild, TakesTheFullLibraryOnceTheCacheHasIt) {

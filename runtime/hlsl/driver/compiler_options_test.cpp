@@ -65,9 +65,7 @@ class CompilerCalls : public testing::Test {
   CompilerCalls() {
     std::string name = (fs::temp_directory_path() / "kaamos-options-XXXXXX").string();
     folder_ = mkdtemp(name.data());
-    std::string error;
-    compiler_ = find_host_compiler(error);
-    EXPECT_TRUE(compiler_) << error;
+    EXPECT_TRUE(compiler_) << compiler_.error();
   }
   ~CompilerCalls() override {
     std::error_code ignored;
@@ -95,7 +93,7 @@ class CompilerCalls : public testing::Test {
   }
 
   fs::path folder_;
-  std::optional<HostCompiler> compiler_;
+  const Result<HostCompiler> compiler_ = find_host_compiler();
 };
 
 TEST_F(CompilerCalls, HaveTheseOptions) {
@@ -121,8 +119,7 @@ TEST_F(CompilerCalls, AreRepeatedWithoutWhatTheCompilerDoesNotKnow) {
 }
 
 TEST_F(CompilerCalls, CanGoToClang) {
-  std::string error;
-  const auto clang = find_host_compiler(error, "clang++");
+  const auto clang = find_host_compiler("clang++");
   if (!clang) GTEST_SKIP() << "clang++ is not installed";
   const SharedObject object = build_with(clang->program);
   EXPECT_EQ(object.error.message(), "");

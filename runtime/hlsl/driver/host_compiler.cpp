@@ -74,7 +74,7 @@ std::string compile(const HostCompiler& compiler, Optimisation optimisation, con
 
 }  // namespace
 
-std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& asked_for) {
+Result<HostCompiler> find_host_compiler(const std::string& asked_for) {
   HostCompiler out;
   const std::string wanted = asked_for.empty() ? environment("KAAMOS_CXX") : asked_for;
   std::vector<std::string> names = {KAAMOS_HOST_CXX, "c++", "g++", "clang++"};
@@ -88,23 +88,23 @@ std::optional<HostCompiler> find_host_compiler(std::string& error, const std::st
     }
   }
   if (out.program.empty()) {
-    error = wanted.empty()
-                ? "no C++ compiler found (looked for " KAAMOS_HOST_CXX
-                  ", c++, g++ and clang++ in $PATH): install one (Debian: apt install g++) or name "
-                  "it in $KAAMOS_CXX"
-                : "the compiler \"" + wanted +
-                      "\" ($KAAMOS_CXX or CxxCompiler) is not a program: name a C++20 compiler, or "
-                      "none";
-    return std::nullopt;
+    return Failure{
+        wanted.empty()
+            ? "no C++ compiler found (looked for " KAAMOS_HOST_CXX
+              ", c++, g++ and clang++ in $PATH): install one (Debian: apt install g++) or name "
+              "it in $KAAMOS_CXX"
+            : "the compiler \"" + wanted +
+                  "\" ($KAAMOS_CXX or CxxCompiler) is not a program: name a C++20 compiler, or "
+                  "none"};
   }
   out.include_folder = environment("KAAMOS_SHADER_INCLUDE");
   std::error_code ignored;
   if (!out.include_folder.empty() &&
       !fs::exists(out.include_folder / "kaamos/shader/prelude.h", ignored)) {
-    error = "$KAAMOS_SHADER_INCLUDE names " + out.include_folder.string() +
-            ", which has no kaamos/shader/prelude.h: unset it, or name the include folder of this "
-            "version";
-    return std::nullopt;
+    return Failure{
+        "$KAAMOS_SHADER_INCLUDE names " + out.include_folder.string() +
+        ", which has no kaamos/shader/prelude.h: unset it, or name the include folder of this "
+        "version"};
   }
   return out;
 }
@@ -152,7 +152,11 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
   const fs::path built = folder / "shader.so";
   if (files::write_file(source_path, source) != 0) out.error.text = cannot_write(source_path);
   fs::path headers = compiler.include_folder;
-  if (!out.error && headers.empty()) headers = write_shader_headers(cache, out.error.text);
+  if (!out.error && headers.empty()) {
+    const Result<fs::path> written = write_shader_headers(cache);
+    out.error.text = written.error();
+    if (written) headers = *written;
+  }
   if (!out.error) {
     out.error.text = compile(compiler, optimisation, source_path, headers, built, folder / "log");
   }

@@ -6,12 +6,12 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "runtime/hlsl/driver/compiler_options.h"
 #include "runtime/hlsl/driver/shader_cache.h"
 #include "runtime/hlsl/ir/build_failure.h"
+#include "runtime/hlsl/ir/result.h"
 
 namespace kaamos::hlsl {
 
@@ -28,9 +28,9 @@ struct SharedObject {
 };
 
 // The compiler is `wanted`, else $KAAMOS_CXX, else the one that built Kaamos, else c++, g++ or
-// clang++ in $PATH. $KAAMOS_SHADER_INCLUDE is the include folder, if it is set. Sets `error` if the
+// clang++ in $PATH. $KAAMOS_SHADER_INCLUDE is the include folder, if it is set. Fails if the
 // compiler or the headers of that folder are missing.
-std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& wanted = {});
+Result<HostCompiler> find_host_compiler(const std::string& wanted = {});
 
 // The object that build_shared_object() would find in the cache; empty if it would build or fail.
 std::filesystem::path find_shared_object(const HostCompiler& compiler, const std::string& content,

@@ -20,7 +20,7 @@ class LibraryFiles : public FileLoader {
 
 }  // namespace
 
-std::unique_ptr<ir::Module> link_libraries(const LinkRequest& request, std::string& error) {
+Result<std::unique_ptr<ir::Module>> link_libraries(const LinkRequest& request) {
   LibraryFiles files;
   SourceManager sources(files);
   DiagnosticEngine diagnostics({.strict = false});
@@ -29,16 +29,14 @@ std::unique_ptr<ir::Module> link_libraries(const LinkRequest& request, std::stri
   for (const LibrarySource& library : request.libraries) {
     auto source = read_embedded_source(library.text);
     if (!source) {
-      error = "its source cannot be read; was it made by another version of kaamos-hlsl?";
-      return nullptr;
+      return Failure{"its source cannot be read; was it made by another version of kaamos-hlsl?"};
     }
     source->options.strict = false;  // each has passed by itself
     sources.forget_paths();
     files.use(source->files);
     auto one = parse_source(source->options, sources, diagnostics);
     if (one == nullptr || diagnostics.has_errors()) {
-      error = "its source does not compile:\n" + render_all(diagnostics, sources);
-      return nullptr;
+      return Failure{"its source does not compile:\n" + render_all(diagnostics, sources)};
     }
     link.units.push_back({one->tree, one->options, library.registers});
     parsed.push_back(std::move(one));
@@ -47,11 +45,11 @@ std::unique_ptr<ir::Module> link_libraries(const LinkRequest& request, std::stri
   link.definitions = request.definitions;
   auto module = check_linked(link, sources, diagnostics);
   if (module == nullptr) {
-    error.clear();
+    Failure failure;
     for (const Diagnostic& diagnostic : diagnostics.diagnostics()) {
-      if (diagnostic.severity == Severity::kError) error += render(diagnostic, sources);
+      if (diagnostic.severity == Severity::kError) failure.text += render(diagnostic, sources);
     }
-    return nullptr;
+    return failure;
   }
   module->check_access = request.check_access;
   return module;

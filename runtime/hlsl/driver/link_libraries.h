@@ -11,6 +11,7 @@
 
 #include "runtime/hlsl/check/check.h"
 #include "runtime/hlsl/ir/ir.h"
+#include "runtime/hlsl/ir/result.h"
 
 namespace kaamos::hlsl {
 
@@ -26,7 +27,7 @@ struct LinkRequest {
   bool check_access = false;
 };
 
-// The entry points of the first library. Returns null and what is wrong in `error`.
-std::unique_ptr<ir::Module> link_libraries(const LinkRequest& request, std::string& error);
+// The entry points of the first library.
+Result<std::unique_ptr<ir::Module>> link_libraries(const LinkRequest& request);
 
 }  // namespace kaamos::hlsl

@@ -59,9 +59,9 @@ export float pick(float2 x, inout S s) {
 }
 )",
                                        "#define VALUE 5\nstruct S { float a; };");
-  std::string error;
-  const auto module = link_libraries(request(first, second), error);
-  ASSERT_NE(module, nullptr) << error;
+  const auto linked = link_libraries(request(first, second));
+  ASSERT_TRUE(linked) << linked.error();
+  const auto& module = *linked;
   EXPECT_EQ(verify(*module), "");
   ASSERT_EQ(module->entry_points.size(), 1u);
   EXPECT_TRUE(module->unlinked_entry_points.empty());
@@ -75,14 +75,11 @@ export float pick(float2 x, inout S s) {
 
 TEST(LinkLibraries, UnreadableSourcesAndMissingDefinitionsAreErrors) {
   const std::string first = source_of({}, kCaller, "#define VALUE 3\nstruct S { float a; };");
-  std::string error;
-  EXPECT_EQ(link_libraries(request(first, "nonsense"), error), nullptr);
-  EXPECT_THAT(error, HasSubstr("cannot be read"));
+  EXPECT_THAT(link_libraries(request(first, "nonsense")).error(), HasSubstr("cannot be read"));
   LinkRequest none;
   none.libraries = {{first, {}}};
   none.entries = {"RayGen"};
-  EXPECT_EQ(link_libraries(none, error), nullptr);
-  EXPECT_THAT(error, HasSubstr("KA2504"));
+  EXPECT_THAT(link_libraries(none).error(), HasSubstr("KA2504"));
 }
 
 }  // namespace

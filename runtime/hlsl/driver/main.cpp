@@ -73,9 +73,8 @@ std::string make_rule(const std::string& output, const std::vector<std::string>&
 }
 
 int write_object(const Arguments& arguments, const ir::Module& module) {
-  std::string error;
-  const auto compiler = find_host_compiler(error);
-  if (!compiler) return fail(error);
+  const auto compiler = find_host_compiler();
+  if (!compiler) return fail(compiler.error());
   const SharedObject object =
       build_library(*compiler, module,
                     {.optimisation = arguments.debug ? Optimisation::kDebug : Optimisation::kFull,
@@ -172,9 +171,8 @@ int compile(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string error;
-  const auto arguments = parse_arguments({argv + 1, argv + argc}, error);
-  if (!arguments) return fail(error, kBadUsage);
+  const auto arguments = parse_arguments({argv + 1, argv + argc});
+  if (!arguments) return fail(arguments.error(), kBadUsage);
   if (arguments->help) {
     std::fputs(help_text(), stdout);
     return 0;

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <optional>
 
 #include "runtime/hlsl/driver/host_compiler.h"
 
@@ -98,11 +97,7 @@ TEST_F(ShaderCache, InTheTemporaryFolderIsNamedAfterItsUser) {
 // Objects that are built, and those that were there before.
 class CachedObject : public ShaderCache {
  protected:
-  CachedObject() {
-    std::string error;
-    compiler_ = find_host_compiler(error);
-    EXPECT_TRUE(compiler_) << error;
-  }
+  CachedObject() { EXPECT_TRUE(compiler_) << compiler_.error(); }
   SharedObject build() const {
     return build_shared_object(*compiler_, kSource, Optimisation::kNone, folder_);
   }
@@ -128,7 +123,7 @@ class CachedObject : public ShaderCache {
   }
 
   static constexpr char kSource[] = "int kaamos_one() { return 1; }\n";
-  std::optional<HostCompiler> compiler_;
+  const Result<HostCompiler> compiler_ = find_host_compiler();
 };
 
 TEST_F(CachedObject, IsFoundAgainWhateverTheUmaskIs) {

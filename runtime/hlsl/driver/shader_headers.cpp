@@ -47,7 +47,7 @@ std::string shader_headers_text(const fs::path& folder) {
   return all;
 }
 
-fs::path write_shader_headers(const fs::path& cache, std::string& error) {
+Result<fs::path> write_shader_headers(const fs::path& cache) {
   // Versions of the library that share a cache have a folder each.
   static const std::string version = content_hash(shader_headers_text({}));
   const fs::path folder = cache / ("headers-" + version);
@@ -56,8 +56,7 @@ fs::path write_shader_headers(const fs::path& cache, std::string& error) {
   for (const auto* header = kShaderHeaders; !header->first.empty(); ++header) {
     const fs::path file = folder / kHeaderFolder / header->first;
     if (read_file(file) != header->second && files::write_file(file, header->second) != 0) {
-      error = cannot_write(file);
-      return {};
+      return Failure{cannot_write(file)};
     }
   }
   return folder;

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <string>
 
+#include "runtime/hlsl/ir/result.h"
+
 namespace kaamos::hlsl {
 
 // The names and texts of the headers in the include folder `folder`; if that is empty, of the
@@ -15,7 +17,7 @@ namespace kaamos::hlsl {
 std::string shader_headers_text(const std::filesystem::path& folder);
 
 // Writes the library's own headers below the cache, where they are not there yet, and returns the
-// include folder. Sets `error` on failure. Many processes and threads may call it at once.
-std::filesystem::path write_shader_headers(const std::filesystem::path& cache, std::string& error);
+// include folder. Many processes and threads may call it at once.
+Result<std::filesystem::path> write_shader_headers(const std::filesystem::path& cache);
 
 }  // namespace kaamos::hlsl

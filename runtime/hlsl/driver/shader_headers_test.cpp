@@ -31,10 +31,9 @@ class ShaderHeaders : public testing::Test {
   }
 
   fs::path write() const {
-    std::string error;
-    const fs::path folder = write_shader_headers(cache_, error);
-    EXPECT_EQ(error, "");
-    return folder;
+    const auto folder = write_shader_headers(cache_);
+    EXPECT_EQ(folder.error(), "");
+    return folder ? *folder : fs::path();
   }
 
   fs::path cache_;
@@ -57,22 +56,20 @@ TEST_F(ShaderHeaders, AreWrittenWhereTheyAreMissingOrDamaged) {
 
 TEST_F(ShaderHeaders, ThatCannotBeWrittenAreAnError) {
   std::ofstream(cache_ / "file") << "x";
-  std::string error;
-  EXPECT_EQ(write_shader_headers(cache_ / "file", error), "");
-  EXPECT_THAT(error, AllOf(HasSubstr("cannot write"), HasSubstr("Not a directory"),
-                           HasSubstr("KAAMOS_CACHE_DIR")));
+  EXPECT_THAT(write_shader_headers(cache_ / "file").error(),
+              AllOf(HasSubstr("cannot write"), HasSubstr("Not a directory"),
+                    HasSubstr("KAAMOS_CACHE_DIR")));
 }
 
 TEST_F(ShaderHeaders, OfTheEnvironmentTakeTheirPlace) {
   fs::create_directories(cache_ / "other/kaamos/shader");
   setenv("KAAMOS_SHADER_INCLUDE", (cache_ / "other").c_str(), 1);
-  std::string error;
-  EXPECT_FALSE(find_host_compiler(error));
-  EXPECT_THAT(error, AllOf(HasSubstr("$KAAMOS_SHADER_INCLUDE"),
-                           HasSubstr("no kaamos/shader/prelude.h"), HasSubstr("unset it")));
+  EXPECT_THAT(find_host_compiler().error(),
+              AllOf(HasSubstr("$KAAMOS_SHADER_INCLUDE"), HasSubstr("no kaamos/shader/prelude.h"),
+                    HasSubstr("unset it")));
   std::ofstream(cache_ / "other/kaamos/shader/prelude.h") << "inline int other() { return 1; }\n";
-  const auto compiler = find_host_compiler(error);
-  ASSERT_TRUE(compiler) << error;
+  const auto compiler = find_host_compiler();
+  ASSERT_TRUE(compiler) << compiler.error();
   const SharedObject object = build_shared_object(
       *compiler, "#include <kaamos/shader/prelude.h>\nint kaamos_one() { return other(); }\n",
       Optimisation::kNone, cache_);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "runtime/hlsl/ir/ir.h"
+#include "runtime/hlsl/ir/result.h"
 
 namespace kaamos::shader {
 struct Invocation;
@@ -58,11 +59,10 @@ struct InterpretOptions {
 // The library's table and everything it refers to. The table is valid as long as this object.
 class InterpretedLibrary {
  public:
-  // The module must have passed the checker without errors. Returns null and sets `error` if the
-  // system does not allow functions to be made at run time.
-  static std::shared_ptr<const InterpretedLibrary> create(std::shared_ptr<const ir::Module> module,
-                                                          const InterpretOptions& options,
-                                                          std::string& error);
+  // The module must have passed the checker without errors. Fails if the system does not
+  // allow functions to be made at run time.
+  static Result<std::shared_ptr<const InterpretedLibrary>> create(
+      std::shared_ptr<const ir::Module> module, const InterpretOptions& options);
   ~InterpretedLibrary();
   InterpretedLibrary(const InterpretedLibrary&) = delete;
   InterpretedLibrary& operator=(const InterpretedLibrary&) = delete;

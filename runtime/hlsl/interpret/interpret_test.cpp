@@ -37,10 +37,9 @@ std::shared_ptr<const ir::Module> module_of(const std::string& source) {
 
 std::shared_ptr<const InterpretedLibrary> interpret(const std::string& source,
                                                     const InterpretOptions& options = {}) {
-  std::string error;
-  auto library = InterpretedLibrary::create(module_of(source), options, error);
-  EXPECT_TRUE(library != nullptr) << error;
-  return library;
+  const auto library = InterpretedLibrary::create(module_of(source), options);
+  EXPECT_TRUE(library) << library.error();
+  return library ? *library : nullptr;
 }
 
 struct Removal {

@@ -208,23 +208,21 @@ const shader::LibraryDesc& InterpretedLibrary::desc() const {
   return tables_->library;
 }
 
-std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
-    std::shared_ptr<const ir::Module> module, const InterpretOptions& options, std::string& error) {
+Result<std::shared_ptr<const InterpretedLibrary>> InterpretedLibrary::create(
+    std::shared_ptr<const ir::Module> module, const InterpretOptions& options) {
   std::shared_ptr<InterpretedLibrary> out(new InterpretedLibrary);
   Tables& tables = *out->tables_;
   const ir::Module& m = *module;
   tables.program = make_program(std::move(module), options);
   if (!tables.program->error.empty()) {
-    error = m.name + " cannot be interpreted: " + tables.program->error;
-    return nullptr;
+    return Failure{m.name + " cannot be interpreted: " + tables.program->error};
   }
   for (const EntryCode& code : tables.program->entries) {
     auto closure = Closure::create(*tables.program, code);
     if (closure == nullptr) {
-      error =
+      return Failure{
           "the system gives no executable memory for functions made at run time; use a C++ "
-          "compiler instead of the interpreter";
-      return nullptr;
+          "compiler instead of the interpreter"};
     }
     shader::ExportDesc desc = describe(code);
     if (code.entry->stage == ir::kStageCompute) {
@@ -292,7 +290,7 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     tables.library.source = m.source.data();
     tables.library.source_bytes = m.source.size();
   }
-  return out;
+  return std::shared_ptr<const InterpretedLibrary>(std::move(out));
 }
 
 }  // namespace kaamos::hlsl
