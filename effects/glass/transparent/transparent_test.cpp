@@ -42,7 +42,7 @@ std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstant
           .value();
   renderer->run("transparent", glass).value();
   const CompositePass composite =
-      CompositePass::create(renderer->device(), renderer->frame(), composite_library().value())
+      CompositePass::create(renderer->device(), renderer->frame(), composite_library().value(), {})
           .value();
   const auto draw_behind = [&] {
     renderer->runner()
