@@ -27,9 +27,9 @@ static int Probe(const char* shader) {
   const example::Mesh mesh =
       example::CreateMesh(setup, {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 0, 1}, {},
                           RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation);
-  const Buffer bottom_level = example::BuildBottomLevel(setup, {mesh.geometry});
+  const Buffer bottom_level = BuildBottomLevel(setup.device, setup.queue, {mesh.geometry}).value();
   const Buffer top_level =
-      example::BuildTopLevel(setup, {example::Instance(bottom_level, 0, 0, 0)});
+      BuildTopLevel(setup.device, setup.queue, {example::Instance(bottom_level, 0, 0, 0)}).value();
   const Buffer results =
       device.CreateBuffer({.SizeInBytes = 8, .Flags = ResourceFlags::kAllowUnorderedAccess})
           .value();
