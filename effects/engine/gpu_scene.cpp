@@ -75,12 +75,25 @@ std::vector<bool> glass_meshes(const Scene& scene) {
   return glass;
 }
 
+// The vertices of a mesh as they lie in memory: with colours only where it has some.
+rtapi::Result<Buffer> upload_vertices(const Device& device, const Mesh& mesh) {
+  const std::string name = mesh.name + " vertices";
+  if (mesh.colors.empty())
+    return CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), name);
+  std::vector<std::byte> bytes(mesh.vertices.size() * kColoredVertexStride);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    std::byte* to = bytes.data() + i * kColoredVertexStride;
+    std::memcpy(to, &mesh.vertices[i], sizeof(Vertex));
+    std::memcpy(to + sizeof(Vertex), &mesh.colors[i], sizeof(VertexColor));
+  }
+  return CreateUploadBuffer(device, std::span<const std::byte>(bytes), name);
+}
+
 // Creates the buffers of one mesh and the record arguments of its geometries.
 rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t mesh_id, bool glass,
                        GpuScene& out) {
   const Mesh& mesh = scene.meshes[mesh_id];
-  auto vertices =
-      CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), mesh.name + " vertices");
+  auto vertices = upload_vertices(device, mesh);
   if (!vertices) return vertices.error();
   auto indices =
       CreateUploadBuffer(device, std::as_bytes(std::span(mesh.indices)), mesh.name + " indices");
@@ -88,16 +101,20 @@ rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t m
   for (std::uint32_t i = 0; i < mesh.geometries.size(); ++i) {
     const Geometry& geometry = mesh.geometries[i];
     GpuGeometry gpu;
+    if (!mesh.colors.empty()) {
+      gpu.constants.vertex_stride = kColoredVertexStride;
+      gpu.constants.color_offset = sizeof(Vertex);
+    }
     gpu.vertices = vertices->GetGPUVirtualAddress() +
-                   static_cast<std::uint64_t>(geometry.first_vertex) * kVertexStride;
+                   std::uint64_t{geometry.first_vertex} * gpu.constants.vertex_stride;
     gpu.indices = indices->GetGPUVirtualAddress() + geometry.index_offset_bytes;
     gpu.vertex_buffer = *vertices;
     gpu.index_buffer = *indices;
+    gpu.mesh = mesh_id;
     gpu.vertex_count = geometry.vertex_count;
     gpu.index_count = geometry.index_count;
     gpu.constants.index_size_bytes = geometry.index_size_bytes;
     gpu.constants.material_id = geometry.material;
-    gpu.constants.mesh_id = mesh_id;
     gpu.constants.geometry_id = i;
     gpu.alpha_tested = geometry.alpha_tested || glass;
     gpu.glass = glass;
@@ -201,10 +218,25 @@ rtapi::Status add_textures(const Device& device, CommandQueue& queue, const Scen
   return {};
 }
 
+// What is unlit emits its base colour: as bright as a surface that the exposure shows with that
+// colour, and it reflects nothing. [KHR_materials_unlit]
+void make_unlit(const Scene& scene, MaterialConstants& m) {
+  const float white = scene.exposure > 0.0f ? 1.0f / scene.exposure : 1.0f;
+  m.emissive = glm::vec3(m.base_color) * white;
+  m.base_color = glm::vec4(0.0f, 0.0f, 0.0f, m.base_color.a);
+  m.metallic = m.roughness = 1.0f;
+  m.image[kMetallicRoughnessTexture] = m.image[kNormalTexture] = kNoTexture;
+  m.image[kEmissiveTexture] = m.image[kBaseColorTexture];
+  m.sampler[kEmissiveTexture] = m.sampler[kBaseColorTexture];
+  m.uv_matrix[kEmissiveTexture] = m.uv_matrix[kBaseColorTexture];
+  m.uv_offset[kEmissiveTexture] = m.uv_offset[kBaseColorTexture];
+}
+
 std::vector<MaterialConstants> material_constants(const Scene& scene) {
   std::vector<MaterialConstants> out;
   for (const Material& material : scene.materials) {
     MaterialConstants& constants = out.emplace_back(material.constants);
+    if (constants.flags & kMaterialUnlit) make_unlit(scene, constants);
     for (std::uint32_t slot = 0; slot < kTextureSlotCount; ++slot) {
       if (constants.image[slot] == kNoTexture) continue;
       const TextureImage& image = scene.images[static_cast<std::size_t>(constants.image[slot])];

@@ -36,6 +36,7 @@ struct GpuGeometry {
   HitConstants constants;                 ///< root constants b0, space2
   rtapi::Buffer vertex_buffer;            ///< that `vertices` lies in
   rtapi::Buffer index_buffer;             ///< that `indices` lies in
+  std::uint32_t mesh = 0;                 ///< in Scene::meshes
   std::uint32_t vertex_count = 0;         ///< from `vertices` on
   std::uint32_t index_count = 0;          ///< from `indices` on, a multiple of 3
   bool alpha_tested = false;              ///< any-hit shaders run: also of glass

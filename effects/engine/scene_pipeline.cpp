@@ -58,7 +58,6 @@ rtapi::Result<ScenePipeline> ScenePipeline::create(const Device& device, const F
                                                    const Desc& wanted) {
   GraphicsPipelineStateDesc desc;
   desc.pRootSignature = frame.root_signature();
-  desc.VS = {wanted.library, wanted.vertex_shader};
   desc.InputLayout = scene_input_layout();
   desc.RasterizerState.CullMode = CullMode::kNone;  // rays hit both sides, too
   desc.DepthStencilState.DepthFunc = wanted.depth_func;
@@ -67,6 +66,7 @@ rtapi::Result<ScenePipeline> ScenePipeline::create(const Device& device, const F
   ScenePipeline out;
   for (const bool has_holes : {false, true}) {
     const std::string& shader = has_holes ? wanted.pixel_shader_of_holes : wanted.pixel_shader;
+    desc.VS = {wanted.library, has_holes ? wanted.vertex_shader_of_holes : wanted.vertex_shader};
     if (!shader.empty()) desc.PS = {wanted.library, shader};
     desc.Name = wanted.name + (has_holes ? " with holes" : "");
     const auto created = device.CreateGraphicsPipelineState(desc);

@@ -64,6 +64,7 @@ class ScenePipeline {
   struct Desc {
     rtapi::ShaderLibrary library;             ///< where the shaders are
     std::string vertex_shader;                ///< takes POSITION and TEXCOORD
+    std::string vertex_shader_of_holes;       ///< besides what `pixel_shader_of_holes` needs
     std::string pixel_shader;                 ///< of opaque geometry; empty: depth alone
     std::string pixel_shader_of_holes;        ///< discards what a texture's alpha cuts out
     rtapi::ComparisonFunc depth_func{};       ///< which depth stays

@@ -38,15 +38,19 @@ void add_triangles(const Mesh& mesh, const Geometry& geometry, const glm::dmat4&
   for (std::uint32_t i = 0; i < geometry.index_count / 3; ++i) {
     glm::dvec3 p[3];
     glm::vec2 uv[3];
+    std::uint32_t alpha[3] = {0xFFFF, 0xFFFF, 0xFFFF};
     for (std::uint32_t c = 0; c < 3; ++c) {
       const Vertex& vertex = mesh.corner(geometry, i, c);
       p[c] = glm::dvec3(transform * glm::dvec4(vertex.position, 1.0)) - origin;
       uv[c] = vertex.uv;
+      if (!mesh.colors.empty())
+        alpha[c] = mesh.colors[geometry.first_vertex + mesh.index(geometry, 3 * i + c)].a;
     }
     const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
     if (!(area > 0) || !std::isfinite(area)) continue;
     out.push_back({glm::vec3(p[0]), geometry.material, glm::vec3(p[1] - p[0]), 1.0f,
-                   glm::vec3(p[2] - p[0]), 0, uv[0], uv[1], uv[2], glm::vec2(0.0f)});
+                   glm::vec3(p[2] - p[0]), 0, uv[0], uv[1], uv[2],
+                   glm::uvec2(alpha[0] | alpha[1] << 16, alpha[2] | 0xFFFF0000u)});
   }
 }
 

@@ -24,7 +24,8 @@ struct PathEmitter {
   glm::vec2 uv0;           ///< of the first corner
   glm::vec2 uv1;           ///< of the second
   glm::vec2 uv2;           ///< of the third
-  glm::vec2 padding;       ///< 0
+  /// Opacity of the corners, 16 bits each; all ones where vertices have no colours.
+  glm::uvec2 alphas{0xFFFFFFFFu};
 };
 static_assert(sizeof(PathEmitter) == 80);
 

@@ -46,7 +46,7 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
     t_min = pane.distance * 1.000002;
     const float3 f0 = 0.04 + (pane.base_color - 0.04) * pane.metallic;
     const float3 fresnel = PathFresnel(f0, saturate(dot(start.view, pane.shading_normal)));
-    const float mirror_chance = saturate(Brightness(fresnel));
+    const float mirror_chance = pane.is_unlit != 0 ? 0.0 : saturate(Brightness(fresnel));
     const float2 u = PathRandom(sampler, kPairPane + layer);
     start.layer = layer;
     if (u.x < mirror_chance) {
@@ -69,7 +69,7 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
       start.emission = pane.emissive;
       break;
     }
-    start.through *= (1.0 - fresnel) / (1.0 - mirror_chance);
+    if (pane.is_unlit == 0) start.through *= (1.0 - fresnel) / (1.0 - mirror_chance);
   }
   if (mirrored_mask != 0) {
     start.hit = Follow(mirrored_origin, mirrored, 0.0, mirrored_mask, false);

@@ -23,6 +23,7 @@ struct PathHit {
   float opacity;
   uint is_glass_ray;
   uint is_camera_ray;     // textures are filtered over the pixel
+  uint is_unlit;          // the surface emits, and reflects nothing
 };
 
 PathHit NoHit() {
@@ -30,7 +31,7 @@ PathHit NoHit() {
   hit.position = hit.normal = hit.shading_normal = hit.base_color = hit.emissive = float3(0, 0, 0);
   hit.offset = hit.roughness = hit.metallic = hit.emitter_density = hit.opacity = 0.0;
   hit.distance = -1.0;
-  hit.is_glass_ray = hit.is_camera_ray = 0;
+  hit.is_glass_ray = hit.is_camera_ray = hit.is_unlit = 0;
   return hit;
 }
 
@@ -50,7 +51,12 @@ bool IsSeenGlass(float2 barycentrics) {
     if (dot(ObjectRayDirection(), cross(p1 - p0, p2 - p0)) > 0.0) return false;
   }
   const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
-  return material.base_color.a * SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a > 0.0;
+  float alpha =
+      material.base_color.a * SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
+  if (hit_constants.color_offset != 0) {
+    alpha *= LoadColor(vertices, hit_constants, corners, barycentrics).w;
+  }
+  return alpha > 0.0;
 }
 
 [shader("anyhit")]
@@ -78,6 +84,7 @@ void PathTracerClosestHit(inout PathHit payload, in BuiltInTriangleIntersectionA
   payload.metallic = surface.metallic;
   payload.emissive = surface.emissive;
   payload.opacity = surface.opacity;
+  payload.is_unlit = surface.is_unlit ? 1 : 0;
   payload.emitter_density = emitting_instances[InstanceIndex()] != 0
                                 ? emitter_densities[hit_constants.material_id] : 0.0;
 }

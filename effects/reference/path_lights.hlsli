@@ -19,7 +19,7 @@ struct PathEmitter {
   float2 uv0;
   float2 uv1;
   float2 uv2;
-  float2 padding;
+  uint2 alphas;  // opacity of the corners, 16 bits each; all ones where vertices have no colours
 };
 
 StructuredBuffer<float2> specular_albedo : register(t0, space3);
@@ -174,9 +174,9 @@ float LampWeight(SeenLamp seen, float3 normal) {
   return Brightness(seen.irradiance) * max(dot(normal, seen.axis) + sqrt(seen.sine_squared), 0.0f);
 }
 
-// Emission of a material at a point; 0 in its holes.
-float3 EmissionAt(MaterialConstants material, float2 uv) {
-  const float alpha = SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
+// Emission of a material at a point; 0 in its holes. `vertex_alpha`: opacity of the vertices there.
+float3 EmissionAt(MaterialConstants material, float2 uv, float vertex_alpha) {
+  const float alpha = vertex_alpha * SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
   if (IsOpen(material, alpha)) return float3(0, 0, 0);
   return Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, uv, kFinestLevel).rgb,
                  kLargestRadiance);
@@ -204,7 +204,13 @@ LightRay SampleEmitter(float2 u, float choice, uint emitter_count, float3 positi
   ray.density = emitter_densities[emitter.material] * distance_squared / cosine;
   const float2 uv = emitter.uv0 * (1.0f - place.x - place.y) + emitter.uv1 * place.x +
                     emitter.uv2 * place.y;
-  ray.value = EmissionAt(materials[emitter.material], uv) / ray.density;
+  float alpha = 1.0f;
+  if (any(emitter.alphas != uint2(0xFFFFFFFFu, 0xFFFFFFFFu))) {
+    const float3 alphas = float3(float(emitter.alphas.x & 0xFFFFu), float(emitter.alphas.x >> 16u),
+                                 float(emitter.alphas.y & 0xFFFFu)) / 65535.0f;
+    alpha = alphas.x * (1.0f - place.x - place.y) + alphas.y * place.x + alphas.z * place.y;
+  }
+  ray.value = EmissionAt(materials[emitter.material], uv, alpha) / ray.density;
   return ray;
 }
 

@@ -265,6 +265,7 @@ void AddInView(inout PathLight light, uint kind, Lobes lobes, bool is_free, uint
 // Light that reaches the camera from a surface that it sees.
 PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_as, uint2 pixel) {
   PathLight light = NoLight();
+  if (first.is_unlit != 0) return light;
   Vertex vertex = MakeVertex(first, view);
   const bool is_pane = seen_as == kAsPane;
   if (is_pane) vertex.bsdf.specular_chance = 0.0;
@@ -330,7 +331,7 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_a
     light.indirect += lobes.diffuse * gathered;
     light.reflection += lobes.specular * gathered;
     if (number == 1) light.first += lobes.diffuse * gathered;
-    goes_on = hit.distance >= 0.0 && number < constants.bounces;
+    goes_on = hit.distance >= 0.0 && hit.is_unlit == 0 && number < constants.bounces;
     if (goes_on) vertex = MakeVertex(hit, -segment.direction);
     segment.vertex_number = number + 1;
   }

@@ -6,17 +6,18 @@
 
 #include "frame.hlsli"
 
-// True where a surface with these texture coordinates has a hole. Reads level 0 of the texture,
-// because the shadow of a leaf must not depend on how far away the camera is.
-bool IsOpenAtUv(MaterialConstants material, float2 uv) {
-  float alpha = 1.0;
+// True where a surface with these texture coordinates and this opacity of its vertices has a hole.
+// Reads level 0 of the texture, because the shadow of a leaf must not depend on how far away the
+// camera is.
+bool IsOpenAtUv(MaterialConstants material, float2 uv, float vertex_alpha) {
+  float alpha = vertex_alpha;
   if (HasTexture(material, kBaseColorTexture)) {
     const uint image = material.image[kBaseColorTexture];
     const uint sampler_id = material.sampler_id[kBaseColorTexture];
-    alpha = textures[NonUniformResourceIndex(image)]
-                .SampleLevel(samplers[NonUniformResourceIndex(sampler_id)],
-                             MaterialUv(material, kBaseColorTexture, uv), 0.0)
-                .a;
+    alpha *= textures[NonUniformResourceIndex(image)]
+                 .SampleLevel(samplers[NonUniformResourceIndex(sampler_id)],
+                              MaterialUv(material, kBaseColorTexture, uv), 0.0)
+                 .a;
   }
   return IsOpen(material, alpha);
 }
@@ -25,11 +26,21 @@ bool IsOpenAtUv(MaterialConstants material, float2 uv) {
 bool IsOpenAt(float2 barycentrics) {
   const MaterialConstants material = materials[hit_constants.material_id];
   float2 uv = float2(0, 0);
-  if (HasTexture(material, kBaseColorTexture)) {
+  float vertex_alpha = 1.0;
+  if (HasTexture(material, kBaseColorTexture) || hit_constants.color_offset != 0) {
     const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
     uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+    if (hit_constants.color_offset != 0) {
+      vertex_alpha = LoadColor(vertices, hit_constants, corners, barycentrics).w;
+    }
   }
-  return IsOpenAtUv(material, uv);
+  return IsOpenAtUv(material, uv, vertex_alpha);
+}
+
+// Opacity of a vertex, for vertex shaders of draws.
+float VertexAlpha(ByteAddressBuffer vertices_of, HitConstants layout, uint vertex) {
+  if (layout.color_offset == 0) return 1.0;
+  return LoadVertexColor(vertices_of, layout.vertex_stride, layout.color_offset, vertex).w;
 }
 
 #endif

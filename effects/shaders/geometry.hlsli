@@ -12,7 +12,7 @@ struct HitConstants {
   uint uv_offset;
   uint index_size_bytes;  // 2 or 4
   uint material_id;
-  uint mesh_id;
+  uint color_offset;      // bytes from the start of a vertex; 0: all vertices are white
   uint geometry_id;
 };
 
@@ -38,6 +38,13 @@ float4 LoadVertexFloat4(ByteAddressBuffer vertices, uint stride, uint offset, ui
   return asfloat(vertices.Load4(vertex * stride + offset));
 }
 
+// The colour of a vertex and its opacity, linear: 16 bits each.
+float4 LoadVertexColor(ByteAddressBuffer vertices, uint stride, uint offset, uint vertex) {
+  const uint2 words = vertices.Load2(vertex * stride + offset);
+  return float4(float(words.x & 0xFFFFu), float(words.x >> 16u), float(words.y & 0xFFFFu),
+                float(words.y >> 16u)) / 65535.0f;
+}
+
 // `barycentrics` are the weights of the second and third vertex, as DXR gives them.
 float2 Interpolate(float2 a, float2 b, float2 c, float2 barycentrics) {
   return a * (1.0f - barycentrics.x - barycentrics.y) + b * barycentrics.x + c * barycentrics.y;
@@ -55,6 +62,16 @@ float2 LoadUv(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_verti
       LoadVertexFloat2(vertices, hit.vertex_stride, hit.uv_offset, triangle_vertices.x),
       LoadVertexFloat2(vertices, hit.vertex_stride, hit.uv_offset, triangle_vertices.y),
       LoadVertexFloat2(vertices, hit.vertex_stride, hit.uv_offset, triangle_vertices.z),
+      barycentrics);
+}
+
+// Only where `hit.color_offset` is not 0.
+float4 LoadColor(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_vertices,
+                 float2 barycentrics) {
+  return Interpolate(
+      LoadVertexColor(vertices, hit.vertex_stride, hit.color_offset, triangle_vertices.x),
+      LoadVertexColor(vertices, hit.vertex_stride, hit.color_offset, triangle_vertices.y),
+      LoadVertexColor(vertices, hit.vertex_stride, hit.color_offset, triangle_vertices.z),
       barycentrics);
 }
 

@@ -16,6 +16,7 @@ float3 IndirectAtMatteHit(MatteSurface surface, float3 jitter) {
 // the mirrored direction. That is too coarse for an image, but it keeps mirrors seen in mirrors from
 // being black.
 float3 IndirectAtHit(Surface surface, float3 jitter, float3 view) {
+  if (surface.is_unlit) return float3(0, 0, 0);
   const BrdfView brdf_view =
       MakeBrdfView(MakeBrdf(surface.base_color, surface.metallic, surface.roughness),
                    surface.shading_normal, view);

@@ -46,6 +46,7 @@ float3 ShadeMatteHit(MatteSurface surface, uint sun_at_hits) {
 
 // Radiance towards `direction`, where the ray came from, without indirect light.
 float3 ShadeHit(Surface surface, float3 direction, uint sun_at_hits) {
+  if (surface.is_unlit) return surface.emissive;
   const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 radiance = surface.emissive;

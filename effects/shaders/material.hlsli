@@ -14,6 +14,7 @@ static const uint kMaterialMask = 1u;
 static const uint kMaterialBlend = 2u;
 static const uint kMaterialDoubleSided = 4u;
 static const uint kMaterialAlphaTested = 8u;
+static const uint kMaterialUnlit = 16u;  // emits its base colour times the vertex colour
 
 static const int kNoTexture = -1;
 

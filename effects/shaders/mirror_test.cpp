@@ -218,6 +218,28 @@ TEST(HlslMirror, TrianglesAndAttributes) {
   }
 }
 
+// A vertex with a colour is a Vertex, its VertexColor and a rest.
+TEST(HlslMirror, VertexColors) {
+  struct ColoredVertex {
+    Vertex vertex;
+    VertexColor color;
+    std::uint32_t rest[2];
+  };
+  static_assert(sizeof(ColoredVertex) == kColoredVertexStride);
+  static_assert(offsetof(hlsl::HitConstants, color_offset) == offsetof(HitConstants, color_offset));
+  std::vector<ColoredVertex> all(3);
+  all[0].color = {65535, 0, 13107, 65535};
+  all[1].color = {0, 65535, 13107, 65535};
+  all[2].color = {0, 0, 13107, 0};
+  const hlsl::ByteAddressBuffer vertices(all.data(), all.size() * sizeof(ColoredVertex));
+  hlsl::HitConstants hit = {};
+  hit.vertex_stride = kColoredVertexStride;
+  hit.color_offset = sizeof(Vertex);
+  EXPECT_EQ(hlsl::LoadColor(vertices, hit, {0, 1, 2}, {1, 0}), glm::vec4(0, 1, 0.2f, 1));
+  const glm::vec4 mixed = hlsl::LoadColor(vertices, hit, {0, 1, 2}, {0.25f, 0.25f});
+  EXPECT_LT(glm::distance(mixed, glm::vec4(0.5f, 0.25f, 0.2f, 0.75f)), 1e-6f);
+}
+
 TEST(HlslMirror, SkyRadiance) {
   const Sky sky = {{0.1f, 0.2f, 0.9f}, {0.7f, 0.8f, 0.9f}, {0.3f, 0.2f, 0.1f}};
   for (std::uint32_t i = 0; i < 1000; ++i) {
@@ -252,6 +274,7 @@ TEST(HlslMirror, MaterialLayout) {
   EXPECT_EQ(hlsl::kMaterialBlend, kMaterialBlend);
   EXPECT_EQ(hlsl::kMaterialDoubleSided, kMaterialDoubleSided);
   EXPECT_EQ(hlsl::kMaterialAlphaTested, kMaterialAlphaTested);
+  EXPECT_EQ(hlsl::kMaterialUnlit, kMaterialUnlit);
   EXPECT_EQ(hlsl::kNoTexture, kNoTexture);
 }
 

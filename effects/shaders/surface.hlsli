@@ -19,6 +19,7 @@ struct Surface {
   float roughness;
   float metallic;
   bool back_face;  // the ray hit the back of the triangle
+  bool is_unlit;   // emits its base colour and reflects nothing [KHR_materials_unlit]
 };
 
 static const float kFinestLevel = -1e30;
@@ -140,6 +141,7 @@ Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, Trian
   surface.offset = found.spawn.offset;
   surface.normal = found.side * found.spawn.normal;
   surface.back_face = found.side < 0.0;
+  surface.is_unlit = (material.flags & kMaterialUnlit) != 0;
   HitTexel texel;
   texel.uv = float2(0, 0);
   texel.level = kFinestLevel;
@@ -158,14 +160,19 @@ Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, Trian
   // A shading normal that faces away from the ray's origin would reflect no visible light.
   surface.shading_normal = dot(shading_normal, hit.direction) < 0.0 ? shading_normal : surface.normal;
 
-  const float4 base_color =
+  float4 base_color =
       material.base_color * SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level);
+  float3 emissive =
+      material.emissive * SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb;
+  if (hit.layout.color_offset != 0) {
+    const float4 color = LoadColor(vertices, hit.layout, found.corners, hit.barycentrics);
+    base_color *= color;
+    if (surface.is_unlit) emissive *= color.rgb;
+  }
   const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, texel.uv, texel.level);
   surface.base_color = Contain(base_color.rgb, 1.0);
   surface.opacity = base_color.a;
-  surface.emissive =
-      Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb,
-              kLargestRadiance);
+  surface.emissive = Contain(emissive, kLargestRadiance);
   surface.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
   surface.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);
   return surface;
@@ -200,6 +207,11 @@ MatteSurface LoadMatteSurface(float2 barycentrics, float cone_width) {
     const HitTexel texel = LoadHitTexel(vertices, hit, found, cone_width);
     surface.base_color *= SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level).rgb;
     surface.emissive *= SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb;
+  }
+  if (hit.layout.color_offset != 0) {
+    const float3 color = LoadColor(vertices, hit.layout, found.corners, hit.barycentrics).rgb;
+    surface.base_color *= color;
+    if ((material.flags & kMaterialUnlit) != 0) surface.emissive *= color;
   }
   surface.base_color = Contain(surface.base_color, 1.0);
   surface.emissive = Contain(surface.emissive, kLargestRadiance);

@@ -39,6 +39,10 @@ using VertexColor = glm::u16vec4;
 /// The colour of a vertex that has none.
 inline constexpr VertexColor kWhite{65535, 65535, 65535, 65535};
 
+/// A vertex with a colour as it lies in memory on a device: a Vertex, its VertexColor, 8 bytes
+/// unused, because geometries begin at multiples of 16 bytes.
+inline constexpr std::uint32_t kColoredVertexStride = 64;
+
 /// Root constants of a hit group's local root signature: how to read the two root SRVs of a
 /// geometry, and its material. 32 bytes.
 struct HitConstants {
@@ -51,7 +55,7 @@ struct HitConstants {
   ///@}
   std::uint32_t index_size_bytes = 4;  ///< 2 or 4
   std::uint32_t material_id = 0;       ///< in Scene::materials
-  std::uint32_t mesh_id = 0;           ///< in Scene::meshes
+  std::uint32_t color_offset = 0;      ///< bytes from the start of a vertex; 0: all are white
   std::uint32_t geometry_id = 0;       ///< in Mesh::geometries
 };
 static_assert(sizeof(HitConstants) == 32);

@@ -84,6 +84,10 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
     radiance[pixel] = float4(SkyTowards(normalize(direction)), 1.0);
     return;
   }
+  if (g_material[pixel].z > 0.5) {
+    radiance[pixel] = float4(g_emissive[pixel].rgb, 1.0);
+    return;
+  }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
   const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y,
                              g_material[pixel].x);

@@ -15,7 +15,7 @@ rtapi::Result<SkinningPass> SkinningPass::create(const Device& device) {
   const auto library = rtapi::LoadShaderLibrary(kaamos_shaders_skinning());
   if (!library) return library.error();
   RootSignatureDesc root;
-  root.Parameters.push_back(RootParameter::Constants32(2, 0));
+  root.Parameters.push_back(RootParameter::Constants32(3, 0));
   for (std::uint32_t t = 0; t < 3; ++t) root.Parameters.push_back(RootParameter::Srv(t));
   root.Parameters.push_back(RootParameter::Uav(0));
   const auto signature = device.CreateRootSignature(root);
@@ -39,6 +39,7 @@ rtapi::Result<SkinnedMesh> SkinningPass::create_mesh(const Device& device, const
                                                      std::uint32_t joint_count) {
   SkinnedMesh out;
   out.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
+  out.has_colors = !mesh.colors.empty();
   out.bind_vertices = bind_vertices;
   out.skin = skin;
   auto joints = CreateUploadBuffer(
@@ -47,7 +48,7 @@ rtapi::Result<SkinnedMesh> SkinningPass::create_mesh(const Device& device, const
   if (!joints) return joints.error();
   out.joints = *joints;
   BufferDesc desc;
-  desc.SizeInBytes = std::max<std::uint64_t>(mesh.vertices.size(), 1) * kSkinnedVertexStride;
+  desc.SizeInBytes = std::max<std::uint64_t>(mesh.vertices.size(), 1) * stride(mesh);
   desc.Flags = ResourceFlags::kAllowUnorderedAccess;
   desc.InitialState = kSkinnedVertexState;
   desc.Name = mesh.name + " skinned vertices";
@@ -63,8 +64,9 @@ void SkinningPass::begin(CommandList& list) const {
 }
 
 void SkinningPass::dispatch(CommandList& list, const SkinnedMesh& mesh, bool keep_history) const {
-  const std::uint32_t constants[2] = {mesh.vertex_count, keep_history ? 1u : 0u};
-  list.SetComputeRoot32BitConstants(0, 2, constants, 0);
+  const std::uint32_t constants[3] = {mesh.vertex_count, keep_history ? 1u : 0u,
+                                      mesh.has_colors ? 1u : 0u};
+  list.SetComputeRoot32BitConstants(0, 3, constants, 0);
   list.SetComputeRootShaderResourceView(1, mesh.bind_vertices);
   list.SetComputeRootShaderResourceView(2, mesh.skin);
   list.SetComputeRootShaderResourceView(3, mesh.joints.GetGPUVirtualAddress());

@@ -14,10 +14,13 @@
 
 namespace kaamos::effects {
 
-/// Vertices that the shader writes: a Vertex, its position one frame ago, 4 bytes unused. Hit
-/// shaders know them by their stride. [effects/surfaces/gbuffer/gbuffer.hlsl]
+/// Vertices that the shader writes: a Vertex, its position one frame ago, 4 bytes unused; then,
+/// where the mesh has colours, a VertexColor and 8 bytes unused.
+/// [effects/surfaces/gbuffer/store.hlsli]
 ///@{
 inline constexpr std::uint32_t kSkinnedVertexStride = 64;
+inline constexpr std::uint32_t kColoredSkinnedVertexStride = 80;
+inline constexpr std::uint32_t kSkinnedColorOffset = 64;
 inline constexpr std::uint32_t kPreviousPositionOffset = sizeof(Vertex);
 ///@}
 
@@ -29,7 +32,8 @@ inline constexpr rtapi::ResourceStates kSkinnedVertexState =
 /// Buffers of one deformed mesh.
 struct SkinnedMesh {
   std::uint32_t vertex_count = 0;              ///< vertices of the mesh
-  rtapi::GpuVirtualAddress bind_vertices = 0;  ///< Vertex each, in the bind pose
+  bool has_colors = false;                     ///< whether vertices have colours
+  rtapi::GpuVirtualAddress bind_vertices = 0;  ///< as upload_scene has them, bind pose
   rtapi::GpuVirtualAddress skin = 0;           ///< SkinVertex each
   rtapi::Buffer joints;                        ///< JointMatrix each, upload heap
   rtapi::Buffer vertices;                      ///< kSkinnedVertexState outside of the skinning
@@ -41,6 +45,10 @@ class SkinningPass {
   /// Makes the pass from the shaders that are built in.
   /// @errors KA0910, and those of rtapi::Device::CreateComputePipelineState.
   static rtapi::Result<SkinningPass> create(const rtapi::Device& device);
+  /// Bytes from one deformed vertex of the mesh to the next.
+  static std::uint32_t stride(const Mesh& mesh) {
+    return mesh.colors.empty() ? kSkinnedVertexStride : kColoredSkinnedVertexStride;
+  }
   /// Makes the buffers for `mesh`, whose bind pose and SkinVertices stand at the two addresses and
   /// must live as long.
   /// @errors those of rtapi::Device::CreateBuffer.

@@ -5,6 +5,7 @@
 struct SkinningConstants {
   uint vertex_count;
   uint keep_history;  // 0: no previous frame, so the previous position is the new one
+  uint has_colors;    // 1: colours follow what else a vertex has, and vertices are 16 bytes longer
 };
 
 ConstantBuffer<SkinningConstants> constants : register(b0);
@@ -18,6 +19,7 @@ static const uint kBindStride = 48;
 static const uint kSkinStride = 24;
 static const uint kDeformedStride = 64;
 static const uint kPreviousOffset = 48;
+static const uint kColorStride = 16;
 
 [shader("compute")]
 [numthreads(64, 1, 1)]
@@ -25,8 +27,9 @@ void SkinVertices(uint3 thread : SV_DispatchThreadID) {
   if (thread.x >= constants.vertex_count) {
     return;
   }
-  const uint from = thread.x * kBindStride;
-  const uint to = thread.x * kDeformedStride;
+  const uint colored = constants.has_colors * kColorStride;
+  const uint from = thread.x * (kBindStride + colored);
+  const uint to = thread.x * (kDeformedStride + colored);
   const uint2 packed = skin.Load2(thread.x * kSkinStride);
   const float4 weights = asfloat(skin.Load4(thread.x * kSkinStride + 8));
   const uint ids[4] = {packed.x & 0xFFFFu, packed.x >> 16, packed.y & 0xFFFFu, packed.y >> 16};
@@ -65,4 +68,7 @@ void SkinVertices(uint3 thread : SV_DispatchThreadID) {
   deformed.Store3(to + 12, asuint(normal));
   deformed.Store4(to + 24, asuint(tangent));
   deformed.Store2(to + 40, bind_vertices.Load2(from + 40));
+  if (constants.has_colors != 0) {
+    deformed.Store2(to + kDeformedStride, bind_vertices.Load2(from + kBindStride));
+  }
 }

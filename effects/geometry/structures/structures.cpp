@@ -224,10 +224,11 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
   const std::size_t bind_record = first_record(scene, body.mesh);
   for (std::size_t i = 0; i < mesh.geometries.size(); ++i) {
     GpuGeometry gpu = gpu_.geometries[bind_record + i];
+    gpu.constants.vertex_stride = SkinningPass::stride(mesh);
+    if (!mesh.colors.empty()) gpu.constants.color_offset = kSkinnedColorOffset;
     gpu.vertices = body.skinned.vertices.GetGPUVirtualAddress() +
-                   std::uint64_t{mesh.geometries[i].first_vertex} * kSkinnedVertexStride;
+                   std::uint64_t{mesh.geometries[i].first_vertex} * gpu.constants.vertex_stride;
     gpu.vertex_buffer = body.skinned.vertices;
-    gpu.constants.vertex_stride = kSkinnedVertexStride;
     body.geometries.push_back(geometry_desc(mesh.geometries[i], gpu));
     gpu_.geometries.push_back(gpu);
   }

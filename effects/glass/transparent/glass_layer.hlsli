@@ -16,6 +16,7 @@ float Coverage(float opacity) {
 // Light that a layer sends to the camera, apart from the mirror image. The caller provides the
 // sun's visibility, because an any-hit shader cannot trace a ray.
 float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibility) {
+  if (surface.is_unlit) return surface.emissive;
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 light = surface.emissive;
   light += LocalLights(brdf, view, surface.position, surface.normal);
@@ -45,6 +46,7 @@ GlassLayer LitLayer(Surface surface, float coverage, float3 direction, float sun
 // lets that much less through; or only as far as it covers.
 void AddMirrored(inout GlassLayer layer, Surface surface, float coverage, float3 direction,
                  float3 mirrored, bool in_full) {
+  if (surface.is_unlit) return;
   const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
   const float3 fresnel = saturate(FresnelSchlick(brdf.f0, -dot(direction, surface.shading_normal)));
   if (in_full) {

@@ -70,6 +70,9 @@ float GlassCoverage(float2 barycentrics) {
     const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
     alpha *= SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
   }
+  if (hit_constants.color_offset != 0) {
+    alpha *= LoadColor(vertices, hit_constants, corners, barycentrics).w;
+  }
   return Coverage(alpha);
 }
 

@@ -41,6 +41,7 @@ rtapi::Status LightMapDraws::create(const Device& device, const Frame& frame, co
   const auto pipeline = ScenePipeline::create(device, frame,
                                               {.library = library,
                                                .vertex_shader = "LightMapVertex",
+                                               .vertex_shader_of_holes = "LightMapHoleVertex",
                                                .pixel_shader = "LightMapPixel",
                                                .pixel_shader_of_holes = "LightMapHoles",
                                                .depth_func = ComparisonFunc::kGreater,

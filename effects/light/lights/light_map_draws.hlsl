@@ -86,6 +86,24 @@ MapVertex LightMapVertex(MapCorner corner) {
   return result;
 }
 
+// The same with what IsOpenAtUv asks for.
+struct HoleVertex {
+  float4 position : SV_Position;
+  float2 uv : TEXCOORD;
+  float alpha : ALPHA;
+};
+
+[shader("vertex")]
+HoleVertex LightMapHoleVertex(MapCorner corner, uint vertex : SV_VertexID) {
+  const MapVertex place = LightMapVertex(corner);
+  const uint geometry = draws[constants.draw].geometry;
+  HoleVertex result;
+  result.position = place.position;
+  result.uv = place.uv;
+  result.alpha = VertexAlpha(geometry_buffers[2 * geometry], geometries[geometry], vertex);
+  return result;
+}
+
 // A triangle of a draw, relative to the camera.
 struct MapTriangle {
   float3 corner;
@@ -160,8 +178,8 @@ float4 LightMapPixel(MapVertex vertex, uint primitive : SV_PrimitiveID) : SV_Tar
 
 // Leaves out the holes of the material.
 [shader("pixel")]
-float4 LightMapHoles(MapVertex vertex, uint primitive : SV_PrimitiveID) : SV_Target {
+float4 LightMapHoles(HoleVertex vertex, uint primitive : SV_PrimitiveID) : SV_Target {
   const HitConstants layout = geometries[draws[constants.draw].geometry];
-  if (IsOpenAtUv(materials[layout.material_id], vertex.uv)) discard;
+  if (IsOpenAtUv(materials[layout.material_id], vertex.uv, vertex.alpha)) discard;
   return Seen(uint2(vertex.position.xy), primitive);
 }

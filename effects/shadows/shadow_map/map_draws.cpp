@@ -30,6 +30,7 @@ rtapi::Status ShadowMapDraws::create(const EffectScope& scope, const ShaderLibra
   const auto pipeline = ScenePipeline::create(scope.device, scope.frame,
                                               {.library = library,
                                                .vertex_shader = "ShadowMapVertex",
+                                               .vertex_shader_of_holes = "ShadowMapHoleVertex",
                                                .pixel_shader_of_holes = "ShadowMapHoles",
                                                .depth_func = ComparisonFunc::kLess,
                                                .name = "shadow map"});

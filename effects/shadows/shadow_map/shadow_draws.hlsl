@@ -3,6 +3,9 @@
 // map after the other.
 #include "shadow_map.hlsli"
 
+// Vertices and indices of geometry i are number 2 * i and 2 * i + 1.
+ByteAddressBuffer geometry_buffers[] : register(t0, space4);
+
 struct Corner {
   float3 position : POSITION;  // object space
   float2 uv : TEXCOORD;
@@ -26,9 +29,27 @@ ShadowVertex ShadowMapVertex(Corner corner) {
   return result;
 }
 
+// The same with what IsOpenAtUv asks for.
+struct HoleVertex {
+  float4 position : SV_Position;
+  float2 uv : TEXCOORD;
+  float alpha : ALPHA;
+};
+
+[shader("vertex")]
+HoleVertex ShadowMapHoleVertex(Corner corner, uint vertex : SV_VertexID) {
+  const ShadowVertex place = ShadowMapVertex(corner);
+  const uint geometry = draws[constants.draw].geometry;
+  HoleVertex result;
+  result.position = place.position;
+  result.uv = place.uv;
+  result.alpha = VertexAlpha(geometry_buffers[2 * geometry], geometries[geometry], vertex);
+  return result;
+}
+
 // Leaves out the holes of the material. Its texture is read at level 0, as rays read it.
 [shader("pixel")]
-void ShadowMapHoles(ShadowVertex vertex) {
+void ShadowMapHoles(HoleVertex vertex) {
   const HitConstants layout = geometries[draws[constants.draw].geometry];
-  if (IsOpenAtUv(materials[layout.material_id], vertex.uv)) discard;
+  if (IsOpenAtUv(materials[layout.material_id], vertex.uv, vertex.alpha)) discard;
 }

@@ -28,7 +28,7 @@ using Corners = std::array<glm::dvec3, 3>;
 Corners corners_of(const Scene& scene, const GpuScene& gpu, const SeenTriangle& seen) {
   const auto& desc = gpu.instances.data<rtapi::RaytracingInstanceDesc>()[seen.instance - 1];
   const std::size_t record = desc.InstanceContributionToHitGroupIndex / kRayTypeCount;
-  const Mesh& mesh = scene.meshes[gpu.geometries[record].constants.mesh_id];
+  const Mesh& mesh = scene.meshes[gpu.geometries[record].mesh];
   Corners out;
   for (std::uint32_t i = 0; i < 3; ++i) {
     const glm::vec4 p(mesh.corner(mesh.geometries[seen.geometry], seen.primitive, i).position, 1);

@@ -26,6 +26,24 @@ RasterVertex SceneVertex(Corner corner) {
   return result;
 }
 
+// The same with what IsOpenAtUv asks for.
+struct HoleVertex {
+  float4 position : SV_Position;
+  float2 uv : TEXCOORD;
+  float alpha : ALPHA;
+};
+
+[shader("vertex")]
+HoleVertex SceneVertexWithHoles(Corner corner, uint vertex : SV_VertexID) {
+  const RasterVertex place = SceneVertex(corner);
+  const uint geometry = draws[constants.draw].geometry;
+  HoleVertex result;
+  result.position = place.position;
+  result.uv = place.uv;
+  result.alpha = VertexAlpha(geometry_buffers[2 * geometry], geometries[geometry], vertex);
+  return result;
+}
+
 [shader("pixel")]
 uint2 VisibleTriangle(uint primitive : SV_PrimitiveID) : SV_Target0 {
   return uint2(constants.draw + 1, primitive);
@@ -34,8 +52,8 @@ uint2 VisibleTriangle(uint primitive : SV_PrimitiveID) : SV_Target0 {
 // The same where the material has holes. Its texture is read at level 0, as the any-hit shaders of
 // rays read it, so that both see the same holes.
 [shader("pixel")]
-uint2 VisibleTriangleWithHoles(RasterVertex vertex, uint primitive : SV_PrimitiveID) : SV_Target0 {
+uint2 VisibleTriangleWithHoles(HoleVertex vertex, uint primitive : SV_PrimitiveID) : SV_Target0 {
   const HitConstants layout = geometries[draws[constants.draw].geometry];
-  if (IsOpenAtUv(materials[layout.material_id], vertex.uv)) discard;
+  if (IsOpenAtUv(materials[layout.material_id], vertex.uv, vertex.alpha)) discard;
   return uint2(constants.draw + 1, primitive);
 }

@@ -48,6 +48,7 @@ rtapi::Result<RasterGBuffer> RasterGBuffer::create(const Device& device, const F
       device, frame,
       {.library = libraries.raster,
        .vertex_shader = "SceneVertex",
+       .vertex_shader_of_holes = "SceneVertexWithHoles",
        .pixel_shader = "VisibleTriangle",
        .pixel_shader_of_holes = "VisibleTriangleWithHoles",
        .depth_func = ComparisonFunc::kGreater,  // reversed: the nearest is largest
