@@ -28,6 +28,15 @@ void list_left_out(FrameContext& context) {
                   " takes its place; its layer is there if \"" + effect.name +
                   "\" is named among the effects");
   }
+  const auto shows_glass = [&](const Effect& effect) {
+    return effect.needs.glass && is_rendered(context.scene, settings, context.effects, effect.name);
+  };
+  if (has_glass(context.scene) &&
+      std::none_of(context.effects.begin(), context.effects.end(), shows_glass)) {
+    out.emplace_back(
+        "glass and what else is blended (alphaMode BLEND): no effect that shows it is chosen, such "
+        "as \"transparent\"");
+  }
   if (std::none_of(context.gpu.geometries.begin(), context.gpu.geometries.end(),
                    [](const GpuGeometry& geometry) { return geometry.alpha_tested; })) {
     out.emplace_back("any-hit shaders: nothing is alpha-tested");

@@ -13,6 +13,7 @@ namespace {
 
 bool is_glossy(const Material& material) {
   const MaterialConstants& constants = material.constants;
+  if (constants.flags & kMaterialUnlit) return false;
   return constants.metallic > 0.0f || constants.roughness < kMatteRoughness ||
          constants.image[kMetallicRoughnessTexture] != kNoTexture;
 }

@@ -186,6 +186,21 @@ TEST(Registry, NamesAreKnownOrRefused) {
   EXPECT_NE(without.error().message.find("\"surfaces/gbuffer/gbuffer\""), std::string::npos);
 }
 
+TEST(Registry, FramesWithoutGlassSaySo) {
+  const Scene scene = make_room();
+  const auto says = [&](const std::vector<std::string>& names) {
+    FrameSettings settings = small_settings(names);
+    settings.volume.given = std::make_shared<IndirectVolume>();
+    const auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
+    renderer->render().value();
+    return std::any_of(
+        renderer->left_out().begin(), renderer->left_out().end(),
+        [](const std::string& text) { return text.find("glass and what else is blended") == 0; });
+  };
+  EXPECT_TRUE(says({"ao", "sun"}));
+  EXPECT_FALSE(says({"sun", "transparent"}));
+}
+
 // Indirect light takes the place of ambient occlusion: nothing would read its rays.
 TEST(Registry, WhatNothingReadsIsNotTraced) {
   const Scene scene = make_room();

@@ -18,7 +18,8 @@ bool is_mirror(const Scene& scene, const Mesh& mesh) {
   return !mesh.geometries.empty() &&
          std::all_of(mesh.geometries.begin(), mesh.geometries.end(), [&](const Geometry& geometry) {
            const MaterialConstants& material = scene.materials[geometry.material].constants;
-           return material.roughness <= kMirrorRoughness && material.base_color.a >= 1;
+           return material.roughness <= kMirrorRoughness && material.base_color.a >= 1 &&
+                  (material.flags & kMaterialUnlit) == 0;
          });
 }
 
