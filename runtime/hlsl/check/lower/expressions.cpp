@@ -102,7 +102,8 @@ Value Expressions::lower_inner(const Expr* expression) {
     case ExprKind::kAssign:
       return lower_.operators.lower_assign(static_cast<const AssignExpr*>(expression));
     case ExprKind::kConditional:
-      return lower_.operators.lower_conditional(static_cast<const ConditionalExpr*>(expression));
+      return lower_.short_circuits.lower_conditional(
+          static_cast<const ConditionalExpr*>(expression));
     case ExprKind::kSizeof:
       return lower_sizeof(static_cast<const SizeofExpr*>(expression));
   }

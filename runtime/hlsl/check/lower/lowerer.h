@@ -27,6 +27,7 @@
 #include "runtime/hlsl/check/lower/ray_intrinsics.h"
 #include "runtime/hlsl/check/lower/ray_queries.h"
 #include "runtime/hlsl/check/lower/resources.h"
+#include "runtime/hlsl/check/lower/short_circuits.h"
 #include "runtime/hlsl/check/lower/statements.h"
 #include "runtime/hlsl/check/lower/textures.h"
 #include "runtime/hlsl/check/lower/vk_names.h"
@@ -60,6 +61,7 @@ class Lowerer final : public Evaluator {
   Conversions conversions{*this};
   Expressions expressions{*this};
   Operators operators{*this};
+  ShortCircuits short_circuits{*this};
   Calls calls{*this};
   Overloads overloads{*this};
   Intrinsics intrinsics{*this};

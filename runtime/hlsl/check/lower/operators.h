@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Operators, those that structs define too.
+// Operators, those that structs define too; && || ?: are with ShortCircuits.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,6 @@ class Operators : LowerPart {
   Value lower_unary(const UnaryExpr* expr);
   Value lower_binary(const BinaryExpr* expr);
   Value lower_assign(const AssignExpr* expr);
-  Value lower_conditional(const ConditionalExpr* expr);
   Value binary_value(BinaryOp op, const Value& left, const Value& right, SourceLocation location);
   // The common type of two operands of one numeric shape; reports an error and returns null if
   // there is none.
@@ -31,7 +30,6 @@ class Operators : LowerPart {
 
  private:
   Value lower_increment(const UnaryExpr* expr, const Value& operand);
-  Value lower_logical(const BinaryExpr* expr);
 };
 
 }  // namespace kaamos::hlsl
