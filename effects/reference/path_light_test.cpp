@@ -219,6 +219,43 @@ TEST_P(PathLights, PicturesOfLampsAreNoLights) {
   EXPECT_EQ(mean_of(*alone, "radiance"), mean_of(*both, "radiance"));
 }
 
+// Of unlit surfaces the camera sees the base colour times the vertex colour, and nothing mirrored.
+TEST_P(PathLights, UnlitSurfacesShowTheirColor) {
+  Scene scene = plane_scene(glm::vec3(0.5f), 0, 0.2f, kDegrees, glm::vec3(2));
+  scene.materials[0].constants.flags |= kMaterialUnlit;
+  scene.meshes[0].colors.assign(scene.meshes[0].vertices.size(), {32768, 65535, 65535, 65535});
+  PathReferenceDesc desc;
+  desc.width = desc.height = 4;
+  const auto reference = trace_reference(scene, desc, 4, GetParam());
+  EXPECT_NEAR(mean_of(*reference, "radiance", 0), 0.25, 1e-5);
+  EXPECT_NEAR(mean_of(*reference, "radiance", 1), 0.5, 1e-5);
+}
+
+TEST_P(PathLights, VertexColorsMultiplyTheBaseColor) {
+  const auto seen = [&](float base, const VertexColor& color) {
+    Scene scene = plane_scene(glm::vec3(base), 0, 1, kDegrees);
+    scene.meshes[0].colors.assign(scene.meshes[0].vertices.size(), color);
+    PathReferenceDesc desc;
+    desc.width = desc.height = 4;
+    return mean_of(*trace_reference(scene, desc, 16, GetParam()), "radiance");
+  };
+  EXPECT_NEAR(seen(0.8f, {32768, 65535, 65535, 65535}), seen(0.4f, kWhite), 1e-4);
+}
+
+// Sampling lights and following rays agree that an emitter is nothing but a hole.
+TEST_P(PathLights, HolesOfVertexColorsEmitNothing) {
+  Scene scene = dark_plane();
+  const std::uint32_t glow = add_material(scene, glm::vec3(0), 0, 1, glm::vec3(9));
+  scene.materials[glow].constants.flags |= kMaterialMask | kMaterialAlphaTested;
+  add_thing(scene, "holes", patch({-1, 2, 1}, {2, 0, 0}, {0, 0, -2}, 1, 1), glow);
+  Mesh& mesh = scene.meshes.back();
+  mesh.geometries[0].alpha_tested = true;
+  mesh.colors.assign(mesh.vertices.size(), {65535, 65535, 65535, 16384});
+  PathReferenceDesc desc;
+  desc.width = desc.height = 4;
+  EXPECT_EQ(mean_of(*trace_reference(scene, desc, 16, GetParam()), "radiance"), 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, PathLights, testing::Values("embree", "vulkan"), backend_of);
 
 }  // namespace

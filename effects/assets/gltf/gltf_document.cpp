@@ -109,6 +109,7 @@ class Checker {
       : root_(root), binary_bytes_(binary_bytes) {}
   Status run(std::vector<std::string>& warnings);
   std::vector<HiddenIndices> hidden;
+  std::vector<std::size_t> named_bytes;
   bool changed = false;
 
  private:
@@ -123,11 +124,12 @@ class Checker {
   Status object(Json& object, const std::string& where, std::span<const Member> members);
   bool is_kind(Json& value, Kind kind);
   Status accessor(Json& accessor, const std::string& where);
-  Status buffer(const Json& buffer, std::size_t id, const std::string& where) const;
+  Status buffer(Json& buffer, std::size_t id, const std::string& where);
   Status primitive(Json& primitive, std::size_t mesh, std::size_t id, const std::string& where);
   Status camera(Json& camera, const std::string& where);
   Status animation(Json& animation, const std::string& where);
   Status lights();
+  Status image(Json& image, const std::string& where);
   bool has_view(const Json& id) const;
 
   Json& root_;
@@ -211,7 +213,7 @@ Status Checker::versions() const {
   if (std::strtol(version.c_str(), nullptr, 10) != 2)
     return fail("", "is glTF " + version + ", 2.0 is supported: export it as glTF 2.0");
   const std::string least = text(*asset, "minVersion");
-  if (!least.empty() && least != "2.0")
+  if (std::strtod(least.c_str(), nullptr) > 2.0)
     return fail("", "needs glTF " + least + " (asset.minVersion), 2.0 is supported");
   return {};
 }
@@ -260,7 +262,7 @@ Status Checker::accessor(Json& accessor, const std::string& where) {
     return fail(where, "type is \"" + type +
                            "\", SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 and MAT4 are allowed");
   const auto component = accessor["componentType"].get<std::int64_t>();
-  if ((component < 5120 || component > 5126 || component == 5124) && component != 5130)
+  if ((component < 5120 || component > 5126) && component != 5130)
     return fail(where, "componentType is " + std::to_string(component) +
                            ", 5120 to 5123, 5125 and 5126 are allowed");
   const auto sparse = accessor.find("sparse");
@@ -280,7 +282,21 @@ std::size_t decoded_size(std::string_view base64) {
   return (base64.size() - padding) * 3 / 4;
 }
 
-Status Checker::buffer(const Json& buffer, std::size_t id, const std::string& where) const {
+// The first `bytes` bytes of a base64 text, which has at least as many.
+std::string first_bytes(std::string_view base64, std::size_t bytes) {
+  std::string out(base64.substr(0, (bytes + 2) / 3 * 4));
+  out.resize((bytes + 2) / 3 * 4, '=');  // a text may lack its padding
+  const std::size_t rest = bytes % 3;
+  if (rest != 0) out.back() = '=';
+  if (rest == 1) out[out.size() - 2] = '=';
+  return out;
+}
+
+// tinygltf knows some media types only, and reads no buffer that is longer than it says.
+constexpr std::string_view kBufferPrefix = "data:application/octet-stream;base64,";
+constexpr std::string_view kImagePrefix = "data:image/png;base64,";
+
+Status Checker::buffer(Json& buffer, std::size_t id, const std::string& where) {
   const Json* uri = find(buffer, "uri");
   const auto wanted = buffer["byteLength"].get<std::int64_t>();
   if (wanted < 0) return fail(where, "byteLength is negative");
@@ -302,12 +318,37 @@ Status Checker::buffer(const Json& buffer, std::size_t id, const std::string& wh
     return {};
   }
   const auto& address = uri->get_ref<const std::string&>();
-  if (!address.starts_with("data:")) return {};
+  if (!address.starts_with("data:")) {
+    named_bytes.push_back(static_cast<std::size_t>(wanted));
+    return {};
+  }
   const std::size_t comma = address.find(";base64,");
   if (comma == std::string::npos)
     return fail(where, "its data URI is not base64, which is the only kind that is read");
-  const std::size_t bytes = decoded_size(std::string_view(address).substr(comma + 8));
-  return static_cast<std::size_t>(wanted) > bytes ? has_too_few(bytes) : Status();
+  const std::string_view base64 = std::string_view(address).substr(comma + 8);
+  const std::size_t bytes = decoded_size(base64);
+  if (static_cast<std::size_t>(wanted) > bytes) return has_too_few(bytes);
+  if (static_cast<std::size_t>(wanted) == bytes && address.starts_with(kBufferPrefix)) return {};
+  buffer["uri"] =
+      std::string(kBufferPrefix) + first_bytes(base64, static_cast<std::size_t>(wanted));
+  changed = true;
+  return {};
+}
+
+// Any media type will do: the first bytes of a picture say what it is.
+Status Checker::image(Json& image, const std::string& where) {
+  if (!find(image, "uri") && !find(image, "bufferView"))
+    return fail(where, "has neither uri nor bufferView, one is required");
+  const std::string address = text(image, "uri");
+  if (!address.starts_with("data:") || address.starts_with(kImagePrefix) ||
+      address.starts_with("data:image/jpeg;base64,"))
+    return {};
+  const std::size_t comma = address.find(";base64,");
+  if (comma == std::string::npos)
+    return fail(where, "its data URI is not base64, which is the only kind that is read");
+  image["uri"] = std::string(kImagePrefix) + address.substr(comma + 8);
+  changed = true;
+  return {};
 }
 
 bool Checker::has_view(const Json& id) const {
@@ -421,11 +462,9 @@ Status Checker::run(std::vector<std::string>& warnings) {
                                     : Status();
     });
   if (status.ok())
-    status = each("images", "image", kImage, [](Json& item, std::size_t, const std::string& where) {
-      return find(item, "uri") || find(item, "bufferView")
-                 ? Status()
-                 : fail(where, "has neither uri nor bufferView, one is required");
-    });
+    status =
+        each("images", "image", kImage,
+             [&](Json& item, std::size_t, const std::string& where) { return image(item, where); });
   if (status.ok()) status = each("textures", "texture", kTexture, nothing);
   if (status.ok())
     status = each(
@@ -467,6 +506,7 @@ Result<GltfDocument> check_gltf_document(std::string_view json,
   if (!status.ok()) return status.error();
   GltfDocument out;
   out.hidden = std::move(checker.hidden);
+  out.named_bytes = std::move(checker.named_bytes);
   if (checker.changed) out.json = root.dump();
   return out;
 }

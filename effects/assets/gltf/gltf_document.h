@@ -25,6 +25,8 @@ struct HiddenIndices {
 struct GltfDocument {
   std::optional<std::string> json;    // none: the file's own
   std::vector<HiddenIndices> hidden;  // to be put back into what the parser made
+  // byteLength of the buffers that lie in files of their own, which may be longer, in their order.
+  std::vector<std::size_t> named_bytes;
 };
 
 /// Checks versions, extensions, required members, their types, and the sizes of buffers.

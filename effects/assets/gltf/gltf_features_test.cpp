@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 #include <string>
 #include <vector>
 
+#include "effects/assets/common/file.h"
 #include "effects/assets/gltf/gltf_test_support.h"
 #include "effects/assets/gltf/gltf_write.h"
 #include "effects/assets/scene/animation.h"
@@ -391,6 +394,39 @@ TEST(GltfDocument, SaysWhatAndWhereBeforeTheParserDoes) {
   File file;
   file.more = R"(,"animations":[{"channels":[{"sampler":0}],"samplers":[]}])";
   expect_error(load(file.bytes()), "animation 0, channel 0: has no target, which glTF requires");
+}
+
+// As the Khronos validator allows.
+TEST(GltfDocument, DataMayBeLongerThanItsBufferAndOfAnyMediaType) {
+  // The positions (0, 0, 0), (1, 0, 0), (0, 1, 0), and one byte more.
+  const auto file = [](const std::string& uri) {
+    return R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":")" + uri +
+           R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+           R"("componentType":5126,"count":3,"type":"VEC3"}],"meshes":[{"primitives":[)"
+           R"({"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})";
+  };
+  const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+  for (const char* type : {"application/octet-stream", "application/x-anything", ""}) {
+    const auto loaded = load_text(file("data:" + std::string(type) + ";base64," + base64 + "BQ=="));
+    EXPECT_EQ(scene_bounds(scene_of(loaded)).max, glm::dvec3(1, 1, 0)) << type;
+  }
+  const std::string path = testing::TempDir() + "kaamos_longer.bin";
+  std::vector<std::uint8_t> bytes(40, 0);
+  const float one = 1.0f;
+  std::memcpy(&bytes[12], &one, 4);
+  std::memcpy(&bytes[28], &one, 4);
+  ASSERT_TRUE(write_file(path, bytes).ok());
+  const std::string text = file("kaamos_longer.bin");
+  const auto load_beside = [&] {
+    return load_gltf_memory(
+        std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), "test.gltf",
+        testing::TempDir());
+  };
+  EXPECT_EQ(scene_bounds(scene_of(load_beside())).max, glm::dvec3(1, 1, 0));
+  bytes.resize(30);
+  ASSERT_TRUE(write_file(path, bytes).ok());
+  expect_error(load_beside(), "has 30 bytes, its byteLength says another number");
+  std::remove(path.c_str());
 }
 
 // A whole number may be written with a point, and an accessor without a view is all zeros or

@@ -38,6 +38,10 @@ bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::st
 struct FileLog {
   std::string trouble;    // why one could not be read
   std::string last_read;  // what was read of the last one
+  // What the parser asks for first are the buffers, in their order, and it takes none that is
+  // longer than it says.
+  std::vector<std::size_t> lengths;
+  std::size_t next = 0;
 };
 
 /// Reads a file that a scene names as any other file is read: the parser's own reader asks a folder
@@ -50,6 +54,9 @@ bool read_named_file(std::vector<unsigned char>* out, std::string*, const std::s
     log.last_read = "\"" + path + "\" has " + std::to_string(bytes.value().size()) +
                     " bytes, its byteLength says another number";
     *out = std::move(bytes.value());
+    if (log.next < log.lengths.size() && out->size() > log.lengths[log.next])
+      out->resize(log.lengths[log.next]);
+    ++log.next;
   } else {
     log.trouble = bytes.error().message;
   }
@@ -76,7 +83,9 @@ Callbacks file_callbacks(FileLog& log) {
     files.GetFileSizeInBytes = [](std::size_t* size, std::string* error, const std::string& path,
                                   void* user) {
       std::vector<unsigned char> bytes;
-      const bool is_read = read_named_file(&bytes, error, path, user);
+      FileLog other;  // this is not the read that counts
+      const bool is_read = read_named_file(&bytes, error, path, &other);
+      if (!is_read) static_cast<FileLog*>(user)->trouble = other.trouble;
       *size = bytes.size();
       return is_read;
     };
@@ -202,16 +211,18 @@ Status parse_gltf(std::span<const std::uint8_t> bytes, const std::string& folder
   if (!document.ok()) return document.error();
 
   FileLog files;
+  files.lengths = document.value().named_bytes;
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_encoded, &images);
   loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>(files));
   // The parser's own words name neither the part of the file nor what is allowed.
   std::string error, warning;
   bool parsed = false;
-  const std::string text = document.value().json.value_or(std::string(json));
+  const std::string_view text =
+      document.value().json ? std::string_view(*document.value().json) : json;
   try {
     if (all.starts_with("glTF")) {
-      const std::vector<std::uint8_t> glb = glb_of(text, binary);
+      const std::vector<std::uint8_t> glb = glb_of(std::string(text), binary);
       parsed = loader.LoadBinaryFromMemory(&model, &error, &warning, glb.data(),
                                            static_cast<unsigned int>(glb.size() - 16), folder);
     } else {
