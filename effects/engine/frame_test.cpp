@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/assets/scene/checkers_fixture.h"
@@ -32,8 +33,9 @@ Scene checkered_plane() {
   return scene;
 }
 
-FloatImage base_colors(const Scene& scene, bool ray_cones) {
+FloatImage base_colors(const Scene& scene, bool ray_cones, Primary primary = Primary::kRays) {
   FrameSettings settings;
+  settings.primary = primary;
   settings.width = settings.height = 32;
   settings.ray_cones = ray_cones;
   settings.whole_frame = false;
@@ -80,6 +82,62 @@ TEST(Frame, BaseColorsAreStoredBySquareRoots) {
     const float stored = picture.at(16, 16, c);
     EXPECT_NEAR(stored, std::sqrt(color[static_cast<int>(c)]), 0.5001f / 255) << c;
   }
+}
+
+// A white plane whose vertices all have that colour.
+Scene colored_plane(const VertexColor& color) {
+  Scene scene = checkered_plane();
+  for (Material& material : scene.materials) material.constants.image[kBaseColorTexture] = -1;
+  Mesh& mesh = scene.meshes[scene.instances[0].mesh];
+  mesh.colors.assign(mesh.vertices.size(), color);
+  return scene;
+}
+
+TEST(Frame, VertexColorsMultiplyTheBaseColor) {
+  Scene scene = colored_plane({16384, 32768, 65535, 65535});
+  for (Material& material : scene.materials)
+    material.constants.base_color = glm::vec4(1, 0.5f, 0.25f, 1);
+  for (const Primary primary : {Primary::kRays, Primary::kRaster}) {
+    const FloatImage picture = base_colors(scene, true, primary);
+    for (std::uint32_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(picture.at(16, 16, c), 0.5f, 0.5001f / 255) << c;
+  }
+}
+
+// The opacity of the vertices counts where the material has holes, for rays and draws alike.
+TEST(Frame, VertexColorsMakeHoles) {
+  for (const std::uint16_t alpha : {std::uint16_t{16384}, std::uint16_t{49152}}) {
+    Scene scene = colored_plane({65535, 65535, 65535, alpha});
+    for (Material& material : scene.materials)
+      material.constants.flags |= kMaterialMask | kMaterialAlphaTested;
+    for (Mesh& mesh : scene.meshes)
+      for (Geometry& geometry : mesh.geometries) geometry.alpha_tested = true;
+    for (const Primary primary : {Primary::kRays, Primary::kRaster})
+      EXPECT_EQ(base_colors(scene, true, primary).at(16, 16, 0), alpha > 32768 ? 1.0f : 0.0f);
+  }
+}
+
+// An unlit surface shows its base colour, whatever the light and the exposure, and mirrors nothing.
+TEST(Frame, UnlitSurfacesShowTheirBaseColor) {
+  Scene scene = colored_plane({65535, 32768, 65535, 65535});
+  for (Material& material : scene.materials) {
+    material.constants.base_color = glm::vec4(0.5f, 0.5f, 1, 1);
+    material.constants.flags |= kMaterialUnlit;
+  }
+  scene.sky = {glm::vec3(3), glm::vec3(3), glm::vec3(3)};
+  scene.sun = Sun{};
+  scene.exposure = 2;
+  FrameSettings settings;
+  settings.width = settings.height = 16;
+  settings.effects = choose_effects({"sun", "reflections"});
+  settings.volume.given = std::make_shared<IndirectVolume>();
+  const auto renderer =
+      FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
+  renderer->render().value();
+  const FloatImage radiance = renderer->read("radiance").value();
+  EXPECT_NEAR(radiance.at(8, 8, 0), 0.25f, 1e-3f);
+  EXPECT_NEAR(radiance.at(8, 8, 1), 0.125f, 1e-3f);
+  EXPECT_NEAR(radiance.at(8, 8, 2), 0.5f, 1e-3f);
 }
 
 // E1: the survey's ray through a pixel lacks a -1 in its vertical part, -f (2 (y + 1/2) / h): its

@@ -127,6 +127,48 @@ TEST_P(Structures, VerticesAreThoseOfTheHost) {
   }
 }
 
+// Colours are behind what else a deformed vertex has, and hits read them there.
+TEST_P(Structures, DeformedVerticesKeepTheirColors) {
+  Scene scene = make_runner_scene({.crowd = 0});
+  const VertexColor color{65535, 16384, 0, 65535};
+  for (Mesh& mesh : scene.meshes) mesh.colors.assign(mesh.vertices.size(), color);
+  for (Material& material : scene.materials) {
+    material.constants.base_color = glm::vec4(1);
+    material.constants.image[kBaseColorTexture] = kNoTexture;
+  }
+  Stage stage(GetParam(), scene);
+  stage.go(0.11);
+  struct Colored {
+    DeformedVertex vertex;
+    VertexColor color;
+    std::uint32_t unused[2];
+  };
+  static_assert(sizeof(Colored) == kColoredSkinnedVertexStride);
+  const std::vector<std::byte> bytes =
+      rtapi::ReadbackBuffer(stage.device, stage.queue, stage.manager.skinned_vertices(1)).value();
+  std::vector<Colored> found(bytes.size() / sizeof(Colored));
+  std::memcpy(found.data(), bytes.data(), found.size() * sizeof(Colored));
+  const std::vector<Vertex> now =
+      skin_vertices(scene.meshes[scene.instances[1].mesh], stage.states[1].joints);
+  ASSERT_EQ(found.size(), now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    ASSERT_LT(distance(found[i].vertex.vertex.position, now[i].position), 2e-6) << i;
+    ASSERT_EQ(found[i].color, color) << i;
+  }
+  const FloatImage seen = stage.read(kBaseColor);
+  std::size_t count = 0;
+  for (std::uint32_t y = 0; y < seen.height; ++y) {
+    for (std::uint32_t x = 0; x < seen.width; ++x) {
+      if (seen.at(x, y, 3) == 0) continue;  // the sky
+      ++count;
+      ASSERT_NEAR(seen.at(x, y, 0), 1.0f, 1e-3f);
+      ASSERT_NEAR(seen.at(x, y, 1), 0.5f, 0.5001f / 255);
+      ASSERT_EQ(seen.at(x, y, 2), 0.0f);
+    }
+  }
+  EXPECT_GT(count, 1000u);
+}
+
 // The first frames of the walk, once by updates alone and once rebuilt in each frame: the triangles
 // are the same, so the hits must be. 10^5 rays.
 TEST_P(Structures, UpdatedStructuresGiveTheHitsOfNewOnes) {
