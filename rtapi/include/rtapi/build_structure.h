@@ -26,7 +26,7 @@ Result<Buffer> BuildAccelerationStructure(const Device& device, const CommandQue
                                           std::string name = {}, const Buffer& source = {});
 
 /// A bottom level of `geometries`; none make an empty one.
-/// @errors as of BuildAccelerationStructure.
+/// @errors as of BuildAccelerationStructure, KA0904 among them.
 Result<Buffer> BuildBottomLevel(const Device& device, const CommandQueue& queue,
                                 std::span<const RaytracingGeometryDesc> geometries,
                                 std::string name = {},
@@ -44,7 +44,7 @@ inline Result<Buffer> BuildBottomLevel(
 }
 
 /// A top level of `instances`, which an upload buffer brings to the device; none make an empty one.
-/// @errors as of BuildAccelerationStructure.
+/// @errors as of BuildAccelerationStructure, KA0904 among them.
 Result<Buffer> BuildTopLevel(const Device& device, const CommandQueue& queue,
                              std::span<const RaytracingInstanceDesc> instances,
                              std::string name = {},
