@@ -75,12 +75,12 @@ void CopyBytes() {
   results.Store4(0, source.Load4(0));
 }
 
-// Overwrites what is bound to u0.
+// Overwrites what is bound to u0, by a number that no identifier of a process's first shaders holds.
 [shader("raygeneration")]
 void RayGenWrites() {
   Payload payload = { 0 };
   TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 1, 0, straight(), payload);
-  results.Store(4, payload.value + 5);
+  results.Store(4, payload.value + 0xFFFF0005u);
 }
 
 RWTexture2D<float> picture : register(u1);
