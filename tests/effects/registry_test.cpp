@@ -194,7 +194,7 @@ TEST(Registry, FramesWithoutGlassSaySo) {
     const auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
     renderer->render().value();
     return std::any_of(
-        renderer->left_out().begin(), renderer->left_out().end(),
+        renderer->context().left_out.begin(), renderer->context().left_out.end(),
         [](const std::string& text) { return text.find("glass and what else is blended") == 0; });
   };
   EXPECT_TRUE(says({"ao", "sun"}));
