@@ -65,43 +65,34 @@ function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s] [ALONE]
-#   [OPTIMIZED] [MANY_PIPELINES])
+# kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s]
+#   [MANY_PIPELINES])
 # Adds one executable; every TEST in it becomes one ctest test with the given labels, in a process of
-# its own. Under scripts/test, neighbours share a process (tests/vulkan/shared_runs.h) unless the
-# program is ALONE: its tests change the environment or limits, or leave a process that the next test
-# cannot use. Tests start through kaamos-isolate, which repeats a test on Vulkan that the driver
-# crashed. A test counts as one on Vulkan if it or its executable has "vulkan" in its name; it then
-# gets the label vulkan too. OPTIMIZED is for tests that compute much themselves: all others are
-# compiled without optimisation, in two thirds of the time, since tests are half of what a build
-# compiles and each runs only once. MANY_PIPELINES is for Vulkan tests that make many pipelines and
+# its own. Under scripts/test, neighbours share a process (tests/vulkan/shared_runs.h), so a test puts
+# back what it changes of the environment and of limits. Tests start through kaamos-isolate, which
+# repeats a test on Vulkan that the driver crashed. A test counts as one on Vulkan if it or its
+# executable has "vulkan" in its name; it then gets the label vulkan too. Tests are half of what a
+# build compiles, and each runs only once: they are compiled without optimisation, in two thirds of
+# the time; what they test is optimised. MANY_PIPELINES is for Vulkan tests that make many pipelines and
 # trace few rays: lavapipe does not optimise those pipelines, which takes it less than half the time.
 # All other tests run what users run.
 set(KAAMOS_TESTS_PER_PROCESS 16)
 function(kaamos_add_test name)
-  cmake_parse_arguments(arg "ALONE;OPTIMIZED;MANY_PIPELINES" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "MANY_PIPELINES" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT KAAMOS_BUILD_TESTS)
     return()
   endif()
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
-  set(share ${KAAMOS_TESTS_PER_PROCESS})
-  if(arg_ALONE)
-    set(share 1)
-  endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE kaamos_build_flags ${arg_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  if(arg_OPTIMIZED)
-    kaamos_compile_lightly(${name})
-  else()
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
-  endif()
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
   target_compile_definitions(${name} PRIVATE
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   # CMake calls the program that starts a test its emulator.
   set_target_properties(${name} PROPERTIES
-    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT};--share;${share}")
+    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT};--share;${KAAMOS_TESTS_PER_PROCESS}")
   add_dependencies(${name} kaamos-isolate)
   math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it before this
   include(GoogleTest)
