@@ -70,6 +70,7 @@ done'
 program sharing "$speaking; exit \$status"
 program dying "$speaking; [ \$# = 1 ] && exit \$status; kill -SEGV \$\$"
 program dying_at_c "dies=S.c; $speaking; exit \$status"
+program slow_vulkan "dies=S.c; ${speaking/'kill -SEGV $$'/'exec sleep 60'}; exit \$status"
 program lying "${speaking/FAILED  ]/     OK ]}; exit 1"
 
 # share PROGRAM TEST STATUS TEXT RUNS: its status, a text of its output, and the processes until then,
@@ -96,6 +97,11 @@ share dying_at_c S.a 0 'said by S.a' 2  # the list, those up to c
 share dying_at_c S.c 0 'said by S.c' 3  # alone
 share dying_at_c S.b 1 'wrong' 3
 share dying_at_c S.d 0 '[  SKIPPED ] S.d' 4
+rm "$work/count"
+export KAAMOS_VULKAN_RUNS="$work/slow-runs.txt"
+share slow_vulkan S.a 0 'said by S.a' 2
+share slow_vulkan S.c 0 'said by S.c' 3
+[[ $(cut -f1 "$KAAMOS_VULKAN_RUNS" | paste -sd,) == ran,ran ]] || { echo "FAILED slow group: $(cat "$KAAMOS_VULKAN_RUNS")"; failures=$((failures + 1)); }
 rm "$work/count"
 share lying S.a 1 'said by S.a' 3  # a status that no test explains: alone
 exit $((failures > 0))

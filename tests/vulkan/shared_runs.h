@@ -37,7 +37,7 @@ class SharedRuns {
 
   // Empty if the test must run by itself.
   std::optional<TestResult> result_of(const std::string& name);
-  // Returns what ended the groups that this process started and that crashed.
+  // Returns the signals that ended groups which this process started.
   const std::vector<std::string>& crashes() const { return crashes_; }
 
  private:
