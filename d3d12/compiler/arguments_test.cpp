@@ -54,6 +54,8 @@ TEST(DxcArguments, OptionsOfTheLanguage) {
   const DxcArguments plain = parse({"a.hlsl"});
   EXPECT_FALSE(plain.options.RowMajorMatrices);
   EXPECT_FALSE(plain.options.Native16BitTypes);
+  EXPECT_FALSE(plain.options.ReserveUnusedRegisters);
+  EXPECT_TRUE(parse({"-flegacy-resource-reservation", "a.hlsl"}).options.ReserveUnusedRegisters);
   EXPECT_EQ(plain.options.HlslVersion, "2021");
   EXPECT_FALSE(plain.options.AutoBindingSpace);
   EXPECT_FALSE(plain.options.PayloadQualifiers);

@@ -74,6 +74,7 @@ TEST(CompileSource, EveryOptionReachesTheContainer) {
   options.PayloadQualifiers = false;
   options.Strict = true;
   options.Debug = true;
+  options.ReserveUnusedRegisters = true;
   const CompiledSource compiled = compile_source(arguments);
   ASSERT_TRUE(compiled.ok) << compiled.messages;
   const auto source = source_of_container(compiled.container.data(), compiled.container.size());
@@ -91,7 +92,7 @@ TEST(CompileSource, EveryOptionReachesTheContainer) {
   EXPECT_EQ(read.HlslVersion, "2018");
   EXPECT_EQ(read.PayloadQualifiers, false);
   EXPECT_TRUE(read.RowMajorMatrices && read.Native16BitTypes && read.ExternalLinkage &&
-              read.Strict && read.Debug);
+              read.Strict && read.Debug && read.ReserveUnusedRegisters);
   EXPECT_FALSE(read.CheckOnly);
 }
 

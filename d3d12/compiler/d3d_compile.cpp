@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "d3d12/com/blob.h"
@@ -113,8 +114,8 @@ HRESULT compile(std::string source, const char* name, const D3D_SHADER_MACRO* de
   arguments.options.Target = parsed->options.Target;
   arguments.options.EntryPoint = parsed->options.EntryPoint;
   arguments.options.RowMajorMatrices = parsed->options.RowMajorMatrices;
-  // As FXC does for the models before 5.1, which are what it compiles most.
-  arguments.options.ReserveUnusedRegisters = true;
+  // As FXC does for the models before 5.1.
+  arguments.options.ReserveUnusedRegisters = !std::string_view(target).ends_with("_5_1");
   arguments.options.Debug = parsed->options.Debug;
   arguments.absolute_paths = parsed->absolute_paths;
   arguments.warnings_as_errors = parsed->warnings_as_errors;

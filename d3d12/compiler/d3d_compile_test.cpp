@@ -123,6 +123,18 @@ TEST(D3DCompileCall, FlagsAreOptions) {
   EXPECT_TRUE(source->options.RowMajorMatrices);
 }
 
+// FXC leaves the registers of what nothing reads alone, up to model 5.0.
+TEST(D3DCompileCall, UnusedRegistersAreReservedBeforeModel51) {
+  for (const auto& [target, reserved] : {std::pair("cs_5_0", true), std::pair("cs_5_1", false)}) {
+    const Compiled compiled = compile("[numthreads(1, 1, 1)] void Main() {}", nullptr, target);
+    ASSERT_EQ(compiled.result, S_OK) << compiled.text();
+    const auto source =
+        source_of_container(compiled.code->GetBufferPointer(), compiled.code->GetBufferSize());
+    ASSERT_TRUE(source);
+    EXPECT_EQ(source->options.ReserveUnusedRegisters, reserved) << target;
+  }
+}
+
 TEST(D3DCompileCall, ErrorsAreText) {
   const Compiled compiled = compile(kCompute, nullptr);
   EXPECT_EQ(compiled.result, E_FAIL);

@@ -219,7 +219,8 @@ TEST_P(PathLights, PicturesOfLampsAreNoLights) {
   EXPECT_EQ(mean_of(*alone, "radiance"), mean_of(*both, "radiance"));
 }
 
-// Of unlit surfaces the camera sees the base colour times the vertex colour, and nothing mirrored.
+// The camera sees the base colour of an unlit surface times its vertex colour, and nothing
+// mirrored.
 TEST_P(PathLights, UnlitSurfacesShowTheirColor) {
   Scene scene = plane_scene(glm::vec3(0.5f), 0, 0.2f, kDegrees, glm::vec3(2));
   scene.materials[0].constants.flags |= kMaterialUnlit;

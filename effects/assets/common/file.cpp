@@ -71,6 +71,10 @@ Status write_file(const std::string& path, std::span<const std::uint8_t> bytes) 
   return file_error("write", path, error);
 }
 
+Status write_text(const std::string& path, const std::string& text) {
+  return write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
 Status place_file(const std::string& from, const std::string& path) {
   const int error = files::place_file(from, path);
   if (error == 0) return {};

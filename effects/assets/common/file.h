@@ -24,6 +24,10 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path,
 /// @errors KA3000 no permission, a full disk, a folder that is missing.
 Status write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 
+/// The same with the bytes of a text.
+/// @errors as of write_file.
+Status write_text(const std::string& path, const std::string& text);
+
 /// Makes the finished file `from` the contents of `path`, as write_file would; `from` is gone then.
 /// @errors as of write_file; `from` is left where it is.
 Status place_file(const std::string& from, const std::string& path);

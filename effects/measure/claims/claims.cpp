@@ -348,10 +348,7 @@ rtapi::Result<Outcome> run_claims(const Options& options, const Scene& scene,
   ClaimTable table;
   if (const auto s = measure_claims(options, scene, progress, table); !is_done(s)) return s;
   const std::string text = write_csv(as_csv(table)), path = options.out + "/claims.csv";
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  if (const auto s = write_file(path, {bytes, text.size()}); !s.ok()) {
-    return s.error();
-  }
+  if (const auto s = write_text(path, text); !s.ok()) return s.error();
   said = fmt::format("{}, median of {} rounds{}\n{}\nwrote {}\n", options.scene, options.repeats,
                      options.cpu_clock ? ", CPU time over threads" : "", as_text(table), path);
   return Outcome::kDone;

@@ -139,14 +139,6 @@ std::string clock_text(const Options& options) {
   return options.cpu_clock ? ", CPU time over threads" : "";
 }
 
-rtapi::Status write_text(const std::string& path, const std::string& text) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  if (const auto s = write_file(path, {bytes, text.size()}); !s.ok()) {
-    return s.error();
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string scene_text(const Options& options) {

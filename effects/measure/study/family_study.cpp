@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "effects/assets/common/file.h"
 #include "effects/assets/image/png.h"
 #include "effects/measure/run/failure.h"
 #include "effects/measure/study/files.h"

@@ -2,15 +2,11 @@
 // Text files of a study.
 #pragma once
 
-#include <rtapi/rtapi.h>
-
 #include <string>
 
 namespace kaamos::measure {
 
-// Whole or not at all.
-rtapi::Status write_text(const std::string& path, const std::string& text);
-// Empty where there is none.
+// The contents of a file, empty where there is none.
 std::string read_text(const std::string& path);
 
 }  // namespace kaamos::measure

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "effects/assets/common/file.h"
 #include "effects/measure/run/failure.h"
 #include "effects/measure/study/family_study.h"
-#include "effects/measure/study/files.h"
 #include "effects/measure/study/findings.h"
 #include "effects/measure/study/report.h"
 #include "effects/measure/study/tables.h"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "effects/assets/common/file.h"
 #include "effects/measure/run/effect_runs.h"
 #include "effects/measure/study/files.h"
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"

@@ -8,12 +8,6 @@
 #include "runtime/hlsl/ir/builtin_types.h"
 
 namespace kaamos::hlsl {
-namespace {
-
-constexpr uint32_t kRowBytes = 16;
-constexpr uint32_t kMaxBufferBytes = 65536;
-
-}  // namespace
 
 void Bindings::apply_register(BindingInfo* binding, const Annotations& annotations) {
   for (const RegisterBinding& written : annotations.registers) {
@@ -139,11 +133,11 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
         const LayoutSize size = layout_of(type, ir::Layout::kConstantBuffer);
         ir::Field& field = structure->ir->fields.emplace_back();
         if (const PackOffset* pack = variable->annotations.pack_offset) {
-          const uint64_t bytes = uint64_t{pack->register_index} * 16 + pack->component * 4;
+          const uint64_t bytes = uint64_t{pack->register_index} * kRowBytes + pack->component * 4;
           const bool whole_row = type->is_array() || type->is_struct() || type->is_matrix();
-          const bool straddles =
-              type->is_numeric() && !type->is_matrix() && pack->component * 4 + size.size > 16;
-          if (bytes > 65536 - 4 || straddles || (whole_row && pack->component != 0)) {
+          const bool straddles = type->is_numeric() && !type->is_matrix() &&
+                                 pack->component * 4 + size.size > kRowBytes;
+          if (bytes > kMaxBufferBytes - 4 || straddles || (whole_row && pack->component != 0)) {
             report(CheckId::kPackOffset, pack->location,
                    {std::string(variable->name), to_string(type)});
           } else {
@@ -156,7 +150,7 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
         field.row_major = element->is_matrix() && element->row_major;
         offset = info->offset + size.size;
         binding->size_bytes = std::max(binding->size_bytes, offset);
-        if (binding->size_bytes > 65536) {
+        if (binding->size_bytes > kMaxBufferBytes) {
           report(CheckId::kBufferSize, variable->location,
                  {std::string(decl->name), std::to_string(binding->size_bytes)});
           offset = 0;
@@ -255,7 +249,7 @@ void Bindings::declare_uniform(const VariableDecl* decl, const Type* type, Scope
   info->offset = place_member(type, globals_offset_, ir::Layout::kConstantBuffer);
   globals_offset_ = info->offset + layout_of(type, ir::Layout::kConstantBuffer).size;
   globals_buffer_->size_bytes = globals_offset_;
-  if (globals_offset_ > 65536) {
+  if (globals_offset_ > kMaxBufferBytes) {
     report(CheckId::kBufferSize, decl->location, {"$Globals", std::to_string(globals_offset_)});
     globals_offset_ = 0;
   }

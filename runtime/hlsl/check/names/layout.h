@@ -18,6 +18,10 @@ struct LayoutSize {
 // Sizes saturate at kMaxLayoutBytes, which no resource can hold.
 inline constexpr uint32_t kMaxLayoutBytes = 0x7FFFFFF0u;
 
+// Constant buffers: the bytes of a row, and the most that one may have.
+inline constexpr uint32_t kRowBytes = 16;
+inline constexpr uint32_t kMaxBufferBytes = 65536;
+
 LayoutSize layout_of(const Type* type, ir::Layout layout);
 // Bytes from the start of one array element to the next.
 uint32_t array_stride(const Type* element, ir::Layout layout);

@@ -10,7 +10,6 @@ namespace kaamos::hlsl {
 namespace {
 
 constexpr size_t kMaxSplitParts = 4096;
-constexpr uint32_t kMaxBufferBytes = 65536;
 
 bool has_memory(const Type* type) {
   while (type->is_array()) type = type->element;
@@ -102,7 +101,7 @@ SplitPart SplitStructs::split(const Type* type, const std::string& name, SplitPl
     return part;
   }
   // A struct begins a row, but only if something of it stays in the buffer.
-  if (has_memory(type)) *plan.offset = (*plan.offset + 15) / 16 * 16;
+  if (has_memory(type)) *plan.offset = (*plan.offset + kRowBytes - 1) / kRowBytes * kRowBytes;
   const StructInfo& structure = *type->structure;
   if (structure.base) part.parts.push_back(split(structure.base->type, name, plan));
   for (const FieldInfo& field : structure.fields) {
