@@ -12,6 +12,7 @@
 #include "runtime/embree/instance_node.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/structures/build_inputs.h"
+#include "runtime/structures/instances.h"
 #include "runtime/structures/structure_commands.h"
 
 namespace kaamos::embree {
@@ -104,7 +105,7 @@ void copy_boxes(const rtapi::RaytracingGeometryAabbsDesc& desc, GeometryInfo& in
 
 bool in_embree_range(const float* values, uint64_t count) {
   bool inside = true;
-  for (uint64_t i = 0; i < count; ++i) inside &= std::fabs(values[i]) < shim::kLargestCoordinate;
+  for (uint64_t i = 0; i < count; ++i) inside &= std::fabs(values[i]) < runtime::kLargestCoordinate;
   return inside;
 }
 

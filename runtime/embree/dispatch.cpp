@@ -227,6 +227,10 @@ CountedOutcome end_dispatch(RunningDispatch& dispatch) {
                                        "; the rays missed (" + dispatch.label +
                                        "). Was one built, and not overwritten or freed?"});
   }
+  if (dispatch.far_rays.count != 0) {
+    result.warnings.push_back(
+        {runtime::Id::kRayOutOfRange, dispatch.far_rays.message(dispatch.label)});
+  }
   const RecordTable one_record;
   const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,
                         const RecordProblems& problems) {

@@ -16,10 +16,6 @@
 
 namespace kaamos::embree::shim {
 
-// Embree refuses larger coordinates (FLT_LARGE in its sources), with an assertion in builds that
-// have them. Rays are checked against it before each call.
-inline constexpr float kLargestCoordinate = 1.8e18f;
-
 // The per-ray state that Embree passes to every callback. It must be the first member of the ray's
 // own state, which the callbacks get by a cast; that works in 3.x and 4.x, and through instances.
 struct QueryContext {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "runtime/structures/instances.h"
+
 namespace kaamos::embree {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Embree's rays start within four radii.
-constexpr float kLargestExactCoordinate = shim::kLargestCoordinate / 8;
+constexpr float kLargestExactCoordinate = runtime::kLargestCoordinate / 8;
 
 float round_down(double value) {
   const auto rounded = static_cast<float>(value);
@@ -134,7 +136,7 @@ bool EmbreeRay::set(const RayInDouble& ray, const ExactFrame& frame) {
   for (int i = 0; i < 3; ++i) {
     origin[i] = static_cast<float>(o[i] + start_t * d[i]);
     direction[i] = static_cast<float>(d[i] * scale);
-    finite &= std::fabs(origin[i]) < shim::kLargestCoordinate && std::fabs(direction[i]) <= 1;
+    finite &= std::fabs(origin[i]) < runtime::kLargestCoordinate && std::fabs(direction[i]) <= 1;
   }
   return finite;
 }

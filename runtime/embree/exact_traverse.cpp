@@ -8,6 +8,7 @@
 
 #include "runtime/embree/any_hit.h"
 #include "runtime/embree/exact.h"
+#include "runtime/embree/far_rays.h"
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
 #include "runtime/embree/lane_rays.h"
@@ -152,11 +153,12 @@ bool enter_exact(RayState& state, uint32_t index, RTCRay& ray) {
 }
 
 // Boxes have no exact form: intersection shaders get the same ray in every precision.
-bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
+bool enter_boxes(RayState& state, uint32_t index, bool committed, RTCRay& ray) {
+  const InstanceNode& node = state.top_level->nodes()[index];
   const ObjectRay object =
       to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
                       without_fourth_lane(_mm_load_ps(state.values.ray.direction)));
-  if (!is_traceable(object)) return false;
+  if (!is_traceable(object)) return note_far_ray(state, index), false;
   _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, state.t_min));
   _mm_store_ps(&ray.dir_x, object.direction);
   ray.tfar = committed ? state.committed_t : state.t_max;
@@ -164,11 +166,12 @@ bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCR
 }
 
 // Those of the other bottom levels are Embree's.
-bool enter_robust(RayState& state, const InstanceNode& node, RTCRay& ray) {
+bool enter_robust(RayState& state, uint32_t index, RTCRay& ray) {
+  const InstanceNode& node = state.top_level->nodes()[index];
   const ObjectRay object =
       to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
                       without_fourth_lane(_mm_load_ps(state.values.ray.direction)));
-  if (!is_traceable(object)) return false;
+  if (!is_traceable(object)) return note_far_ray(state, index), false;
   _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, state.t_near));
   _mm_store_ps(&ray.dir_x, object.direction);
   ray.tfar = std::min(state.t_far, next_below(state.committed_t));
@@ -198,9 +201,9 @@ struct Visit {
     const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
     const float t_far = ray.tfar;
     const bool robust = !node.exact && !node.procedural;
-    const bool entered = robust       ? enter_robust(state, node, ray)
+    const bool entered = robust       ? enter_robust(state, index, ray)
                          : node.exact ? enter_exact(state, index, ray)
-                                      : enter_boxes(state, node, committed, ray);
+                                      : enter_boxes(state, index, committed, ray);
     if (entered) {
       ray.mask = classes;
       state.instance = &node;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "kaamos/shader/ray_query.h"
+#include "runtime/embree/far_rays.h"
 #include "runtime/embree/ray_setup.h"
 
 namespace kaamos::embree {
@@ -220,7 +221,11 @@ void begin_query(shader::Invocation& caller, RayQuery& query,
   query.next_left_out = kNone;
   const ObjectRay world = {_mm_setr_ps(ray.origin[0], ray.origin[1], ray.origin[2], 0),
                            _mm_setr_ps(ray.direction[0], ray.direction[1], ray.direction[2], 0)};
-  query.ended = scene == nullptr || scene->empty() || !is_valid(world, ray.t_min, ray.t_max);
+  query.ended = scene == nullptr || scene->empty();
+  if (!query.ended && !is_valid(world, ray.t_min, ray.t_max)) [[unlikely]] {
+    note_far_ray(worker, world, ray.t_min, ray.t_max);
+    query.ended = true;
+  }
 }
 
 bool proceed(shader::Invocation& caller, RayQuery& query) {

@@ -76,7 +76,7 @@ inline __m128 without_fourth_lane(__m128 v) {
 // includes the fourth lanes.
 inline bool is_traceable(const ObjectRay& ray) {
   const __m128 absolute = _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF));
-  const __m128 limit = _mm_set1_ps(shim::kLargestCoordinate);
+  const __m128 limit = _mm_set1_ps(runtime::kLargestCoordinate);
   const __m128 origin_inside = _mm_cmple_ps(_mm_and_ps(ray.origin, absolute), limit);
   const __m128 direction_inside = _mm_cmple_ps(_mm_and_ps(ray.direction, absolute), limit);
   return _mm_movemask_ps(_mm_and_ps(origin_inside, direction_inside)) == 15;

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "runtime/embree/embree_shim.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::embree {
 namespace {
@@ -36,7 +36,7 @@ template <typename Floats>
       std::memcpy(&direction, rays.direction[axis] + lane, sizeof(Floats));
       const auto far = reinterpret_cast<Floats>(reinterpret_cast<Bits>(origin[axis]) & ~sign_bit);
       const auto size = reinterpret_cast<Floats>(reinterpret_cast<Bits>(direction) & ~sign_bit);
-      valid &= (far <= shim::kLargestCoordinate) & (size <= shim::kLargestCoordinate);
+      valid &= (far <= runtime::kLargestCoordinate) & (size <= runtime::kLargestCoordinate);
       // As in InstanceBoxes::reciprocal.
       const Floats over = 1.0f / (size > smallest ? size : smallest);
       slope[axis] = reinterpret_cast<Floats>(reinterpret_cast<Bits>(over) |

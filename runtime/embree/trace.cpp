@@ -3,6 +3,7 @@
 // TraceRay: check, traverse, then run the closest-hit or the miss shader.
 #include "runtime/embree/trace.h"
 
+#include "runtime/embree/far_rays.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/lane_rays.h"
 #include "runtime/embree/ray_setup.h"
@@ -166,12 +167,13 @@ void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayAr
         state.payload = payload;
         _mm_store_ps(state.values.ray.origin, origin);
         _mm_store_ps(state.values.ray.direction, direction);
+        const ObjectRay world = {without_fourth_lane(origin), without_fourth_lane(direction)};
         if ((searches.valid >> lane & 1) == 0) [[unlikely]] {
+          note_far_ray(worker, world, origin[3], direction[3]);
           return run_miss(worker, caller, arguments, state);
         }
         begin_search(state, origin[3], direction[3], searches.t_near[lane], searches.t_far[lane]);
         RTCRayHit ray_hit;
-        const ObjectRay world = {without_fourth_lane(origin), without_fourth_lane(direction)};
         if constexpr (some_exact) {
           begin_exact_ray(state, exact, world, ray_hit.ray);
         } else {
@@ -202,6 +204,7 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   const float t_min = origin_t_min[3];
   const float t_max = direction_t_max[3];
   if (top_level == nullptr || top_level->empty() || !is_valid(world, t_min, t_max)) [[unlikely]] {
+    if (top_level != nullptr && !top_level->empty()) note_far_ray(worker, world, t_min, t_max);
     return run_miss(worker, caller, arguments, state);
   }
   if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {

@@ -3,6 +3,7 @@
 // Visits an instance in robust and fast precision: decides by the instance's mask and flags what
 // the ray sees of it, transforms the ray to object space, and traverses the bottom level with it.
 // For top levels with exact bottom levels see exact_traverse.cpp.
+#include "runtime/embree/far_rays.h"
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
 #include "runtime/embree/lane_rays.h"
@@ -18,7 +19,8 @@ struct Visit {
     const __m128 world_origin = _mm_load_ps(&ray.org_x);     // w: tnear
     const __m128 world_direction = _mm_load_ps(&ray.dir_x);  // w: time
     const ObjectRay object = to_object_space(node, world_origin, world_direction);
-    if (!is_traceable(object)) return;
+    if (!is_traceable(object)) [[unlikely]]
+      return note_far_ray(state, index);
     // In a top level with procedural instances Embree's ray has the closed interval. Triangles must
     // see the open one, which also ends just before a committed hit. [DXR: Ray extents]
     const float t_far = ray.tfar;

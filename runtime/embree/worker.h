@@ -16,6 +16,7 @@
 
 #include "kaamos/shader/bound.h"
 #include "runtime/backend/backend.h"
+#include "runtime/embree/far_rays.h"
 #include "runtime/embree/shader_record.h"
 
 namespace kaamos::runtime {
@@ -100,6 +101,7 @@ struct RunningDispatch {
   std::mutex mutex;                             // guards the members below
   Removal removal;
   Counters counters;
+  FarRays far_rays;
   std::vector<runtime::ReachedFrom> reached;  // each different one once, by hash
   std::unordered_set<uint64_t> reached_hashes;
 };

@@ -181,9 +181,10 @@ class CommandList {
   /// or size; KA0814 more than 2^30 threads; KA0815 a table that is not all in one live buffer.
   /// When it executes: KA0890 TraceRay past the recursion limit, KA0891 stack used up, KA0892 a
   /// fault in shader code, KA0893 a shader asked for it, KA0897 an interpreted shader's limit of
-  /// steps. Warnings: KA0894 no top level at an address that rays were traced against, KA0895 a
-  /// record past its table, KA0896 a record without an identifier of the pipeline. Checked mode:
-  /// KA0400-0499.
+  /// steps. Warnings: KA0888 rays that Embree cannot take, since a coordinate in the world or in an
+  /// instance's space is past 1.8e18, KA0894 no top level at an address that rays were traced
+  /// against, KA0895 a record past its table, KA0896 a record without an identifier of the
+  /// pipeline. Checked mode: KA0400-0499.
   void DispatchRays(const DispatchRaysDesc& desc);
   /// Runs the compute shader for groups_x x groups_y x groups_z thread groups; nothing where one of
   /// the three is 0. Heaps and whatever addresses name are read when the list executes, and must

@@ -271,6 +271,7 @@ inline constexpr ErrorId kStructureSource{796};  ///< source of a build or copy 
 inline constexpr ErrorId kInstanceInactive{797};  ///< instance can never be hit
 inline constexpr ErrorId kIndexOutOfRange{798};  ///< index past VertexCount
 inline constexpr ErrorId kMultisampled{844};  ///< a shader uses a multisampled texture
+inline constexpr ErrorId kRayOutOfRange{888};  ///< rays beyond the range of the traversal
 inline constexpr ErrorId kRecursionLimit{890};  ///< TraceRay past the recursion limit
 inline constexpr ErrorId kShaderStack{891};  ///< the shader stack is used up
 inline constexpr ErrorId kShaderFault{892};  ///< shader code failed

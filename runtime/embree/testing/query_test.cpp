@@ -119,6 +119,21 @@ TEST(Rq03, OpaqueTrianglesAreCommittedInSilenceAndBoxesAlwaysShown) {
   });
 }
 
+TEST(FarRays, AQueryEndsAtOnceAndTheDispatchSaysSo) {
+  Harness h;
+  const uint64_t scene = h.scene({triangle_at(2)});
+  run(h, [&](Invocation& i) {
+    RayQuery q;
+    Ray ray = ray_along_z(scene);
+    ray.ray.origin[0] = 2e18f;
+    trace(i, q, ray);
+    EXPECT_FALSE(query_proceed(i, q));
+    EXPECT_EQ(q.committed.type, 0u);
+  });
+  ASSERT_EQ(h.messages.size(), 1u);
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0888");
+}
+
 TEST(Rq05, FalseIsFinal) {
   Harness h;
   const uint64_t scene = h.scene({triangle_at(2, kNonOpaque)});

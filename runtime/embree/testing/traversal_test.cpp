@@ -118,6 +118,46 @@ TEST(Trv09, NanAndEmptyIntervalsMiss) {
   EXPECT_EQ(h.trace(ray).end, End::kMiss);
 }
 
+// Embree squares coordinates in float.
+TEST(FarRays, TheDispatchSaysThatTheyMiss) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t scene = h.scene({triangle_at(4)});
+  auto ray = ray_along_z(scene);
+  ray.ray.origin[2] = -2e18f;
+  EXPECT_EQ(h.trace(ray).end, End::kMiss);
+  ASSERT_EQ(h.messages.size(), 1u);
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0888");
+  EXPECT_NE(h.messages[0].Text.find("(0, 0, -2e+18) along (0, 0, 1), has a coordinate past"),
+            std::string::npos)
+      << h.messages[0].Text;
+
+  // Infinite rays, and rays whose interval is empty, miss by DXR's rules.
+  h.messages.clear();
+  ray.ray.t_max = -1;
+  EXPECT_EQ(h.trace(ray).end, End::kMiss);
+  ray = ray_along_z(scene);
+  ray.ray.origin[2] = -kInf;
+  EXPECT_EQ(h.trace(ray).end, End::kMiss);
+  EXPECT_TRUE(h.messages.empty());
+}
+
+TEST(FarRays, AnInstanceCanMakeThemSo) {
+  Harness h;
+  h.use_standard_pipeline();
+  auto instance = instance_of(h.bottom_level({triangle_at(4)}));
+  for (int row = 0; row < 3; ++row) instance.Transform[row][row] = 1e-19f;
+  const Payload payload = h.trace(ray_along_z(h.top_level({instance})));
+  if (payload.end == End::kClosestHit) {  // exact traversals compute in double
+    EXPECT_TRUE(h.messages.empty());
+    return;
+  }
+  EXPECT_EQ(payload.end, End::kMiss);
+  ASSERT_EQ(h.messages.size(), 1u);
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0888");
+  EXPECT_NE(h.messages[0].Text.find("in the space of instance 0"), std::string::npos);
+}
+
 TEST(Trv10, ZeroDirectionMissesTriangles) {
   Harness h;
   h.use_standard_pipeline();

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Rays beyond the range that Embree takes. They miss, and the dispatch says so (KA0888).
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runtime/embree/instance_node.h"
+
+namespace kaamos::embree {
+
+struct RayState;
+struct Worker;
+
+// The first one of a dispatch, and how many there were.
+struct FarRays {
+  static constexpr uint32_t kWorld = UINT32_MAX;
+
+  uint64_t count = 0;
+  uint32_t instance = kWorld;  // in whose space the ray is too far away, or kWorld
+  float origin[3] = {0, 0, 0};
+  float direction[3] = {0, 0, 0};
+
+  std::string message(const char* label) const;
+};
+
+// Notes a ray that is_valid() refused. Rays with a NaN, an infinity or an empty interval miss by
+// DXR's rules and are no news.
+void note_far_ray(Worker& worker, const ObjectRay& world, float t_min, float t_max);
+// Notes the ray of `state`, which is too far away in the space of `instance`.
+void note_far_ray(const RayState& state, uint32_t instance);
+
+}  // namespace kaamos::embree
