@@ -9,6 +9,7 @@
 #include "runtime/hlsl/builder/finish/lone_lane.h"
 #include "runtime/hlsl/builder/finish/pixel_functions.h"
 #include "runtime/hlsl/builder/finish/registers.h"
+#include "runtime/hlsl/builder/finish/square_quads.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -27,6 +28,7 @@ class EntryReach {
 
   std::set<BindingFacts*> bindings;
   std::vector<GlobalFacts*> globals;
+  bool quads = false;
 
   void mark(FunctionFacts* function) {
     if (function->visit_mark == mark_) return;
@@ -35,6 +37,7 @@ class EntryReach {
       function->stages |= entry_.stage;
       if (function->ir) function->ir->stages |= entry_.stage;
     }
+    quads = quads || reads_quads(*function);
     entry_.attribute_bytes = std::max(entry_.attribute_bytes, function->reported_bytes);
     entry_.attribute_type = joined_type(entry_.attribute_type, function->reported_type);
     for (const StageUse& use : function->stage_uses) {
@@ -229,6 +232,7 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
   std::vector<std::set<BindingFacts*>> bindings_of(module.entry_points.size());
   std::set<const ir::Function*> started, run;
   std::vector<StartedInitialiser> initialisers;
+  std::vector<ir::EntryPoint*> square;
   uint32_t mark = 0;
   for (const auto& [function, index] : facts.entries) {
     ir::EntryPoint& entry = module.entry_points[index];
@@ -236,6 +240,9 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
     EntryReach reach(entry, ++mark, report);
     reach.mark(function);
     bindings_of[index] = reach.bindings;
+    if (reach.quads && facts.square_quads && has_square_quads(entry) && entry.imports.empty()) {
+      square.push_back(&entry);
+    }
     for (size_t i = 0; i < facts.library_functions.size(); ++i) {
       if (facts.library_functions[i]->visit_mark != mark) continue;
       module.library_functions[i].callers.push_back(static_cast<uint32_t>(index));
@@ -278,6 +285,7 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
   for (const ModuleFacts::Wrapper& one : facts.wrappers) {
     if (run.count(one.function)) module.functions.push_back(one.function);
   }
+  for (ir::EntryPoint* entry : square) make_quads_square(module, build, *entry);
   for (const GlobalFacts* global : facts.globals) {
     if (all_globals.count(global)) module.globals.push_back(global->variable);
   }

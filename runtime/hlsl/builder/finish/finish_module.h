@@ -37,6 +37,7 @@ struct ModuleFacts {
   // shaders.
   ir::Variable* live = nullptr;
   bool names_ordered_views = false;
+  bool square_quads = false;    // those of compute shaders [square_quads.h]
   bool reserve_unused = false;  // registers of bindings that nothing reads are not given to others
 };
 
