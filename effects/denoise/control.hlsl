@@ -15,7 +15,8 @@ RWTexture2D<float4> clamped : register(u2, space3);
 // `distance`; 0 for a mirror.
 float FootprintRadius(float roughness, float distance, float view_z) {
   const float tangent = roughness * roughness;  // alpha: half of the lobe lies within
-  const float seen = distance / max(distance + view_z, 1e-20);
+  const float seen =
+      frame.is_orthographic != 0 ? distance : distance / max(distance + view_z, 1e-20);
   return denoise.lobe_scale * tangent * seen / frame.pixel_angle;
 }
 

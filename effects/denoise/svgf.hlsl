@@ -144,17 +144,20 @@ Past FindPastOfReflection(int2 pixel, int2 size, int s) {
   const float3 normal = guides[pixel].xyz;
   const float image = ImageDistance(pixel, size, s, position);
   const float3 before = position + frame.camera_motion;
+  const float3 behind = frame.is_orthographic != 0
+                            ? frame.camera_forward * image
+                            : position * (image / max(length(position), 1e-20));
   float surface_z, image_z;
   const float2 surface = PreviousPictureUv(before, surface_z);
   const float2 mirrored =
-      PreviousPictureUv(before + position * (image / max(length(position), 1e-20)), image_z);
+      PreviousPictureUv(before + behind, image_z);
   if (!(surface_z > 0.0) || !(image_z > 0.0)) return NoPast(pixel);
   const float2 shift = (mirrored - surface) * ImageShare(g_material[pixel].x);
   // The plane of the surface, there.
   const float2 ndc = (surface + shift) * 2.0 - 1.0;
-  const float3 ray =
-      frame.previous_forward + ndc.x * frame.previous_right - ndc.y * frame.previous_up;
-  const float depth = dot(before, normal) / dot(ray, normal);
+  const CameraRay ray =
+      RayOfCamera(ndc, frame.previous_right, frame.previous_up, frame.previous_forward);
+  const float depth = dot(before - ray.origin, normal) / dot(ray.direction, normal);
   if (!(depth > 0.0)) return NoPast(pixel);
   const float4 motion = g_motion[pixel];
   return FindPastAt(pixel, size, motion.xy + shift,

@@ -64,7 +64,7 @@ int2 PixelOfStratum(int2 stratum, int2 size) {
 
 // Metres that a pixel covers at this depth.
 float Footprint(float view_z) {
-  return view_z * 2.0 * length(frame.camera_up) / float(PictureSize().y);
+  return GrowthAt(view_z) * 2.0 * length(frame.camera_up) / float(PictureSize().y);
 }
 
 // The pixel of the previous frame that showed this pixel's surface and had a sample. Surfaces that

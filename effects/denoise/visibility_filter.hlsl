@@ -71,7 +71,7 @@ void PrepareVisibilityGuides(uint3 id : SV_DispatchThreadID) {
 
 // Metres that a pixel covers at this depth.
 float Footprint(float view_z, int2 size) {
-  return view_z * 2.0 * length(frame.camera_up) / float(size.y);
+  return GrowthAt(view_z) * 2.0 * length(frame.camera_up) / float(size.y);
 }
 
 // A channel of the input, by itself.
@@ -210,7 +210,7 @@ Before FindBefore(int2 pixel, int2 size, float4 guide) {
   before.corner = int2(corner);
   before.part = place - corner;
   // A plane's depth changes by this much per pixel; the previous view is nearly the same.
-  const float cosine = abs(dot(guide.xyz, normalize(g_position[pixel].xyz)));
+  const float cosine = abs(dot(guide.xyz, SeenAlong(g_position[pixel].xyz)));
   const float tolerance = 2.0 * Footprint(guide.w, size) / max(cosine, 0.05) + 0.005 * guide.w;
   before.is_whole = true;
   for (int j = 0; j < 16; ++j) {

@@ -91,6 +91,7 @@ struct EffectNeeds {
   bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
   bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3
   bool motion = false;        ///< only frames of a sequence have it
+  bool perspective = false;   ///< the camera's rays leave one point
   /// The frame's radiance without reflections, in kRadiance; and the finished radiance of the frame
   /// before, u19 of space3 [KeptRadiance]. Such effects come behind all others and their denoising.
   bool radiance = false;

@@ -98,10 +98,10 @@ std::uint32_t traced_rows(const PassConstants& constants, std::uint32_t size) {
 FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
                                const FrameTime& time) {
   FrameConstants c = {};
-  const double half_height = std::tan(camera.vertical_fov / 2);
+  const double half_height = camera.picture_half_height();
   const double aspect = static_cast<double>(desc.width) / desc.height;
   const auto set_axes = [&](const Camera& of, glm::vec3& right, glm::vec3& up, glm::vec3& forward) {
-    const double half = std::tan(of.vertical_fov / 2);
+    const double half = of.picture_half_height();
     right = glm::vec3(glm::dvec3(of.camera_to_world[0]) * half * aspect);
     up = glm::vec3(glm::dvec3(of.camera_to_world[1]) * half);
     forward = glm::vec3(of.forward());
@@ -113,6 +113,7 @@ FrameConstants frame_constants(const Scene& scene, const Camera& camera, const F
   c.over_previous_right = 1 / glm::length(c.previous_right);
   c.over_previous_up = 1 / glm::length(c.previous_up);
   c.camera_motion = glm::vec3(camera.position() - time.previous_camera.position());
+  c.is_orthographic = camera.is_orthographic() ? 1 : 0;
   c.frame_index = time.index;
   c.jitter = time.jitter;
   c.previous_jitter = time.previous_jitter;

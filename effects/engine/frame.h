@@ -21,10 +21,12 @@ namespace kaamos::effects {
 
 /// Mirrors FrameConstants of effects/shaders/frame.hlsli.
 struct FrameConstants {
-  glm::vec3 camera_right;      ///< half the picture's width at distance 1
-  float near_plane;            ///< metres, for the reversed-Z depth
-  glm::vec3 camera_up;         ///< half the picture's height at distance 1
-  float pixel_angle;           ///< radians that a pixel's side covers; 0: no ray cones
+  /// half the picture's width at distance 1, or anywhere where rays are parallel
+  glm::vec3 camera_right;
+  float near_plane;     ///< metres, for the reversed-Z depth
+  glm::vec3 camera_up;  ///< half the picture's height at distance 1
+  /// Radians that a pixel's side covers, metres where rays are parallel; 0: no ray cones.
+  float pixel_angle;
   glm::vec3 camera_forward;    ///< unit
   std::uint32_t seed;          ///< of random numbers
   glm::vec3 direction_to_sun;  ///< unit
@@ -45,12 +47,12 @@ struct FrameConstants {
   float over_previous_up;
   glm::vec3 previous_forward;
   ///@}
-  float white;                ///< radiance that the exposure takes to 1
-  glm::vec3 camera_motion;    ///< metres, from the camera before to this one
-  float padding5;             ///< 0
-  glm::vec2 jitter;           ///< pixels, added to the primary rays
-  glm::vec2 previous_jitter;  ///< that of the frame before
-  SunMapConstants sun_map;    ///< in the atlas of shadow maps
+  float white;                    ///< radiance that the exposure takes to 1
+  glm::vec3 camera_motion;        ///< metres, from the camera before to this one
+  std::uint32_t is_orthographic;  ///< 1: the camera's rays are parallel
+  glm::vec2 jitter;               ///< pixels, added to the primary rays
+  glm::vec2 previous_jitter;      ///< that of the frame before
+  SunMapConstants sun_map;        ///< in the atlas of shadow maps
 };
 static_assert(sizeof(FrameConstants) == 256);
 

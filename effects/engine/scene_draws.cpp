@@ -101,4 +101,22 @@ Bounds draw_box(const SceneDraw& draw, const Bounds& object) {
   return out;
 }
 
+ClipDepth::ClipDepth(const Scene& scene) {
+  const auto& cameras = scene.cameras;
+  if (std::any_of(cameras.begin(), cameras.end(),
+                  [](const Camera& camera) { return camera.is_orthographic(); }))
+    bounds_ = scene_bounds(scene);
+}
+
+float ClipDepth::scale_of(const Camera& camera) const {
+  if (!camera.is_orthographic()) return static_cast<float>(camera.near_plane) * kRasterNearShare;
+  // What moves may leave the box, which is that of time 0. A float near 1 has 24 bits: depths of
+  // surfaces are told apart by some 1e-6 of the box.
+  constexpr double kRoom = 4.0;
+  const double size = glm::length(bounds_.size());
+  const glm::dvec3 center = bounds_.empty() ? camera.position() : bounds_.center();
+  const double middle = glm::dot(center - camera.position(), camera.forward());
+  return static_cast<float>(1.0 / std::max(middle + kRoom * size, 1e-6));
+}
+
 }  // namespace kaamos::effects

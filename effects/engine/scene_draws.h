@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "effects/assets/scene/scene.h"
 #include "effects/engine/gpu_scene.h"
 
 namespace kaamos::effects {
@@ -28,6 +29,24 @@ inline constexpr std::uint32_t kMaskSolid = 0xFFu & ~static_cast<std::uint32_t>(
 /// As kMaskWithoutLamps of effects/shaders/frame.hlsli: what rays to a light see.
 inline constexpr std::uint32_t kMaskCasters =
     0xFFu & ~static_cast<std::uint32_t>(kMaskTransparent | kMaskEmissiveProxy);
+
+/// The depth buffer's near plane, as a share of the camera's: rays have none and see what is
+/// nearer, and a depth buffer of floats loses nothing by it when depth is reversed.
+inline constexpr float kRasterNearShare = 1.0f / 1024.0f;
+
+/// The depth that draws have: of a perspective camera near / view depth, of an orthographic one
+/// 1 - view depth / far, both reversed.
+class ClipDepth {
+ public:
+  ClipDepth() = default;
+  /// For the cameras of a valid scene: where one is orthographic, far is well behind all there is.
+  explicit ClipDepth(const Scene& scene);
+  /// ToClip's clip_scale: near, kRasterNearShare times the camera's; or 1 / far.
+  float scale_of(const Camera& camera) const;
+
+ private:
+  Bounds bounds_;
+};
 
 /// The draws of a scene as its instances stand in GpuScene::instances now, in their order. Left out
 /// is what no ray of instance mask `mask` can hit: other instances, inactive ones, transforms

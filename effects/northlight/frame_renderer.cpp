@@ -50,6 +50,10 @@ rtapi::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const rtapi:
       new FrameRenderer(device, scene, settings, std::move(effects)));
   FrameContext& context = out->context_;
   if (const auto s = check_settings(context.settings, context.effects); !s) return s.error();
+  if (!scene.cameras.empty()) {
+    const auto s = check_camera(scene.cameras.front(), context.settings, context.effects);
+    if (!s) return s.error();
+  }
   auto runner = PassRunner::create(device);
   if (!runner) return runner.error();
   context.runner = std::move(*runner);

@@ -161,4 +161,19 @@ rtapi::Status check_settings(const FrameSettings& settings, const std::vector<Ef
   return {};
 }
 
+rtapi::Status check_camera(const Camera& camera, const FrameSettings& settings,
+                           const std::vector<Effect>& effects) {
+  if (!camera.is_orthographic()) return {};
+  for (const Effect& effect : effects) {
+    if (!effect.needs.perspective || settings.effects.count(effect.name) == 0) continue;
+    return make_error(ErrorId::kFrameRenderer,
+                      "effect \"" + effect.name + "\" needs a perspective camera, and \"" +
+                          camera.name + "\" is orthographic: take " +
+                          (effect.alternative_to.empty() ? std::string("another effect")
+                                                         : "\"" + effect.alternative_to + "\"") +
+                          " in its place");
+  }
+  return {};
+}
+
 }  // namespace kaamos::effects

@@ -114,5 +114,9 @@ bool is_matte(const Scene& scene, const FrameSettings& settings,
 /// @errors KA3046 an unknown name in settings.effects; one that is not plain without
 /// settings.whole_frame; a map of the sun that is too large.
 rtapi::Status check_settings(const FrameSettings& settings, const std::vector<Effect>& effects);
+/// Checks a camera against the chosen effects.
+/// @errors KA3046 it is orthographic, and an effect needs perspective.
+rtapi::Status check_camera(const Camera& camera, const FrameSettings& settings,
+                           const std::vector<Effect>& effects);
 
 }  // namespace kaamos::effects

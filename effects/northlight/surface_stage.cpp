@@ -55,8 +55,7 @@ void SurfaceStage::record_rays(rtapi::CommandList& list, const RayPass& rays) co
 }
 
 void SurfaceStage::record_draws(rtapi::CommandList& list) {
-  raster_->record_draws(list, context_.frame,
-                        static_cast<float>(context_.moment.camera.near_plane));
+  raster_->record_draws(list, context_.frame, context_.moment.camera);
 }
 
 void SurfaceStage::record_curvature(rtapi::CommandList& list) const {

@@ -145,6 +145,7 @@ Effect screen_space_row(const char* name, const char* about, const char* layer,
 
 Effect line_sweep_row() {
   Effect row = occlusion_row("line-sweep-ao", "line-sweep ambient occlusion", "line_sweep_ao");
+  row.needs.perspective = true;
   row.steps = line_sweep_steps();
   row.library = {kLineSweep, line_sweep_ao_library};
   row.make = [](const EffectScope& scope) -> rtapi::Result<std::unique_ptr<EffectPass>> {

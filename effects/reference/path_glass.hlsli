@@ -27,12 +27,12 @@ struct GlassStart {
 
 // Walks through the panes. At each the path is mirrored, stays with the pane's own colour, or goes
 // on.
-GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_distance) {
+GlassStart WalkThroughGlass(PathSampler sampler, CameraRay ray, float solid_distance) {
   GlassStart start;
   start.through = float3(1, 1, 1);
   start.weight = start.emission = float3(0, 0, 0);
   start.hit = NoHit();
-  start.view = -normalize(direction);
+  start.view = -normalize(ray.direction);
   start.seen_as = kAsPane;
   start.layer = 0;
   float3 mirrored_origin = float3(0, 0, 0);
@@ -40,7 +40,7 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
   uint mirrored_mask = 0;  // 0: no pane mirrors the path
   float t_min = 0.0;
   for (uint layer = 0; layer < kMaxPanes; ++layer) {
-    const PathHit pane = Follow(float3(0, 0, 0), direction, t_min, kGlassOnly, true);
+    const PathHit pane = Follow(ray.origin, ray.direction, t_min, kGlassOnly, true);
     if (pane.distance < 0.0 || (solid_distance >= 0.0 && pane.distance >= solid_distance)) break;
     // A ray on the edge of two triangles may hit both, at the same distance but for rounding.
     t_min = pane.distance * 1.000002;

@@ -89,6 +89,7 @@ std::uint64_t reference_fingerprint(const Scene& scene, const PathReferenceDesc&
   const Camera& camera = scene.cameras.front();
   add_transform(checksum, camera.camera_to_world);
   checksum.add_value(camera.vertical_fov);
+  if (camera.is_orthographic()) checksum.add_value(camera.half_height);
   checksum.add_value(desc.paths.bounces);
   checksum.add_value(desc.paths.occlusion_radius);
   checksum.add_value(desc.paths.lamps_apart);

@@ -368,10 +368,10 @@ void PathTracerRayGen() {
   path_radiance.GetDimensions(width, height);
   // Through the pixel's centre, as the frame's G-buffer.
   const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
-  const float3 direction =
-      frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+  const CameraRay ray = RayThrough(ndc);
+  const float3 direction = ray.direction;
   const float3 view = -normalize(direction);
-  const PathHit first = Follow(float3(0, 0, 0), direction, 0.0, kMaskSolid, true);
+  const PathHit first = Follow(ray.origin, direction, 0.0, kMaskSolid, true);
   const float3 emission = first.distance < 0.0 ? SkyTowards(-view) : first.emissive;
   ClearEachLamp(pixel);
 
@@ -394,7 +394,7 @@ void PathTracerRayGen() {
       start.view = view;
       start.seen_as = kAsSolid;
       if (part == 1) {
-        start = WalkThroughGlass(sampler, direction, first.distance);
+        start = WalkThroughGlass(sampler, ray, first.distance);
         through = start.through;
         part_sampler.seed = HashCombine(sampler.seed, kPairPane + kMaxPanes + start.layer);
       }

@@ -66,6 +66,7 @@ std::vector<EffectStep> steps_of_pixels(const Constants& constants) {
 // One that finds hits in the picture, and says where.
 Effect screen_row(std::string name, std::string about, const std::string& signal) {
   Effect effect = row(std::move(name), std::move(about), signal, true);
+  effect.needs.perspective = true;
   effect.signals.push_back({.name = signal + "_hits", .channels = 4, .output = 1, .is_sum = false});
   effect.needs.radiance = true;
   effect.misses = "what is outside of the picture, behind something or seen from behind";
@@ -105,6 +106,7 @@ Effect masked_row() {
 Effect stochastic_row() {
   Effect effect = row("ssr-stochastic", "screen-space reflections, rays shared by neighbours",
                       "ssr_stochastic", true);
+  effect.needs.perspective = true;
   effect.library = {"reflections/stochastic/stochastic_reflections",
                     stochastic_reflections_library};
   effect.make = make_stochastic_reflections;
@@ -120,6 +122,7 @@ Effect stochastic_row() {
 Effect blurred_row() {
   Effect effect =
       row("ssr-blurred", "screen-space mirrors, blurred by roughness", "ssr_blurred", false);
+  effect.needs.perspective = true;
   effect.library = {"reflections/blurred/blurred_reflections", blurred_reflections_library};
   effect.make = make_blurred_reflections;
   effect.misses = "what ssr misses; what touches a rough surface is as blurred as what is far away";

@@ -12,10 +12,11 @@
 
 // World space is relative to the camera here: the camera is at the origin.
 struct FrameConstants {
-  float3 camera_right;    // half the picture's width at distance 1
+  // Half the picture's width at distance 1, or anywhere where rays are parallel; and its height.
+  float3 camera_right;
   float near_plane;       // metres, for the reversed-Z depth
-  float3 camera_up;       // half the picture's height at distance 1
-  float pixel_angle;      // angle that a pixel's side covers; 0: no ray cones
+  float3 camera_up;
+  float pixel_angle;      // that a pixel's side covers, or metres; 0: no ray cones
   float3 camera_forward;  // unit
   uint seed;
   float3 direction_to_sun;  // unit
@@ -36,7 +37,7 @@ struct FrameConstants {
   float3 previous_forward;
   float white;  // radiance that the exposure takes to 1
   float3 camera_motion;  // metres, from the previous camera to this one
-  float padding5;
+  uint is_orthographic;  // 1: the camera's rays are parallel; what is at distance 1 is everywhere
   float2 jitter;           // pixels, added to the primary rays
   float2 previous_jitter;  // the previous frame's
   // The sun's map in the atlas. A point p stands at dot(p - sun_map_centre, axis), from -1 to 1.
@@ -151,6 +152,42 @@ float3 SkyTowards(float3 direction) {
   return SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
 }
 
+// A ray of the camera. Its direction has the component 1 along the camera's axis, so that the t of a
+// hit is the view depth.
+struct CameraRay {
+  float3 origin;
+  float3 direction;
+};
+
+// The ray through a place of the picture, -1..1 to the right and down. `right`, `up` and `forward`
+// are those of a camera.
+CameraRay RayOfCamera(float2 ndc, float3 right, float3 up, float3 forward) {
+  CameraRay ray;
+  ray.origin = float3(0, 0, 0);
+  ray.direction = forward;
+  if (frame.is_orthographic != 0) {
+    ray.origin = ndc.x * right - ndc.y * up;
+  } else {
+    ray.direction = forward + ndc.x * right - ndc.y * up;
+  }
+  return ray;
+}
+
+CameraRay RayThrough(float2 ndc) {
+  return RayOfCamera(ndc, frame.camera_right, frame.camera_up, frame.camera_forward);
+}
+
+// The unit vector along which the camera sees a point, which is given relative to it.
+float3 SeenAlong(float3 position) {
+  return frame.is_orthographic != 0 ? frame.camera_forward : normalize(position);
+}
+
+// Returns by how much what is at distance 1 grows up to a view depth.
+float GrowthAt(float view_z) { return frame.is_orthographic != 0 ? 1.0 : view_z; }
+
+// Width of a pixel's cone after `way` metres.
+float ConeWidthAfter(float way) { return GrowthAt(way) * frame.pixel_angle; }
+
 // Projects a point relative to a camera to picture coordinates from the upper left corner, 0..1.
 // `view_z` is its distance along the camera's axis; `over_right` and `over_up` are 1 / length.
 float2 PictureUv(float3 position, float3 right, float over_right, float3 up, float over_up,
@@ -158,7 +195,7 @@ float2 PictureUv(float3 position, float3 right, float over_right, float3 up, flo
   view_z = dot(position, forward);
   // The lengths of right and up are half the picture's size at distance 1.
   const float2 ndc = float2(dot(position, right) * (over_right * over_right),
-                            dot(position, up) * (over_up * over_up)) * (1.0 / view_z);
+                            dot(position, up) * (over_up * over_up)) * (1.0 / GrowthAt(view_z));
   return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
 }
 

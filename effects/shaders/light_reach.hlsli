@@ -35,14 +35,17 @@ Sphere SafeReachOf(LightConstants light) {
   return reach;
 }
 
-// Tells whether the sphere reaches into what the camera sees: the pyramid of its picture, without
-// an end. It is a little wider, for the jitter of rays within their pixels.
+// Tells whether the sphere reaches into what the camera sees: the pyramid or prism of its picture,
+// without an end. It is a little wider, for the jitter of rays within their pixels.
 bool ReachesPicture(Sphere reach) {
   const float x = dot(reach.center, frame.camera_right) * frame.over_right;
   const float y = dot(reach.center, frame.camera_up) * frame.over_up;
   const float z = dot(reach.center, frame.camera_forward);
   const float half_width = 1.02 / frame.over_right, half_height = 1.02 / frame.over_up;
   if (!(z > -reach.radius)) return false;
+  if (frame.is_orthographic != 0) {
+    return abs(x) <= half_width + reach.radius && abs(y) <= half_height + reach.radius;
+  }
   // Distance from the sides, positive inside.
   const float across = half_width * z - abs(x), down = half_height * z - abs(y);
   return across >= -reach.radius * sqrt(1.0 + half_width * half_width) &&

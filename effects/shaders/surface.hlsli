@@ -55,7 +55,7 @@ float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, floa
 // the camera counts too: a flat mirror shows things at the size they have at the total distance.
 float ConeWidth() {
   const float way = length(WorldRayOrigin()) + RayTCurrent() * length(WorldRayDirection());
-  return way * frame.pixel_angle;
+  return ConeWidthAfter(way);
 }
 
 // A point of a triangle and who looks at it. Its vertices and indices are handed on besides.

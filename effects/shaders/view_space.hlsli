@@ -17,7 +17,8 @@ bool IsInside(int2 pixel, int2 size) { return all(pixel >= int2(0, 0)) && all(pi
 // The sky has no depth, and a broken depth shows nothing either.
 bool IsSurface(float view_z) { return view_z > 0.0 && isfinite(view_z); }
 
-// x/z and y/z of a place in the picture, in pixels from the upper left corner.
+// x/z and y/z of a place in the picture, in pixels from the upper left corner; x and y themselves
+// where the camera's rays are parallel.
 float2 SlopeAt(float2 place, int2 size) {
   const float2 ndc = (place + frame.jitter) / float2(size) * 2.0 - 1.0;
   return float2(ndc.x / frame.over_right, -ndc.y / frame.over_up);
@@ -29,12 +30,17 @@ float2 PixelsPerSlope(int2 size) {
 }
 
 float3 ViewPosition(int2 pixel, float view_z, int2 size) {
-  return float3(SlopeAt(float2(pixel) + 0.5, size) * view_z, view_z);
+  return float3(SlopeAt(float2(pixel) + 0.5, size) * GrowthAt(view_z), view_z);
 }
 
 // Returns where a point before the camera stands in the picture, in pixels.
 float2 PlaceOf(float3 position, int2 size) {
-  return 0.5 * float2(size) - frame.jitter + position.xy / position.z * PixelsPerSlope(size);
+  return 0.5 * float2(size) - frame.jitter + position.xy / GrowthAt(position.z) * PixelsPerSlope(size);
+}
+
+// The unit vector from a point to the camera, in view space.
+float3 ToCamera(float3 position) {
+  return frame.is_orthographic != 0 ? float3(0, 0, -1) : -normalize(position);
 }
 
 // A direction of the world in view space.
@@ -52,6 +58,7 @@ float3 ViewNormal(float2 encoded, float3 to_camera) {
 
 // Returns how many pixels a point moves in the picture if it goes one metre along `direction`.
 float2 PixelsPerMetre(float3 position, float3 direction, int2 size) {
+  if (frame.is_orthographic != 0) return direction.xy * PixelsPerSlope(size);
   const float2 slope = (direction.xy * position.z - position.xy * direction.z) /
                        (position.z * position.z);
   return slope * PixelsPerSlope(size);

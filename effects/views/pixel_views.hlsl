@@ -86,8 +86,9 @@ void BoxOutlines(uint3 id : SV_DispatchThreadID) {
   for (uint i = 0; i <= steps; ++i) {
     const float t = lerp(from, to, float(i) / float(steps));
     const int2 pixel = clamp(int2(start + t * way), int2(0, 0), int2(pixels) - 1);
-    // 1 / depth runs straight over the picture.
-    const float depth = 1.0 / lerp(1.0 / depth_a, 1.0 / depth_b, t);
+    // 1 / depth runs straight over the picture, or depth where the camera's rays are parallel.
+    const float depth = frame.is_orthographic != 0 ? lerp(depth_a, depth_b, t)
+                                                   : 1.0 / lerp(1.0 / depth_a, 1.0 / depth_b, t);
     const float surface = g_view_z[pixel];
     if (surface > 0.0 && depth > surface * (1.0 + kSameDepth)) continue;
     numbers[pixel] = float4(numbers[pixel].xyz, 1);

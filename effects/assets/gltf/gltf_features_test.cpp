@@ -451,12 +451,30 @@ TEST(GltfNodes, ASingularTransformIsSaidWhereNothingElseIsShown) {
   expect_error(load(file.bytes()), "node 0 \"flat\": its transform is singular");
 }
 
-TEST(GltfNodes, AnOrthographicCameraIsNamed) {
+TEST(GltfNodes, OrthographicCamerasAreReadAndWritten) {
   File file;
-  file.nodes += R"(,{"camera":0})";
-  file.more = R"(,"cameras":[{"type":"orthographic","orthographic":{"xmag":2,"ymag":1,)"
-              R"("znear":0.1,"zfar":9}}])";
-  expect_warning(load(file.bytes()), "its camera is orthographic");
+  file.nodes += R"(,{"camera":0,"translation":[0,0,4],"scale":[2,2,2]})";
+  const auto with = [&](const std::string& ymag) {
+    file.more = R"(,"cameras":[{"name":"plan","type":"orthographic","orthographic":{"xmag":2,)"
+                R"("ymag":)" +
+                ymag + R"(,"znear":0.25,"zfar":9}}])";
+    return load(file.bytes());
+  };
+  const auto loaded = with("1.5");
+  const Scene scene = scene_of(loaded);
+  EXPECT_TRUE(loaded.value().warnings.empty());
+  const Camera& camera = scene.cameras.at(0);
+  EXPECT_EQ(camera.name, "plan");
+  EXPECT_EQ(camera.half_height, 1.5) << "a node's scale is no part of its camera's view";
+  EXPECT_EQ(camera.near_plane, 0.25);
+  EXPECT_EQ(camera.position(), glm::dvec3(0, 0, 4));
+  EXPECT_EQ(camera.forward(), glm::dvec3(0, 0, -1));
+  const auto written = encode_glb(scene);
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  const Camera again = scene_of(load(written.value())).cameras.at(0);
+  EXPECT_EQ(again.half_height, 1.5);
+  EXPECT_EQ(again.camera_to_world, camera.camera_to_world);
+  expect_warning(with("-1"), "the ymag of its orthographic camera is not above 0");
 }
 
 TEST(GltfTextures, OtherTextureCoordinatesAreReadWhereAllTexturesUseThem) {

@@ -4,9 +4,9 @@
 ///
 /// It reads triangle lists, strips and fans, indexed or not, with every component type, normalised
 /// and sparse; vertex colours; morph targets at rest; node hierarchies and instances of a node;
-/// metallic-roughness and unlit materials; local lights; perspective cameras; and skins, either in
-/// the pose of the file or, on request, as skins and animations. Whatever it ignores is named in
-/// the warnings: README.md has the table.
+/// metallic-roughness and unlit materials; local lights; perspective and orthographic cameras; and
+/// skins, either in the pose of the file or, on request, as skins and animations. Whatever it
+/// ignores is named in the warnings: README.md has the table.
 #pragma once
 
 #include <cstdint>

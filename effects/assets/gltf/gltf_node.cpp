@@ -410,12 +410,15 @@ Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
   if (!in_range(node.camera, model_.cameras.size()))
     return id_error(where, "camera", node.camera, model_.cameras.size());
   const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
-  const double fov = from.perspective.yfov;
-  if (from.type == "orthographic") {
-    reader_.warn(where + ": its camera is orthographic; perspective ones are read, it is left out");
+  const bool is_orthographic = from.type == "orthographic";
+  // Mirrored pictures, which a negative number asks for, are no part of glTF.
+  const double half_height = from.orthographic.ymag;
+  if (is_orthographic && !(half_height > 0.0 && std::isfinite(half_height))) {
+    reader_.warn(where + ": the ymag of its orthographic camera is not above 0; it is left out");
     return {};
   }
-  if (from.type != "perspective" || !(fov > 0.0) || !(fov < 3.14159)) {
+  const double fov = from.perspective.yfov;
+  if (!is_orthographic && (from.type != "perspective" || !(fov > 0.0) || !(fov < 3.14159))) {
     reader_.warn(where +
                  ": its camera is not perspective with a field of view of 0..pi and is "
                  "left out");
@@ -423,9 +426,13 @@ Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
   }
   Camera to;
   to.name = from.name.empty() ? node.name : from.name;
-  to.vertical_fov = fov;
-  if (from.perspective.znear > 0.0 && std::isfinite(from.perspective.znear))
-    to.near_plane = from.perspective.znear;
+  if (is_orthographic) {
+    to.half_height = half_height;
+  } else {
+    to.vertical_fov = fov;
+  }
+  const double near = is_orthographic ? from.orthographic.znear : from.perspective.znear;
+  if (near > 0.0 && std::isfinite(near)) to.near_plane = near;
   // Rebuild the view from eye and direction, so that scale and shear of the parents do not affect
   // it.
   const glm::dvec3 eye(world[3]);

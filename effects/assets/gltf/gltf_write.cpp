@@ -259,13 +259,23 @@ void Writer::add_instance(const Instance& instance) {
 
 void Writer::add_camera(const Camera& camera) {
   tinygltf::Camera out;
-  out.type = "perspective";
+  out.type = camera.is_orthographic() ? "orthographic" : "perspective";
   out.name = camera.name;
-  out.perspective.yfov = camera.vertical_fov;
-  out.perspective.znear = camera.near_plane;
-  // Cameras here cut nothing off, and tinygltf writes the member in any case: farther than any
-  // scene reaches.
-  out.perspective.zfar = 1e30;
+  // Cameras here cut nothing off, and tinygltf writes zfar in any case: farther than any scene
+  // reaches; of an orthographic camera, whose depths elsewhere are spread evenly, not much farther.
+  if (camera.is_orthographic()) {
+    out.orthographic.xmag = out.orthographic.ymag = camera.half_height;
+    out.orthographic.znear = camera.near_plane;
+    const Bounds bounds = scene_bounds(scene_);
+    const double far = bounds.empty() ? 0.0
+                                      : glm::length(bounds.center() - camera.position()) +
+                                            glm::length(bounds.size());
+    out.orthographic.zfar = std::max(far, 2.0 * camera.near_plane);
+  } else {
+    out.perspective.yfov = camera.vertical_fov;
+    out.perspective.znear = camera.near_plane;
+    out.perspective.zfar = 1e30;
+  }
   model_.cameras.push_back(out);
   add_node(camera.name, camera.camera_to_world).camera =
       static_cast<int>(model_.cameras.size()) - 1;

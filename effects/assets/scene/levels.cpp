@@ -44,6 +44,7 @@ double screen_coverage(const Bounds& bounds, const glm::dmat4& transform, const 
     stretch = std::max(stretch, glm::length(glm::dvec3(transform[axis])));
   }
   const double radius = 0.5 * glm::length(bounds.size()) * stretch;
+  if (camera.is_orthographic()) return radius / camera.half_height;
   const double distance = glm::length(center - camera.position());
   if (!(distance > radius)) return std::numeric_limits<double>::infinity();
   return radius / (distance * std::tan(camera.vertical_fov / 2));

@@ -308,6 +308,8 @@ void Checker::rest() {
   for (const Camera& camera : scene_.cameras) {
     const std::string where = quoted("camera", camera.name);
     require(finite(camera.camera_to_world), where, "transform is not finite");
+    require(std::isfinite(camera.half_height) && camera.half_height >= 0.0, where,
+            "half_height is " + std::to_string(camera.half_height) + ", 0 or above is allowed");
     require(camera.vertical_fov > 0.0 && camera.vertical_fov < 3.14159, where,
             "field of view is " + std::to_string(camera.vertical_fov) + ", 0..pi is allowed");
   }

@@ -6,6 +6,7 @@
 /// relative to the camera before they are rounded to float.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -126,12 +127,22 @@ struct Sky {
 /// Radiance of the sky towards a unit direction.
 glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction);
 
-/// A perspective camera.
+/// A camera: a perspective one, unless it has a half_height.
 struct Camera {
   std::string name;                 ///< for people
   glm::dmat4 camera_to_world{1.0};  ///< rigid; looks along -Z, +Y is up in the picture
   double vertical_fov = 0.9;        ///< full angle, 0..pi exclusive
   double near_plane = 0.05;         ///< metres; scales stored depths, cuts nothing off
+  /// Metres, above 0: half the height of what an orthographic camera sees; its rays are parallel
+  /// and start on the plane of the camera. 0: perspective, vertical_fov counts.
+  double half_height = 0.0;
+
+  /// True where the rays are parallel.
+  bool is_orthographic() const { return half_height > 0.0; }
+  /// Half the picture's height, metres: of an orthographic camera anywhere, else at distance 1.
+  double picture_half_height() const {
+    return is_orthographic() ? half_height : std::tan(0.5 * vertical_fov);
+  }
 
   /// Returns where it stands, in world space.
   glm::dvec3 position() const { return glm::dvec3(camera_to_world[3]); }

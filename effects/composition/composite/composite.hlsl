@@ -33,8 +33,7 @@ void Composite(uint3 id : SV_DispatchThreadID) {
   }
   const float2 ndc = (float2(pixel) + 0.5) / float2(width, height) * 2.0 - 1.0;
   if (g_ids[pixel].x == 0) {
-    const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
-    radiance[pixel] = float4(SkyTowards(normalize(direction)), 1.0);
+    radiance[pixel] = float4(SkyTowards(normalize(RayThrough(ndc).direction)), 1.0);
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
@@ -80,8 +79,7 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   }
   const float2 ndc = (float2(pixel) + 0.5) / float2(width, height) * 2.0 - 1.0;
   if (g_ids[pixel].x == 0) {
-    const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
-    radiance[pixel] = float4(SkyTowards(normalize(direction)), 1.0);
+    radiance[pixel] = float4(SkyTowards(normalize(RayThrough(ndc).direction)), 1.0);
     return;
   }
   if (g_material[pixel].z > 0.5) {
@@ -91,7 +89,7 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
   const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y,
                              g_material[pixel].x);
-  const BrdfView view = MakeBrdfView(brdf, normal, normalize(-g_position[pixel].xyz));
+  const BrdfView view = MakeBrdfView(brdf, normal, -SeenAlong(g_position[pixel].xyz));
   float3 sum = g_emissive[pixel].rgb;
   if ((compose.has & kHasSun) != 0) {
     sum += frame.sun_irradiance * sun_visibility[pixel].x *

@@ -104,12 +104,14 @@ Source FindSource(int2 pixel, int2 size) {
   } else {
     // The sky is infinitely far away; only the camera's rotation moves it.
     const float2 ndc = (float2(pixel) + 0.5) / float2(size) * 2.0 - 1.0;
-    const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+    const float3 direction = RayThrough(ndc).direction;
     const float along = dot(direction, frame.previous_forward);
-    const float2 before =
+    float2 before =
         float2(dot(direction, frame.previous_right) / dot(frame.previous_right, frame.previous_right),
                -dot(direction, frame.previous_up) / dot(frame.previous_up, frame.previous_up)) /
         along;
+    // Parallel rays all see the same of it.
+    if (frame.is_orthographic != 0) before = ndc;
     source.offset = along > 0.0 ? 0.5 * (before - ndc) * float2(size) : float2(kFar, kFar);
     source.view_z = kFar;
   }

@@ -93,7 +93,8 @@ class DrawnGlass : public EffectPass {
   std::vector<glm::dvec3> centres_;  // of meshes, object space
   SceneDrawList draws_;
   EnvironmentFallback environment_;
-  float near_plane_ = 0;
+  ClipDepth clip_depth_;
+  float clip_scale_ = 0;
 };
 
 rtapi::Status DrawnGlass::create_pictures() {
@@ -154,6 +155,7 @@ rtapi::Status DrawnGlass::create_pipelines(const ShaderLibrary& library) {
 }
 
 rtapi::Status DrawnGlass::create_buffers(const Scene& scene) {
+  clip_depth_ = ClipDepth(scene);
   for (const Instance& instance : scene.instances) {
     const Bounds box = scene.meshes[instance.mesh].bounds();
     centres_.push_back(box.empty() ? glm::dvec3(0.0) : (box.min + box.max) * 0.5);
@@ -164,13 +166,14 @@ rtapi::Status DrawnGlass::create_buffers(const Scene& scene) {
 
 // Far draws come first. What cannot be sorted by the middle of its box is blended in a wrong order.
 rtapi::Status DrawnGlass::begin_frame(const Camera& camera) {
-  near_plane_ = static_cast<float>(camera.near_plane) * kRasterNearShare;
+  clip_scale_ = clip_depth_.scale_of(camera);
   std::vector<SceneDraw> draws = scene_draws(gpu_, kMaskTransparent);
   const auto distance = [&](const SceneDraw& draw) {
     const glm::dmat3x4 rows(draw.object_to_world);
     const glm::dvec4 centre(centres_[draw.instance], 1.0);
-    return glm::length(glm::dvec3(glm::dot(rows[0], centre), glm::dot(rows[1], centre),
-                                  glm::dot(rows[2], centre)));
+    const glm::dvec3 at(glm::dot(rows[0], centre), glm::dot(rows[1], centre),
+                        glm::dot(rows[2], centre));
+    return camera.is_orthographic() ? glm::dot(at, camera.forward()) : glm::length(at);
   };
   std::stable_sort(draws.begin(), draws.end(), [&](const SceneDraw& a, const SceneDraw& b) {
     return distance(a) > distance(b);
@@ -193,7 +196,7 @@ void DrawnGlass::record(CommandList& list, const EffectSettings& settings,
                         const PassConstants& constants) {
   auto words = settings.get_constants<DrawnGlassConstants>();
   if (!environment_) words.fallback = DrawnGlassFallback::kNothing;
-  words.near_plane = near_plane_;
+  words.clip_scale = clip_scale_;
   words.width = static_cast<float>(frame_.width());
   words.height = static_cast<float>(frame_.height());
   const PassArguments arguments(views_, words);

@@ -29,7 +29,7 @@ struct DrawnGlassConstants {
   float tolerance = 1e-4f;
   DrawnGlassFallback fallback = DrawnGlassFallback::kEnvironment;  ///< of all other layers
   std::uint32_t draw = 0;                                          ///< set by the pass
-  float near_plane = 0;                                            ///< set by the pass, metres
+  float clip_scale = 0;                                            ///< set by the pass
   float width = 0;                                                 ///< set by the pass, pixels
   float height = 0;                                                ///< likewise
 };

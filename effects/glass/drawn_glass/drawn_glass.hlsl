@@ -34,7 +34,7 @@ struct DrawnGlassConstants {
   float tolerance;        // part of the view depth by which a layer may miss the depth of the ray's
   uint fallback;          // of other layers: 0 nothing, 1 the environment map
   uint draw;              // in `draws`
-  float near_plane;       // metres, of the clip space
+  float clip_scale;       // of ToClip
   float2 size;            // of the picture, pixels
 };
 ConstantBuffer<DrawnGlassConstants> constants : register(b0, space3);
@@ -52,7 +52,7 @@ struct GlassPixel {
 GlassVertex DrawnGlassVertex(float3 position : POSITION) {
   const float3 world = mul(ObjectToWorld(draws[constants.draw]), float4(position, 1.0));
   GlassVertex result;
-  result.position = ToClip(world, constants.near_plane, constants.size);
+  result.position = ToClip(world, constants.clip_scale, constants.size);
   return result;
 }
 
@@ -71,15 +71,15 @@ Surface DrawnSurface(ByteAddressBuffer vertices_of, ByteAddressBuffer indices_of
                      float3 towards) {
   const float3 position = LoadHitPoint(vertices_of, indices_of, hit).spawn.position;
   return LoadSurface(vertices_of, indices_of, hit,
-                     dot(position, frame.camera_forward) * length(towards) * frame.pixel_angle);
+                     ConeWidthAfter(dot(position, frame.camera_forward) * length(towards)));
 }
 
 GlassPixel ShadeGlass(ByteAddressBuffer vertices_of, ByteAddressBuffer indices_of, SceneDraw draw,
                       uint2 pixel, uint primitive) {
-  const float3 towards = PixelDirection(pixel, uint2(constants.size));
+  const CameraRay ray = PixelRay(pixel, uint2(constants.size));
   const TriangleHit hit =
-      CameraHit(vertices_of, indices_of, geometries[draw.geometry], draw, primitive, towards);
-  const Surface surface = DrawnSurface(vertices_of, indices_of, hit, towards);
+      CameraHit(vertices_of, indices_of, geometries[draw.geometry], draw, primitive, ray);
+  const Surface surface = DrawnSurface(vertices_of, indices_of, hit, ray.direction);
   const float view_z = dot(surface.position, frame.camera_forward);
   const float opaque_z = g_view_z[pixel];
   const float coverage = Coverage(surface.opacity);

@@ -230,10 +230,11 @@ RayDesc GlassRay(uint2 pixel) {
   const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
   const float opaque_z = g_view_z[pixel];
   // The same unnormalised direction as in the G-buffer: t is the view depth.
+  const CameraRay through = RayThrough(ndc);
   RayDesc ray;
-  ray.Origin = float3(0, 0, 0);
+  ray.Origin = through.origin;
   ray.TMin = 0.0;
-  ray.Direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+  ray.Direction = through.direction;
   ray.TMax = opaque_z > 0.0 ? opaque_z : 1e30;
   return ray;
 }

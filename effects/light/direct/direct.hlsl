@@ -48,7 +48,7 @@ Brdf PixelBrdf(uint2 pixel) {
 
 BrdfView PixelView(uint2 pixel, Brdf brdf) {
   return MakeBrdfView(brdf, OctahedralDecode(g_shading_normal[pixel]),
-                      normalize(-g_position[pixel].xyz));
+                      -SeenAlong(g_position[pixel].xyz));
 }
 
 [shader("compute")]

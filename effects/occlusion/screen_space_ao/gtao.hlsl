@@ -138,7 +138,7 @@ void GroundTruthOcclusion(uint3 id : SV_DispatchThreadID) {
   }
   // A little nearer, so that rounding does not make a surface occlude itself.
   const float3 centre = ViewPosition(pixel, view_z * (1.0 - gtao.pull), size);
-  const float3 to_camera = -normalize(centre);
+  const float3 to_camera = ToCamera(centre);
   const float3 normal = ViewNormal(g_shading_normal[pixel], to_camera);
   const ViewBasis basis = MakeViewBasis(to_camera);
   const float2 noise = Noise(pixel);

@@ -19,7 +19,7 @@ ConstantBuffer<HbaoConstants> hbao : register(b0, space3);
 // Returns the occlusion in one direction: up to 1.
 float HorizonOcclusion(int2 pixel, float3 centre, float3 normal, float3 direction, float jitter,
                        int2 size) {
-  const float3 to_camera = -normalize(centre);
+  const float3 to_camera = ToCamera(centre);
   const float radius = Radius();
   const float2 per_metre = PixelsPerMetre(centre, direction, size);
   const float reach = min(radius * length(per_metre), hbao.most_pixels);
@@ -59,7 +59,7 @@ void HorizonBasedOcclusion(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float3 centre = ViewPosition(pixel, view_z, size);
-  const float3 to_camera = -normalize(centre);
+  const float3 to_camera = ToCamera(centre);
   const float3 normal = ViewNormal(g_normal[pixel], to_camera);
   const ViewBasis basis = MakeViewBasis(to_camera);
   const float2 noise = TileNoise(pixel);

@@ -35,7 +35,7 @@ void HemisphereOcclusion(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float3 centre = ViewPosition(pixel, view_z, size);
-  const float3 normal = ViewNormal(g_shading_normal[pixel], -normalize(centre));
+  const float3 normal = ViewNormal(g_shading_normal[pixel], ToCamera(centre));
   const float2 noise = TileNoise(pixel);
   const uint count = max(hemisphere.samples, 1u);
   float occluded = 0.0;

@@ -53,7 +53,7 @@ void SendMirrorRays(uint3 id : SV_DispatchThreadID) {
   if (g_ids[pixel].x == 0) return;
   const ReflectionPoint surface = LoadReflectionPoint(pixel);
   ReflectionRay ray;
-  ray.direction = reflect(normalize(g_position[pixel].xyz), surface.shading_normal);
+  ray.direction = reflect(SeenAlong(g_position[pixel].xyz), surface.shading_normal);
   ray.exists = dot(ray.direction, surface.normal) > 0.0;
   ray.length = ReflectionLength(LengthsOf(constants.screen), 0.0, 0.0);
   ray.weight = float3(1, 1, 1);

@@ -17,7 +17,7 @@ void EnvironmentReflections(uint3 id : SV_DispatchThreadID) {
   reflection[id.xy] = float4(0, 0, 0, 0);
   if (g_ids[id.xy].x == 0) return;
   const ReflectionPoint surface = LoadReflectionPoint(id.xy);
-  const float3 view = normalize(g_position[id.xy].xyz);
+  const float3 view = SeenAlong(g_position[id.xy].xyz);
   const float3 mirrored = reflect(view, surface.shading_normal);
   // The mean over the lobe is over its own albedo: the same as the sum of samples over the scale.
   reflection[id.xy] = float4(

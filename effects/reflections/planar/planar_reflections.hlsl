@@ -42,12 +42,13 @@ void PlanarRayGen() {
   g_view_z.GetDimensions(picture.x, picture.y);
   const float2 uv = (float2(texel) + 0.5) / size + frame.jitter / float2(picture);
   const float2 ndc = uv * 2.0 - 1.0;
-  const float3 towards =
-      frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+  const CameraRay through = RayThrough(ndc);
+  const float3 towards = through.direction;
   const float4 plane = planes[constants.plane];
   const float facing = dot(plane.xyz, towards);
-  if (!(facing < 0.0) || !(plane.w < 0.0)) return;  // the plane is not seen here
-  const float3 on_plane = towards * (plane.w / facing);
+  const float above = plane.w - dot(plane.xyz, through.origin);
+  if (!(facing < 0.0) || !(above < 0.0)) return;  // the plane is not seen here
+  const float3 on_plane = through.origin + towards * (above / facing);
   RayDesc ray;
   ray.Origin = on_plane + plane.xyz * (kClip * length(on_plane));
   ray.TMin = 0.0;
@@ -116,7 +117,7 @@ void PlanarReflections(uint3 id : SV_DispatchThreadID) {
   const uint plane = PlaneOf(position, surface.normal);
   if (plane == constants.plane_count) {
     if (constants.fallback != kFallbackEnvironment) return;
-    const float3 direction = reflect(normalize(position), surface.shading_normal);
+    const float3 direction = reflect(SeenAlong(position), surface.shading_normal);
     reflection[id.xy] =
         float4(EnvironmentRadiance(surface.origin, direction, surface.roughness), 0.0);
     return;

@@ -39,7 +39,7 @@ struct ReflectionPoint {
 
 ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   const float4 position = g_position[pixel];
-  const float3 view = normalize(-position.xyz);
+  const float3 view = -SeenAlong(position.xyz);
   ReflectionPoint surface;
   surface.normal = OctahedralDecode(g_normal[pixel]);
   surface.shading_normal = OctahedralDecode(g_shading_normal[pixel]);

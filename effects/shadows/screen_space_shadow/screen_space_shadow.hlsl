@@ -131,7 +131,7 @@ void ScreenSpaceShadow(uint3 id : SV_DispatchThreadID) {
     return;
   }
   receiver.position = ViewPosition(receiver.pixel, view_z, receiver.size);
-  receiver.normal = ViewNormal(g_normal[receiver.pixel], -normalize(receiver.position));
+  receiver.normal = ViewNormal(g_normal[receiver.pixel], ToCamera(receiver.position));
   float2 visible = float2(1, 1);
   if (constants.toward_sun != 0) {
     visible.x = LightVisibility(receiver, ViewDirection(frame.direction_to_sun), kSunDistance,

@@ -68,9 +68,9 @@ SunMap place(const SunMapsDesc& desc, const Axes& axes, const Square& square, do
   return map;
 }
 
-// Half the picture's size at distance 1.
+// Half the picture's size at distance 1, or anywhere.
 glm::dvec2 half_picture(const Camera& camera, double aspect) {
-  const double up = std::tan(0.5 * camera.vertical_fov);
+  const double up = camera.picture_half_height();
   return {up * aspect, up};
 }
 
@@ -79,6 +79,12 @@ glm::dvec2 half_picture(const Camera& camera, double aspect) {
 Square sphere_square(const Axes& axes, const Camera& camera, double aspect, double z0, double z1) {
   const glm::dvec2 half = half_picture(camera, aspect);
   const double k = glm::dot(half, half);
+  if (camera.is_orthographic()) {
+    const double middle = 0.5 * (z0 + z1);
+    const double around = std::sqrt((z1 - middle) * (z1 - middle) + k);
+    const glm::dvec3 at = in_axes(axes, camera.position() + middle * camera.forward());
+    return {glm::dvec2(at) - around, 2 * around};
+  }
   const double center = std::min(z1, 0.5 * (z0 + z1) * (1 + k));
   const double radius = std::sqrt((z1 - center) * (z1 - center) + z1 * z1 * k);
   const glm::dvec3 at = in_axes(axes, camera.position() + center * camera.forward());
@@ -90,8 +96,8 @@ Square tight_square(const Axes& axes, const Camera& camera, double aspect, doubl
   Bounds box;
   for (int i = 0; i < 8; ++i) {
     const double z = (i & 4) ? z1 : z0;
-    const glm::dvec4 p((i & 1) ? half.x * z : -half.x * z, (i & 2) ? half.y * z : -half.y * z, -z,
-                       1);
+    const glm::dvec2 side = camera.is_orthographic() ? half : half * z;
+    const glm::dvec4 p((i & 1) ? side.x : -side.x, (i & 2) ? side.y : -side.y, -z, 1);
     box.add(in_axes(axes, glm::dvec3(camera.camera_to_world * p)));
   }
   return square_around(box);

@@ -9,14 +9,17 @@
 
 // From relative to the camera to clip space. Depth is reversed, and the far plane infinitely far
 // away: z / w = near / view depth. That spreads the depth buffer's floats evenly over the distance.
-float4 ToClip(float3 position, float near_plane, float2 size) {
+// Where the camera's rays are parallel, depth has to be straight over a triangle: 1 - view depth /
+// far. `clip_scale` is near, or 1 / far. [effects/engine/scene_draws.h: ClipDepth]
+float4 ToClip(float3 position, float clip_scale, float2 size) {
   const float view_z = dot(position, frame.camera_forward);
   // The lengths of right and up are half the picture's size at distance 1.
   float2 xy = float2(dot(position, frame.camera_right) * (frame.over_right * frame.over_right),
                      dot(position, frame.camera_up) * (frame.over_up * frame.over_up));
   // The ray of a pixel passes `jitter` beside its centre: the scene moves the other way.
-  xy += float2(-2.0, 2.0) * frame.jitter / size * view_z;
-  return float4(xy, near_plane, view_z);
+  xy += float2(-2.0, 2.0) * frame.jitter / size * GrowthAt(view_z);
+  if (frame.is_orthographic != 0) return float4(xy, 1.0 - view_z * clip_scale, 1.0);
+  return float4(xy, clip_scale, view_z);
 }
 
 // Weights of a triangle's second and third vertex where a ray from `origin` meets its plane. At the
@@ -53,21 +56,20 @@ float2 ClampedBarycentrics(float3 v0, float3 v1, float3 v2, float3 origin, float
 // Returns what a draw shows at a pixel, as a hit of the ray through it. `layout`: of the draw's
 // geometry.
 TriangleHit CameraHit(ByteAddressBuffer vertices, ByteAddressBuffer indices, HitConstants layout,
-                      SceneDraw draw, uint primitive, float3 direction) {
+                      SceneDraw draw, uint primitive, CameraRay ray) {
   TriangleHit hit;
   hit.layout = layout;
   hit.primitive = primitive;
   hit.object_to_world = ObjectToWorld(draw);
   hit.world_to_object = WorldToObject(draw);
-  hit.direction = normalize(direction);
+  hit.direction = normalize(ray.direction);
   const uint3 corners = LoadTriangle(indices, hit.layout.index_size_bytes, primitive);
   const uint stride = hit.layout.vertex_stride;
-  // The camera is at the origin of world space.
-  const float3 origin = mul(hit.world_to_object, float4(0.0, 0.0, 0.0, 1.0));
+  const float3 origin = mul(hit.world_to_object, float4(ray.origin, 1.0));
   hit.barycentrics = ClampedBarycentrics(LoadVertexFloat3(vertices, stride, 0, corners.x),
                                          LoadVertexFloat3(vertices, stride, 0, corners.y),
                                          LoadVertexFloat3(vertices, stride, 0, corners.z), origin,
-                                         mul((float3x3)hit.world_to_object, direction));
+                                         mul((float3x3)hit.world_to_object, ray.direction));
   return hit;
 }
 

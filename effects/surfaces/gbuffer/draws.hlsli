@@ -9,7 +9,7 @@
 
 struct DrawConstants {
   uint draw;         // in `draws`
-  float near_plane;  // metres: the depth buffer holds near_plane / view depth
+  float clip_scale;  // of ToClip
   float2 size;       // of the picture, pixels
 };
 

@@ -45,7 +45,7 @@ void ProbeOrigins(uint3 id : SV_DispatchThreadID) {
   const float3 rebuilt =
       PositionFromDepth(float2(pixel) + 0.5 + frame.jitter, float2(size), view_z);
   const float offset =
-      DepthOriginOffset(view_z, abs(dot(normal, normalize(rebuilt))), float(size.y));
+      DepthOriginOffset(view_z, abs(dot(normal, SeenAlong(rebuilt))), float(size.y));
   probed[pixel] =
       float4(exact, IsFree(rebuilt + normal * (side * offset)), 1.0, facing_light);
 }

@@ -53,14 +53,14 @@ bool share_a_corner(const Corners& a, const Corners& b) {
 // Returns how likely a pixel of a triangle is to flip. An edge is shared by two triangles, so half
 // of the perimeter counts. Zero for one that reaches behind the camera: it is large.
 double flip_chance(const Corners& corners, const Camera& camera, std::uint32_t height) {
-  const double scale = height / (2 * std::tan(camera.vertical_fov / 2));
+  const double scale = height / (2 * camera.picture_half_height());
   std::array<glm::dvec2, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
     const double depth = glm::dot(corners[i], camera.forward());
     if (!(depth > 0)) return 0;
     p[i] = glm::dvec2(glm::dot(corners[i], glm::dvec3(camera.camera_to_world[0])),
                       glm::dot(corners[i], glm::dvec3(camera.camera_to_world[1]))) *
-           (scale / depth);
+           (camera.is_orthographic() ? scale : scale / depth);
   }
   const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
   const double area = 0.5 * std::fabs(a.x * b.y - a.y * b.x);

@@ -16,10 +16,11 @@ void PrimaryIdsRayGen() {
   const uint2 pixel = FramePixel();
   uint2 size;
   primary_ids.GetDimensions(size.x, size.y);
+  const CameraRay through = PixelRay(pixel, size);
   RayDesc ray;
-  ray.Origin = float3(0, 0, 0);
+  ray.Origin = through.origin;
   ray.TMin = 0.0;
-  ray.Direction = PixelDirection(pixel, size);
+  ray.Direction = through.direction;
   ray.TMax = 1e30;
   IdsPayload payload;
   payload.unused = 0;

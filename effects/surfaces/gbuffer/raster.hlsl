@@ -21,7 +21,7 @@ RasterVertex SceneVertex(Corner corner) {
   const SceneDraw draw = draws[constants.draw];
   RasterVertex result;
   result.position = ToClip(mul(ObjectToWorld(draw), float4(corner.position, 1.0)),
-                           constants.near_plane, constants.size);
+                           constants.clip_scale, constants.size);
   result.uv = corner.uv;
   return result;
 }

@@ -20,13 +20,13 @@ constexpr ResourceStates kReadState = ResourceStates::kNonPixelShaderResource;
 // Mirrors DrawConstants of draws.hlsli.
 struct DrawConstants {
   std::uint32_t draw = 0;
-  float near_plane = 0;
+  float clip_scale = 0;
   glm::vec2 size{0.0f};
 };
 constexpr std::uint32_t kDrawWord = offsetof(DrawConstants, draw) / 4;
 
-DrawConstants draw_constants(const Frame& frame, float near_plane) {
-  return {0, near_plane, {frame.width(), frame.height()}};
+DrawConstants draw_constants(const Frame& frame, float clip_scale) {
+  return {0, clip_scale, {frame.width(), frame.height()}};
 }
 
 }  // namespace
@@ -43,6 +43,7 @@ rtapi::Result<RasterGBuffer> RasterGBuffer::create(const Device& device, const F
                                                    const Scene& scene, const GpuScene& gpu,
                                                    const RasterLibraries& libraries) {
   RasterGBuffer out;
+  out.clip_depth_ = ClipDepth(scene);
   if (const auto s = out.create_targets(device, frame); !s) return s.error();
   const auto pipeline = ScenePipeline::create(
       device, frame,
@@ -104,9 +105,9 @@ rtapi::Status RasterGBuffer::create_targets(const Device& device, const Frame& f
                                        depth_targets_.GetCPUDescriptorHandle(0));
 }
 
-void RasterGBuffer::record_draws(CommandList& list, const Frame& frame, float near_plane) {
+void RasterGBuffer::record_draws(CommandList& list, const Frame& frame, const Camera& camera) {
   draws_.see_instances(kMaskSolid);
-  near_plane_ = near_plane * kRasterNearShare;
+  clip_scale_ = clip_depth_.scale_of(camera);
 
   list.BeginEvent("visibility buffer");
   const ResourceBarrier to_targets[] = {
@@ -121,7 +122,7 @@ void RasterGBuffer::record_draws(CommandList& list, const Frame& frame, float ne
   list.ClearRenderTargetView(target, nothing);
   list.ClearDepthStencilView(depth_target, ClearFlags::kDepth, 0, 0);  // infinitely far away
   list.IASetPrimitiveTopology(PrimitiveTopology::kTriangleList);
-  frame.bind_draws(list, PassArguments(views_, draw_constants(frame, near_plane_)));
+  frame.bind_draws(list, PassArguments(views_, draw_constants(frame, clip_scale_)));
   pipeline_.record(list, draws_, kDrawWord);
   const ResourceBarrier to_read[] = {
       ResourceBarrier::Transition(visibility_, ResourceStates::kRenderTarget, kReadState),
@@ -131,7 +132,7 @@ void RasterGBuffer::record_draws(CommandList& list, const Frame& frame, float ne
 }
 
 void RasterGBuffer::record_resolve(CommandList& list, const Frame& frame) const {
-  resolve_.dispatch(list, frame, {}, PassArguments(views_, draw_constants(frame, near_plane_)),
+  resolve_.dispatch(list, frame, {}, PassArguments(views_, draw_constants(frame, clip_scale_)),
                     frame.width(), frame.height());
 }
 

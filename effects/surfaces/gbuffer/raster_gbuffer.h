@@ -26,10 +26,6 @@ rtapi::Result<rtapi::ShaderLibrary> raster_library();
 /// @errors KA0910 it was made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> resolve_library();
 
-/// The depth buffer's near plane, as a share of the camera's: rays have none and see what is
-/// nearer, and a depth buffer of floats loses nothing by it when depth is reversed.
-inline constexpr float kRasterNearShare = 1.0f / 1024.0f;
-
 /// Both passes, and the pictures between them.
 class RasterGBuffer {
  public:
@@ -43,15 +39,15 @@ class RasterGBuffer {
 
   /// Records the draws of the scene as it stands now in GpuScene::instances: visibility() and
   /// depth() are written. The list of the frame before must have finished: what the device reads is
-  /// written now. `near_plane`: the camera's.
-  void record_draws(rtapi::CommandList& list, const Frame& frame, float near_plane);
+  /// written now. The camera is the frame's.
+  void record_draws(rtapi::CommandList& list, const Frame& frame, const Camera& camera);
   /// Records what makes the frame's pictures of visibility(): all that gbuffer_pass writes.
   void record_resolve(rtapi::CommandList& list, const Frame& frame) const;
 
   /// R32G32_UINT, a non-pixel shader resource between frames: draw + 1 and primitive; 0: nothing.
   const rtapi::Texture& visibility() const { return visibility_; }
   /// R32_TYPELESS, drawn as D32_FLOAT and a non-pixel shader resource between frames:
-  /// kRasterNearShare times the camera's near plane, over view depth; 0: nothing.
+  /// [ClipDepth]; 0: nothing.
   const rtapi::Texture& depth() const { return depth_; }
   /// The draws of the last record_draws; visibility() counts them.
   const std::vector<SceneDraw>& draws() const { return draws_.draws(); }
@@ -66,7 +62,8 @@ class RasterGBuffer {
   ScenePipeline pipeline_;
   ComputePass resolve_;
   PassViews views_;
-  float near_plane_ = 0;
+  ClipDepth clip_depth_;
+  float clip_scale_ = 0;
   SceneDrawList draws_;
 };
 

@@ -21,6 +21,7 @@ namespace kaamos::effects {
 namespace {
 
 constexpr double kEdgeShift = 7.3e-4;  // pixels by which snapping moves an edge, on average
+constexpr double kDepthLimit = 1e-5;   // of near / view depth
 constexpr std::uint32_t kWidth = 320, kHeight = 180;
 constexpr FrameTexture kLayers[] = {kDepth,    kViewZ,    kNormal,   kShadingNormal, kBaseColor,
                                     kEmissive, kMaterial, kPosition, kMotion};
@@ -100,7 +101,6 @@ class Pair {
   std::vector<double> largest_differences(double least_facing, double& off_ray) const {
     const Layers a = read_layers(*drawn), b = read_layers(*traced);
     std::vector<double> out(kLayerCount);
-    const double pixel_size = 2 * std::tan(camera_.vertical_fov / 2) / kHeight;  // at distance 1
     for (std::size_t i = 0; i < seen_by_rays.size(); ++i) {
       if (!seen_by_draws[i].same_triangle(seen_by_rays[i])) continue;
       if (seen_by_rays[i].instance == 0 || facing(b, i) < least_facing) continue;
@@ -109,8 +109,12 @@ class Pair {
         // At a border that the ray just misses, the point is up to sqrt(2) / 512 pixel beside it,
         // which a slanted surface lengthens. Elsewhere rounding is all.
         const bool is_length = kLayers[layer] == kViewZ || kLayers[layer] == kPosition;
-        const double unit =
-            is_length ? b[1].values[i] * (pixel_size / 362 + 2e-6) / facing(b, i) : 1.0;
+        const double z = b[1].values[i], length = length_unit(z) / facing(b, i);
+        double unit = is_length ? length : 1.0;
+        // A pixel of parallel rays is as wide near the camera as anywhere, where near / depth
+        // changes fast.
+        if (layer == 0 && camera_.is_orthographic())
+          unit = std::max(1.0, length * camera_.near_plane / (z * z) / kDepthLimit);
         for (std::size_t c = 0; c < channels; ++c) {
           const double difference =
               std::fabs(a[layer].values[i * channels + c] - b[layer].values[i * channels + c]);
@@ -120,7 +124,7 @@ class Pair {
     }
     for (std::size_t i = 0; i < seen_by_rays.size(); ++i) {
       if (seen_by_draws[i].instance == 0 || facing(a, i) < least_facing) continue;
-      const double unit = a[1].values[i] * (pixel_size / 362 + 2e-6) / facing(a, i);
+      const double unit = length_unit(a[1].values[i]) / facing(a, i);
       off_ray = std::max(off_ray, distance_to_ray(a[7], i) / unit);
     }
     std::printf("  %-15s %.3g\n", "off the ray", off_ray);
@@ -131,23 +135,32 @@ class Pair {
   }
 
  private:
+  // What a point may be off at a view depth: sqrt(2) / 512 pixel, and rounding.
+  double length_unit(double view_z) const {
+    const double pixel_size = 2 * camera_.picture_half_height() / kHeight;  // at distance 1
+    return (camera_.is_orthographic() ? pixel_size : view_z * pixel_size) / 362 + view_z * 2e-6;
+  }
+
   // Returns how far the point of a pixel is off the ray through its center, in metres.
   double distance_to_ray(const FloatImage& positions, std::size_t pixel) const {
-    const double half = std::tan(camera_.vertical_fov / 2);
+    const double half = camera_.picture_half_height();
     const glm::dvec2 place(static_cast<double>(pixel % kWidth),
                            static_cast<double>(pixel / kWidth));
     const glm::dvec2 ndc = 2.0 * (place + 0.5 + jitter_) / glm::dvec2(kWidth, kHeight) - 1.0;
     const glm::dmat4& axes = camera_.camera_to_world;
+    const glm::dvec3 aside =
+        half * (kWidth * ndc.x / kHeight * glm::dvec3(axes[0]) - ndc.y * glm::dvec3(axes[1]));
+    const bool is_parallel = camera_.is_orthographic();
     const glm::dvec3 direction =
-        glm::normalize(camera_.forward() + half * (kWidth * ndc.x / kHeight * glm::dvec3(axes[0]) -
-                                                   ndc.y * glm::dvec3(axes[1])));
+        glm::normalize(is_parallel ? camera_.forward() : camera_.forward() + aside);
     const float* p = &positions.values[4 * pixel];
-    const glm::dvec3 position(p[0], p[1], p[2]);
+    const glm::dvec3 position =
+        glm::dvec3(p[0], p[1], p[2]) - (is_parallel ? aside : glm::dvec3(0.0));
     return glm::length(position - glm::dot(position, direction) * direction);
   }
 
   // Cosine between view and geometric normal; 1 where nothing is.
-  static double facing(const Layers& layers, std::size_t pixel) {
+  double facing(const Layers& layers, std::size_t pixel) const {
     const float* p = &layers[7].values[4 * pixel];
     const float u = layers[2].values[2 * pixel], v = layers[2].values[2 * pixel + 1];
     glm::dvec3 n(u, v, 1 - std::fabs(u) - std::fabs(v));
@@ -157,6 +170,8 @@ class Pair {
     }
     const glm::dvec3 position(p[0], p[1], p[2]);
     const double length = glm::length(position);
+    if (length > 0 && camera_.is_orthographic())
+      return std::fabs(glm::dot(glm::normalize(n), camera_.forward()));
     return length > 0 ? std::fabs(glm::dot(glm::normalize(n), position)) / length : 1.0;
   }
 
@@ -193,7 +208,8 @@ void expect_same_layers(const std::vector<double>& differences) {
   constexpr double kByte = 1.001 / 255;     // a value that rounds the other way
   constexpr double kShort = 1.001 / 32767;  // the same of normals
   // The place of a traced point along a sliver is less exact than that of the drawn one.
-  const double limits[kLayerCount] = {1e-5, 1, kShort, 1e-3, 2 * kByte, 2e-2, kByte, 8, 2e-5};
+  const double limits[kLayerCount] = {kDepthLimit, 1,     kShort, 1e-3, 2 * kByte,
+                                      2e-2,        kByte, 8,      2e-5};
   for (std::size_t layer = 0; layer < kLayerCount; ++layer) {
     EXPECT_LE(differences[layer], limits[layer]) << kNames[layer];
   }
@@ -227,6 +243,25 @@ TEST_P(RasterGBufferTest, ShowsWalkingFiguresAsRaysDo) {
   pair.expect_same_triangles();
   const FloatImage motion = pair.drawn->read(pair.drawn->frame().texture(kMotion)).value();
   EXPECT_GT(*std::max_element(motion.values.begin(), motion.values.end()), 1e-3f);
+  double off_ray = 0;
+  expect_same_layers(pair.largest_differences(0.02, off_ray));
+  EXPECT_LE(off_ray, 1);
+}
+
+// Depth is spread evenly there, and the rays of pixels start on a plane.
+TEST_P(RasterGBufferTest, ShowsWalkingFiguresAsParallelRaysDo) {
+  Scene scene = make_runner_scene();
+  scene.cameras.front().half_height = 2;
+  Pair pair(GetParam(), scene, true);
+  FrameMoment moment;
+  moment.camera = scene.cameras.front();
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    moment.index = i;
+    moment.seconds = 0.1 * i;
+    moment.camera.camera_to_world[3] += glm::dvec4(0.05, 0.01, -0.02, 0);
+    pair.render(moment);
+  }
+  pair.expect_same_triangles();
   double off_ray = 0;
   expect_same_layers(pair.largest_differences(0.02, off_ray));
   EXPECT_LE(off_ray, 1);

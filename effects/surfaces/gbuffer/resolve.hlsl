@@ -8,14 +8,14 @@
 #include "store.hlsli"
 
 void ResolvePixel(ByteAddressBuffer vertices, ByteAddressBuffer indices, uint2 pixel,
-                  SceneDraw draw, uint primitive, float3 direction) {
+                  SceneDraw draw, uint primitive, CameraRay ray) {
   const TriangleHit hit =
-      CameraHit(vertices, indices, geometries[draw.geometry], draw, primitive, direction);
+      CameraHit(vertices, indices, geometries[draw.geometry], draw, primitive, ray);
   const float3 position = LoadHitPoint(vertices, indices, hit).spawn.position;
   const float view_z = dot(position, frame.camera_forward);
   StoreSurface(pixel, vertices, indices, hit, draw.instance,
                uint2((draw.instance & 0xFFFFFFu) + 1, primitive), view_z,
-               view_z * length(direction) * frame.pixel_angle);
+               ConeWidthAfter(view_z * length(ray.direction)));
 }
 
 [shader("compute")]
@@ -33,5 +33,5 @@ void ResolveVisibility(uint3 id : SV_DispatchThreadID) {
   const uint vertices_at = 2 * draw.geometry;
   ResolvePixel(geometry_buffers[NonUniformResourceIndex(vertices_at)],
                geometry_buffers[NonUniformResourceIndex(vertices_at + 1)], pixel, draw, seen.y,
-               PixelDirection(pixel, size));
+               PixelRay(pixel, size));
 }

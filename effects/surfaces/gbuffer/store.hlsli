@@ -5,11 +5,10 @@
 
 #include "surface.hlsli"
 
-// From the camera through the centre of a pixel, moved by the jitter. Not normalised: its component
-// along the camera's axis is 1, so that the t of a hit is the view depth.
-float3 PixelDirection(uint2 pixel, uint2 size) {
+// From the camera through the centre of a pixel, moved by the jitter.
+CameraRay PixelRay(uint2 pixel, uint2 size) {
   const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(size) * 2.0 - 1.0;
-  return frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+  return RayThrough(ndc);
 }
 
 void StoreNothing(uint2 pixel) {

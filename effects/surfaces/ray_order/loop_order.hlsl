@@ -70,7 +70,7 @@ void FindSeen(uint3 id : SV_DispatchThreadID) {
   float3 directions[kPixels];
   float2 nearest[kPixels];
   for (uint i = 0; i < kPixels; ++i) {
-    directions[i] = PixelDirection(corner + uint2(i % kSide, i / kSide), size);
+    directions[i] = PixelRay(corner + uint2(i % kSide, i / kSide), size).direction;
     nearest[i] = float2(0, 0);
   }
   if (constants.pixels_inside != 0) {
