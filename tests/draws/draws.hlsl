@@ -79,6 +79,37 @@ float4 Counted(float4 position : SV_Position) : SV_Target0 {
   return tint;
 }
 
+// The first lane of each wave counts for all; quads ask their helpers, too.
+[shader("pixel")]
+uint4 Waves(float4 position : SV_Position) : SV_Target0 {
+  const uint lanes = WaveActiveCountBits(true);
+  if (WaveIsFirstLane()) counter.InterlockedAdd(0, lanes);
+  const uint2 pixel = uint2(position.xy);
+  uint turns = 0;
+  uint others = 0;
+  for (;;) {
+    ++turns;
+    const uint row = WaveReadLaneFirst(pixel.y);
+    if (row == pixel.y) {
+      others = WaveActiveSum(pixel.y) - WaveActiveCountBits(true) * row;
+      break;
+    }
+  }
+  const bool beside = QuadReadAcrossX(pixel.x) == (pixel.x ^ 1) && QuadReadAcrossY(pixel.y) == (pixel.y ^ 1);
+  const bool any = QuadReadLaneAt(pixel.x, 0) == (pixel.x & ~1u);
+  const bool sum = WaveActiveMax(WavePrefixSum(1u)) == lanes - 1 && WaveActiveBitOr(1u << 20) == 1u << 20;
+  return uint4(1 + others, beside && any ? 1 : 0, sum && turns <= lanes ? 1 : 0,
+               WaveGetLaneIndex() < WaveGetLaneCount() && lanes <= WaveGetLaneCount() ? 1 : 0);
+}
+
+// Whether any pixel of the quad has this column, and all have it or its neighbour.
+[shader("pixel")]
+uint4 QuadVotes(float4 position : SV_Position) : SV_Target0 {
+  const uint2 pixel = uint2(position.xy);
+  return uint4(1, QuadAny((pixel.x & 1) == 0) && QuadAny((pixel.x & 1) == 1) ? 1 : 0,
+               QuadAll((pixel.x & 1) == 0) ? 1 : 0, QuadAll(pixel.x < 64) ? 1 : 0);
+}
+
 RaytracingAccelerationStructure scene : register(t1);
 
 [shader("pixel")]

@@ -204,6 +204,60 @@ TEST_P(Draws, RAS_85_99_UnorderedAccessesOfCoveredPixelsOnly) {
   EXPECT_EQ(counts()[1], 2u * 29 * 33);  // pixels 3 to 31 go on after the discard
 }
 
+// Single pixels and columns, so that most lanes are helpers.
+TEST_P(Draws, HelpersTakePartInQuadsAndNotInWaves) {
+  Canvas canvas(GetParam(), Format::kR32G32B32A32Uint);
+  GraphicsPipelineStateDesc desc = canvas.desc("FromBuffers", "Waves");
+  desc.InputLayout = layout();
+  desc.DepthStencilState.DepthEnable = false;
+  const PipelineState waves = canvas.make(desc);
+  desc.PS = canvas.desc("FromBuffers", "QuadVotes").PS;
+  const PipelineState votes = canvas.make(desc);
+  std::vector<Corner> corners;
+  const auto rectangle = [&](float left, float top, float right, float bottom) {
+    for (const auto& [x, y] : {std::pair(left, top),
+                               {right, top},
+                               {left, bottom},
+                               {right, top},
+                               {right, bottom},
+                               {left, bottom}}) {
+      corners.push_back({{ndc_x(x), ndc_y(y), 0.5f}, {0, 0, 0}});
+    }
+  };
+  rectangle(8, 8, 24, 24);
+  rectangle(31, 3, 32, 4);
+  rectangle(33, 5, 36, 40);
+  rectangle(40, 11, 60, 12);
+  constexpr int kCovered = 16 * 16 + 1 + 3 * 35 + 20;
+  const Buffer vertices = CreateUploadBuffer(canvas.device, corners).value();
+  const Buffer offset = CreateUploadBuffer(canvas.device, std::vector<float>{0, 0}).value();
+  for (const bool in_waves : {true, false}) {
+    const PipelineState& pipeline = in_waves ? waves : votes;
+    canvas.run([&](CommandList& list) {
+      Canvas::use(list, pipeline);
+      const VertexBufferView views[] = {view(vertices, sizeof(Corner)), view(offset, 8)};
+      list.IASetVertexBuffers(0, views);
+      list.DrawInstanced(static_cast<uint32_t>(corners.size()), 1, 0, 0);
+    });
+    int covered = 0;
+    for (uint32_t y = 0; y < kSize; ++y) {
+      for (uint32_t x = 0; x < kSize; ++x) {
+        if (canvas.texel<uint32_t>(x, y, 0) == 0) continue;
+        ++covered;
+        for (uint32_t c = 0; c < 4; ++c) {
+          const uint32_t wanted = c == 2 && !in_waves ? 0 : 1;
+          EXPECT_EQ(canvas.texel<uint32_t>(x, y, c), wanted) << x << ", " << y << ": " << c;
+        }
+      }
+    }
+    EXPECT_EQ(covered, kCovered);
+  }
+  const auto bytes = ReadbackBuffer(canvas.device, canvas.queue, canvas.counter).value();
+  uint32_t counted = 0;
+  std::memcpy(&counted, bytes.data(), sizeof counted);
+  EXPECT_EQ(counted, kCovered);
+}
+
 TEST_P(Draws, RAS_120_BlendingInTheOrderOfDraws) {
   GraphicsPipelineStateDesc desc = canvas_->desc("WholeTarget", "Constant");
   desc.DepthStencilState.DepthEnable = false;

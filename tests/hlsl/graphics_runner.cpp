@@ -48,6 +48,11 @@ void run_lane() {
 
 void wait_for_quad(ComputeGroup&, const WaveCall& call) {
   Quad& quad = *running;
+  if (call.op == WaveOp::kLaneCount || call.op == WaveOp::kLaneIndex) {
+    *static_cast<uint32_t*>(call.result) =
+        call.op == WaveOp::kLaneCount ? kQuadLanes : quad.current;
+    return;
+  }
   quad.waiting[quad.current] = &call;
   swapcontext(&quad.lanes[quad.current], &quad.main);
 }
@@ -56,7 +61,7 @@ template <class T>
 void give_results(Quad& quad, const std::vector<uint32_t>& together) {
   const WaveCall& call = *quad.waiting[together[0]];
   T values[4 * kQuadLanes] = {};
-  uint32_t second[kQuadLanes] = {};
+  uint32_t second[4 * kQuadLanes] = {};
   alignas(8) unsigned char results[4 * kQuadLanes * 8] = {};
   uint32_t active = 0;
   for (const uint32_t lane : together) {
@@ -64,12 +69,18 @@ void give_results(Quad& quad, const std::vector<uint32_t>& together) {
     for (uint32_t c = 0; c < call.components; ++c) {
       values[c * kQuadLanes + lane] = static_cast<const T*>(quad.waiting[lane]->value)[c];
     }
-    if (has_lane_operand(call.op)) second[lane] = quad.waiting[lane]->second[0];
+    const uint32_t words = has_lane_operand(call.op) ? 1 : has_mask_operand(call.op) ? 4 : 0;
+    for (uint32_t c = 0; c < words; ++c) {
+      second[c * kQuadLanes + lane] = quad.waiting[lane]->second[c];
+    }
   }
   wave_results<T>(call.op, {active, kQuadLanes, call.components, values, second, results});
-  const size_t bytes = gives_bool(call.op) ? 1 : sizeof(T);
+  const bool number = gives_number(call.op) || gives_mask(call.op);
+  const size_t bytes = gives_bool(call.op) ? 1 : number ? 4 : sizeof(T);
+  const bool one = gives_number(call.op) || (gives_bool(call.op) && call.op != WaveOp::kAllEqual);
+  const uint32_t components = gives_mask(call.op) ? 4 : one ? 1 : call.components;
   for (const uint32_t lane : together) {
-    for (uint32_t c = 0; c < call.components; ++c) {
+    for (uint32_t c = 0; c < components; ++c) {
       std::memcpy(static_cast<char*>(quad.waiting[lane]->result) + c * bytes,
                   results + (c * kQuadLanes + lane) * bytes, bytes);
     }
@@ -93,6 +104,8 @@ void meet(Quad& quad) {
   switch (quad.waiting[together[0]]->scalar) {
     case WaveScalar::kBool:
       return give_results<bool>(quad, together);
+    case WaveScalar::kInt32:
+      return give_results<int32_t>(quad, together);
     case WaveScalar::kUint32:
       return give_results<uint32_t>(quad, together);
     case WaveScalar::kFloat16:

@@ -102,6 +102,27 @@ Out main(In i, int id : SV_VertexID, uint instance : sv_instanceid, out float de
            EXPECT_EQ(run.floats("TWICE", 0)[at], 2 * (f + 1));
          }
        }},
+      // Each vertex is a wave of its own.
+      {"WavesOfVertices", "vs_6_6", R"(
+float4 main(uint id : SV_VertexID, out uint4 a : A, out uint4 b : B) : SV_Position {
+  a = uint4(WaveGetLaneCount(), WaveGetLaneIndex(), WaveActiveSum(id), WavePrefixSum(id));
+  b = uint4(WaveIsFirstLane(), WaveReadLaneAt(id, 3), WaveMatch(id).x, WaveActiveBallot(id > 1).x);
+  return WavePrefixProduct(2.0) + WaveReadLaneFirst(float(id));
+})",
+       [](GraphicsRunner& run) {
+         const Lanes ids = {0, 1, 2, 3, 4, 5, 6, 7};
+         run.in("SV_VertexID", 0) = ids;
+         run.run();
+         EXPECT_EQ(run.out("A", 0, 0), all_bits(1));
+         EXPECT_EQ(run.out("A", 0, 1), all_bits(0));
+         EXPECT_EQ(run.out("A", 0, 2), ids);
+         EXPECT_EQ(run.out("A", 0, 3), all_bits(0));
+         EXPECT_EQ(run.out("B", 0, 0), all_bits(1));
+         EXPECT_EQ(run.out("B", 0, 1), ids);
+         EXPECT_EQ(run.out("B", 0, 2), all_bits(1));
+         EXPECT_EQ(run.out("B", 0, 3), (Lanes{0, 0, 1, 1, 1, 1, 1, 1}));
+         EXPECT_EQ(run.floats("SV_Position", 0, 1), (Floats{1, 2, 3, 4, 5, 6, 7, 8}));
+       }},
       {"HalfInputs", "vs_6_6", R"(
 float4 main(half2 a : A, int16_t b : B, out uint16_t c : C) : SV_Position {
   c = uint16_t(b) + uint16_t(1);
@@ -271,6 +292,96 @@ uint4 main(uint4 v : V, float f : F) : SV_Target {
          EXPECT_EQ(run.out("SV_Target", 0, 3), (Lanes{0, 0, 0, 0, 1, 1, 1, 1}));
        }},
       // RAS-91, RAS-95, RAS-96: mips that hold their number, 4 texels to a pixel.
+      {"WavesLeaveOutHelpers", "ps_6_6", R"(
+void main(float f : F, out uint4 a : SV_Target0, out uint4 b : SV_Target1,
+          out uint4 c : SV_Target2, out uint4 d : SV_Target3, out float4 e : SV_Target4) {
+  const uint x = uint(f);
+  a = uint4(WaveGetLaneCount(), WaveGetLaneIndex(), WaveActiveCountBits(true), WaveActiveSum(x));
+  b = uint4(WaveIsFirstLane(), WaveReadLaneFirst(x), WaveReadLaneAt(x, 2), WavePrefixSum(x));
+  c = uint4(WaveActiveBallot(true).x, WaveMatch(x & 1).x, WaveActiveMax(x), WavePrefixCountBits(x > 1));
+  d = uint4(WaveActiveAllTrue(x != 0), WaveActiveAnyTrue(x == 7),
+            WaveMultiPrefixSum(x, uint4(0x7, 0, 0, 0)), QuadReadAcrossDiagonal(x));
+  if (x == 2) discard;
+  e = float4(WaveActiveCountBits(true), WaveActiveMin(f), ddx(f), WaveActiveAllEqual(x));
+})",
+       [](GraphicsRunner& run) {
+         run.set("F", 0, 0, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.live = 0x6E;  // 0, 4 and 7 are helpers
+         run.run();
+         EXPECT_EQ(run.live, 0x6Au);
+         struct Row {
+           uint32_t target, component;
+           Lanes wanted;  // of lanes 1 to 3, 5 and 6
+         };
+         const Row rows[] = {
+             {0, 0, {4, 4, 4, 4, 4, 4, 4, 4}},    {0, 1, {0, 1, 2, 3, 0, 1, 2, 3}},
+             {0, 2, {0, 3, 3, 3, 0, 2, 2, 0}},    {0, 3, {0, 6, 6, 6, 0, 11, 11, 0}},
+             {1, 0, {0, 1, 0, 0, 0, 1, 0, 0}},    {1, 1, {0, 1, 1, 1, 0, 5, 5, 0}},
+             {1, 2, {0, 2, 2, 2, 0, 6, 6, 0}},    {1, 3, {0, 0, 1, 3, 0, 0, 5, 0}},
+             {2, 0, {0, 14, 14, 14, 0, 6, 6, 0}}, {2, 1, {0, 10, 4, 10, 0, 2, 4, 0}},
+             {2, 2, {0, 3, 3, 3, 0, 6, 6, 0}},    {2, 3, {0, 0, 0, 1, 0, 0, 1, 0}},
+             {3, 0, {0, 1, 1, 1, 0, 1, 1, 0}},    {3, 1, {}},
+             {3, 2, {0, 0, 1, 3, 0, 0, 5, 0}},    {3, 3, {0, 2, 1, 0, 0, 6, 5, 0}}};
+         for (const Row& row : rows) {
+           const Lanes found = run.out("SV_Target", row.target, row.component);
+           for (const size_t lane : {1, 2, 3, 5, 6}) {
+             EXPECT_EQ(found[lane], row.wanted[lane])
+                 << row.target << ", " << row.component << ", lane " << lane;
+           }
+         }
+         const auto after = [&](uint32_t component, size_t lane) {
+           return run.floats("SV_Target", 4, component)[lane];
+         };
+         EXPECT_EQ(after(0, 1), 2.0f) << "without the one that is discarded";
+         EXPECT_EQ(after(0, 5), 2.0f);
+         EXPECT_EQ(after(1, 3), 1.0f);
+         EXPECT_EQ(after(2, 5), 1.0f);
+         EXPECT_EQ(after(3, 3), 0.0f);
+       }},
+      // Helpers leave loops as others do, and go along where what decides is the same for all.
+      {"LoopsOfWavesEnd", "ps_6_6", R"(
+float4 main(float f : F) : SV_Target {
+  float4 result = 0;
+  for (;;) {
+    const float first = WaveReadLaneFirst(f);
+    result.x += 1;
+    if (first == f) { result.y = WaveActiveCountBits(true); break; }
+  }
+  for (uint i = 0; i < WaveActiveMax(uint(f)); ++i) result.z += ddx(f * i);
+  if (WaveActiveAnyTrue(f > 2)) result.w = ddy(result.z + f);
+  return result;
+})",
+       [](GraphicsRunner& run) {
+         run.set("F", 0, 0, {0, 1, 2, 3, 5, 5, 7, 7});
+         run.live = 0x2A;
+         run.run();
+         EXPECT_EQ(run.floats("SV_Target", 0, 0)[1], 1.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 0)[3], 2.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 1)[3], 1.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 1)[5], 1.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 2)[1], 3.0f)
+             << "0 + 1 + 2, though lane 0 is a helper";
+         EXPECT_EQ(run.floats("SV_Target", 0, 2)[3], 3.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 2)[5], 0.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 3)[1], 2.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 3)[5], 2.0f);
+       }},
+      {"WavesOfHelpers", "ps_6_7", R"(
+[WaveOpsIncludeHelperLanes] uint4 main(float f : F) : SV_Target {
+  if (f == 3) discard;
+  return uint4(WaveActiveCountBits(true), WaveActiveSum(uint(f)), WaveIsFirstLane(),
+               WaveReadLaneAt(uint(f), 0));
+})",
+       [](GraphicsRunner& run) {
+         run.set("F", 0, 0, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.live = 0x2A;
+         run.run();
+         EXPECT_EQ(run.live, 0x22u);
+         EXPECT_EQ(run.out("SV_Target", 0, 0), all_bits(4));
+         EXPECT_EQ(run.out("SV_Target", 0, 1), (Lanes{6, 6, 6, 6, 22, 22, 22, 22}));
+         EXPECT_EQ(run.out("SV_Target", 0, 2), (Lanes{1, 0, 0, 0, 1, 0, 0, 0}));
+         EXPECT_EQ(run.out("SV_Target", 0, 3), (Lanes{0, 0, 0, 0, 4, 4, 4, 4}));
+       }},
       {"ImplicitLevels", "ps_6_6", R"(
 Texture2D<float> t;
 SamplerState s;

@@ -299,8 +299,8 @@ class Device {
   /// [D3D12: CreateGraphicsPipelineState]
   /// @errors KA0904 an empty handle; KA0903 a root signature of another device; KA0536 a local root
   /// signature; KA0528, KA0529, KA0543 it does not feed a resource; KA0542 RayQuery on a device of
-  /// tier 1.0; KA0720-KA0727 the description; on Vulkan KA0952, KA0954, KA0956, KA0963; the reason
-  /// if the device is removed. Warning: KA0728.
+  /// tier 1.0; KA0720-KA0727 the description; on Vulkan KA0551 no subgroup operations in pixel
+  /// shaders, KA0952, KA0954, KA0956, KA0963; the reason if the device is removed. Warning: KA0728.
   Result<PipelineState> CreateGraphicsPipelineState(const GraphicsPipelineStateDesc& desc) const;
   /// Makes a command signature for ExecuteIndirect. `root_signature` is a global one; it is needed
   /// if an argument sets a root argument, and ignored otherwise.

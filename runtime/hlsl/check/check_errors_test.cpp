@@ -183,6 +183,8 @@ const std::vector<Case>& cases() {
       {"WaveMultiPrefixOfBits", Id::kIntrinsicArgument,
        kernel("float x = WaveMultiPrefixBitAnd(@1.0, 1);")},
       {"WaveArguments", Id::kArgumentCount, kernel("uint x = @WaveReadLaneAt(1u);")},
+      {"QuadOfRays", Id::kStage,
+       "[shader(\"raygeneration\")] void main() { uint x = @QuadReadAcrossX(1u); }"},
       {"WaveSizeNoPowerOfTwo", Id::kWaveSize,
        "[shader(\"compute\")][numthreads(1, 1, 1)][WaveSize(@12)] void main() {}"},
       {"WaveSizeTooLarge", Id::kWaveSize,

@@ -115,6 +115,16 @@ std::string GlslEmitter::match_function(const Type* t) {
                       type(t)));
 }
 
+std::string GlslEmitter::quad_votes_function() {
+  const std::string name = "g_quad_votes";
+  std::string others;
+  for (const char* lane : {"1u", "2u", "3u"}) {
+    others += std::string(" | subgroupShuffle(v, gl_SubgroupInvocationID ^ ") + lane + ")";
+  }
+  return generated(name, "uint " + name + "(bool vote) {\n  const uint v = uint(vote);\n" +
+                             "  return v" + others + ";\n}\n");
+}
+
 std::string GlslEmitter::all_equal(const Expr* operand) {
   const std::string v = repeatable(operand);
   const uint32_t count = operand->type->kind == TypeKind::kVector ? operand->type->columns : 1;
@@ -168,8 +178,9 @@ std::string GlslEmitter::wave_text(const Stmt& stmt) {
   const auto from_lane = [&](const std::string& lane) {
     return "subgroupShuffle(" + operand(0) + ", " + lane + ")";
   };
-  // The votes of this lane's quad, in the low four bits.
-  const auto quad = [](const std::string& vote) {
+  // The votes of this lane's quad. Ballots of pixel shaders may lack helpers, which vote here.
+  const auto quad = [&](const std::string& vote) {
+    if (entry_.stage == kStagePixel) return quad_votes_function() + "(" + vote + ")";
     return "(subgroupBallot(" + vote +
            ")[gl_SubgroupInvocationID >> 5] >> (gl_SubgroupInvocationID & 28u) & 15u)";
   };

@@ -90,6 +90,12 @@ rtapi::Status GraphicsPipeline::start() {
     return runtime::make_error(runtime::Id::kNoGraphics,
                                gpu.info().Name + " lacks " + gpu.features().graphics_lacks + ".");
   }
+  const bool has_waves =
+      linked_->has_pixel() && (linked_->pixel_desc().flags & shader::kGraphicsReadsWave) != 0;
+  if (has_waves) {
+    auto s = check_subgroups(gpu, VK_SHADER_STAGE_FRAGMENT_BIT, "pixel", linked_->pixel.name);
+    if (!s) return s;
+  }
   auto inputs = vertex_input(gpu, *linked_);
   if (!inputs) return inputs.error();
   inputs_ = *std::move(inputs);

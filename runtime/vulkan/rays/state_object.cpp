@@ -211,22 +211,12 @@ RaytracingPipeline::~RaytracingPipeline() {
 
 namespace {
 
-// The subgroup operations that the GLSL of waves uses. [runtime/hlsl/glsl/waves.cpp]
-constexpr VkSubgroupFeatureFlags kWaveOperations =
-    VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
-    VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
-    VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-
 rtapi::Status check_waves(const Gpu& gpu, const runtime::LinkedCompute& linked) {
   const VkPhysicalDeviceVulkan11Properties& core = gpu.properties().vulkan11;
   const VkPhysicalDeviceVulkan13Properties& sizes = gpu.properties().vulkan13;
-  const bool works = (core.subgroupSupportedOperations & kWaveOperations) == kWaveOperations &&
-                     (core.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
-  if (linked.shader.code->compute->has_waves && !works) {
-    return runtime::make_error(runtime::Id::kNoSubgroups,
-                               "compute shader \"" + linked.shader.name +
-                                   "\" has wave intrinsics, which need vote, arithmetic, ballot "
-                                   "and shuffle operations of subgroups in compute shaders.");
+  if (linked.shader.code->compute->has_waves) {
+    auto s = check_subgroups(gpu, VK_SHADER_STAGE_COMPUTE_BIT, "compute", linked.shader.name);
+    if (!s) return s;
   }
   const bool chooses = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
   const uint32_t least = chooses ? sizes.minSubgroupSize : core.subgroupSize;

@@ -46,7 +46,25 @@ void add_slot(uint32_t binding, const shader::BindingSlot& slot, Constants& cons
   constants.add(first + kBindingCount, count_of(slot));
 }
 
+constexpr VkSubgroupFeatureFlags kWaveOperations =
+    VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
+    VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
+    VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+
 }  // namespace
+
+rtapi::Status check_subgroups(const Gpu& gpu, VkShaderStageFlagBits stage, const char* what,
+                              const std::string& name) {
+  const VkPhysicalDeviceVulkan11Properties& core = gpu.properties().vulkan11;
+  const bool works = (core.subgroupSupportedOperations & kWaveOperations) == kWaveOperations &&
+                     (core.subgroupSupportedStages & static_cast<VkFlags>(stage)) != 0;
+  if (works) return {};
+  return runtime::make_error(runtime::Id::kNoSubgroups,
+                             std::string(what) + " shader \"" + name +
+                                 "\" has wave intrinsics, which need vote, arithmetic, ballot and "
+                                 "shuffle operations of subgroups in " +
+                                 what + " shaders.");
+}
 
 VkShaderStageFlagBits stage_of(shader::Stage stage) {
   switch (stage) {

@@ -31,6 +31,11 @@ struct StageConstant {
 
 VkShaderStageFlagBits stage_of(shader::Stage stage);
 
+// Whether the device has the subgroup operations in that stage that wave intrinsics become
+// (runtime/hlsl/glsl/waves.cpp). `what` is the kind of shader, for the message. Errors: KA0551.
+rtapi::Status check_subgroups(const Gpu& gpu, VkShaderStageFlagBits stage, const char* what,
+                              const std::string& name);
+
 // The values of a stage's constants, as VkSpecializationInfo takes them.
 struct StageConstants {
   std::vector<VkSpecializationMapEntry> entries;

@@ -4,6 +4,7 @@
 // - derivatives become statements of the quad, and implicit levels of detail gradients. Where the
 //   operand is made of values that do not change, the statement stands right behind the last of
 //   them, so that it is run by all lanes that have the values, and once,
+// - wave operations leave out helpers (pixel_waves.h),
 // - stores and atomics depend on `live`, a static global that says whether the pixel is covered and
 //   was not discarded; an atomic of another lane gives 0.
 // [D3D11.3: 16.13 Pixel shader, discard; 7.18.11 LOD]
@@ -17,6 +18,7 @@
 #include <utility>
 
 #include "runtime/hlsl/builder/finish/lone_lane.h"
+#include "runtime/hlsl/builder/finish/pixel_waves.h"
 #include "runtime/hlsl/ir/builtin_types.h"
 #include "runtime/hlsl/ir/visit.h"
 
@@ -31,8 +33,11 @@ constexpr int kMostReplaced = 8;
 
 class PixelFunctions {
  public:
-  PixelFunctions(ir::Module& module, IrBuilder& build, const ir::Variable* live)
-      : module_(module), build_(build), live_(live) {}
+  PixelFunctions(ir::Module& module, IrBuilder& build, const ModuleFacts& facts)
+      : module_(module),
+        build_(build),
+        live_(facts.live),
+        waves_of_helpers_(facts.waves_of_helpers) {}
 
   void run() {
     std::vector<ir::Function*> functions;
@@ -389,6 +394,9 @@ class PixelFunctions {
       case ir::StmtKind::kAtomic:
         if (from.target != ir::AtomicTarget::kPlace) return if_live(to, to->result);
         break;
+      case ir::StmtKind::kWave:
+        if (!leaves_out_helpers(from.wave)) break;
+        return append_pixel_wave(build_, to, takes_part(), *out_);
       case ir::StmtKind::kDiscard:
         assign(live_, build_.boolean(false));
         break;
@@ -397,6 +405,12 @@ class PixelFunctions {
     }
     out_->push_back(to);
     if (from.kind == ir::StmtKind::kDeclare) note_declaration(*to);
+  }
+
+  const ir::Expr* takes_part() {
+    const ir::Expr* live = build_.read(live_);
+    if (!waves_of_helpers_) return live;
+    return build_.binary(ir::BinaryOp::kBitOr, live, build_.read(waves_of_helpers_));
   }
 
   void assign(const ir::Variable* variable, const ir::Expr* value) {
@@ -423,6 +437,7 @@ class PixelFunctions {
   ir::Module& module_;
   IrBuilder& build_;
   const ir::Variable* live_;
+  const ir::Variable* waves_of_helpers_;
   std::map<const ir::Function*, ir::Function*> made_;
   std::map<const ir::Variable*, const ir::Variable*> variables_;  // of the function being copied
   std::set<const ir::Variable*> changing_;                        // written after their declaration
@@ -455,6 +470,7 @@ uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& s
             break;
           case ir::StmtKind::kWave:
             flags |= shader::kGraphicsReadsQuad;
+            if (!shader::is_derivative(stmt.wave)) flags |= shader::kGraphicsReadsWave;
             break;
           case ir::StmtKind::kCall:
             flags |= flags_of(*stmt.function, seen);
@@ -483,7 +499,8 @@ void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& fac
   }
   if (facts.live && !has_errors) {
     module.globals.push_back(facts.live);
-    PixelFunctions(module, build, facts.live).run();
+    if (facts.waves_of_helpers) module.globals.push_back(facts.waves_of_helpers);
+    PixelFunctions(module, build, facts).run();
   }
   for (FunctionFacts* function : facts.functions) take_level_zero(build, *function);
   if (has_errors) return;

@@ -5,15 +5,8 @@
 #include "runtime/hlsl/ir/builtin_functions.h"
 
 namespace kaamos::hlsl {
-namespace {
 
 using shader::WaveOp;
-
-constexpr uint32_t kLoneStages = ir::kStageVertex | ir::kStageRayGeneration |
-                                 ir::kStageIntersection | ir::kStageAnyHit | ir::kStageClosestHit |
-                                 ir::kStageMiss | ir::kStageCallable;
-
-}  // namespace
 
 // The type that the first operand is converted to; null after an error.
 const Type* Waves::wave_operand_type(const WaveRule& rule, const Value& argument) {
@@ -95,9 +88,9 @@ std::optional<Value> Waves::call_wave(std::string_view name, std::vector<Value>&
            {std::string(name), "6." + std::to_string(rule->minor), names_.options().target});
     return error_value();
   }
-  const bool quad = shader::is_quad_operation(rule->op);
-  lower_.intrinsics.use_in_stages(
-      rule->name, ir::kStageCompute | (quad ? ir::kStagePixel : kLoneStages), location);
+  if (shader::is_quad_operation(rule->op)) {
+    lower_.intrinsics.use_in_stages(rule->name, ir::kStageCompute | ir::kStagePixel, location);
+  }
   const Type* number = types_.scalar(Scalar::kUint32);
   const Type* four = types_.vector(Scalar::kUint32, 4);
   std::vector<const ir::Expr*> operands;

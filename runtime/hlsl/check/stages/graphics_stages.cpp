@@ -371,6 +371,7 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   };
   ir::Variable* is_live = is_pixel ? flag_parameter("is_live", ir::ParameterMode::kIn) : nullptr;
   if (is_pixel) lower_.body.assign(live_variable(), build_.read(is_live));
+  if (!read_waves_of_helpers(*function, entry)) return false;
   lower_.body.emit(call);
   for (Output& output : results) {
     outputs.write(output.type, output.name, output.source, build_.read(output.variable));
@@ -395,6 +396,25 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   }
   program_.facts.wrappers.push_back({wrapper, function, entry.stage});
   entry.function = wrapper;
+  return true;
+}
+
+// [WaveOpsIncludeHelperLanes]
+bool GraphicsStages::read_waves_of_helpers(const FunctionInfo& function,
+                                           const ir::EntryPoint& entry) {
+  const Attribute* attribute = find_attribute(function, "WaveOpsIncludeHelperLanes");
+  if (!attribute || entry.stage != ir::kStagePixel) return true;
+  if (shader_model_minor(program_.options->target) < 7) {
+    report(CheckId::kWaveShaderModel, attribute->location,
+           {"[WaveOpsIncludeHelperLanes]", "6.7", program_.options->target});
+    return false;
+  }
+  ir::Variable*& variable = program_.facts.waves_of_helpers;
+  if (!variable) {
+    variable = build_.variable("waves_of_helpers", build_.scalar_type(Scalar::kBool),
+                               ir::Storage::kStaticGlobal);
+  }
+  lower_.body.assign(variable, build_.boolean(true));
   return true;
 }
 

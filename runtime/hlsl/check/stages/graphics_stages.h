@@ -16,6 +16,7 @@ class GraphicsStages : StagePart {
   bool check_graphics_signature(FunctionInfo* function, ir::EntryPoint& entry);
 
  private:
+  bool read_waves_of_helpers(const FunctionInfo& function, const ir::EntryPoint& entry);
   // The static global that says whether a pixel may still write.
   const ir::Variable* live_variable();
 };

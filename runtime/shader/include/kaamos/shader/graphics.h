@@ -88,6 +88,7 @@ enum GraphicsFlags : uint32_t {
   kGraphicsEarlyDepthStencil = 4,  // [earlydepthstencil]
   kGraphicsReadsQuad = 8,          // can reach a derivative or another operation of a quad
   kGraphicsOrdersPixels = 16,      // has a RasterizerOrdered view
+  kGraphicsReadsWave = 32,         // can reach a wave or quad operation other than a derivative
 };
 
 struct GraphicsDesc {
