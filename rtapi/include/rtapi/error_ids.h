@@ -430,6 +430,8 @@ inline constexpr ErrorId kHexExponentMissing{2282};  ///< hexadecimal floating-p
 inline constexpr ErrorId kBitFieldPlace{2283};  ///< a bit field must be a plain field of a struct: not static, no array, without a semantic or another annotation
 inline constexpr ErrorId kSpecializationArguments{2284};  ///< explicit specialization of '{0}' names no arguments
 inline constexpr ErrorId kSpecializationHeader{2285};  ///< '{0}' has template arguments, which only an explicit specialization has
+inline constexpr ErrorId kBitFieldName{2286};  ///< '{0}' behind ':' is a semantic, not the beginning of a width; put the width of bit field '{1}' in parentheses
+inline constexpr ErrorId kSemanticIgnored{2287};  ///< semantic '{0}' is ignored: the first one, '{1}', counts
 inline constexpr ErrorId kKeywordInExpression{2300};  ///< keyword '{0}' cannot be used as a value
 inline constexpr ErrorId kModifierPlace{2301};  ///< '{0}' cannot be used on {1}; it is for {2}
 inline constexpr ErrorId kNeedsShaderModel{2302};  ///< '{0}' needs Shader Model {1}; the highest here is 6.8
@@ -471,10 +473,10 @@ inline constexpr ErrorId kConstWithoutValue{2439};  ///< constant '{0}' has no i
 inline constexpr ErrorId kSelfInitialised{2440};  ///< the initialiser of '{0}' depends on its own value
 inline constexpr ErrorId kStaticUsesLocal{2441};  ///< the initialiser of static '{0}' uses a local variable
 inline constexpr ErrorId kReturnsArray{2442};  ///< function '{0}' cannot return an array without a size or of resources
-inline constexpr ErrorId kDefaultOfOut{2443};  ///< out parameter '{0}' cannot have a default value
 inline constexpr ErrorId kReturnTypeDiffers{2444};  ///< this function differs from '{0}' only in its return type
 inline constexpr ErrorId kFunctionRedefined{2445};  ///< '{0}' already has a body
 inline constexpr ErrorId kSizeof{2446};  ///< '{0}' has no size
+inline constexpr ErrorId kUnsignedBase{2447};  ///< 'unsigned {0}' is no type: only signed integers have a twin
 inline constexpr ErrorId kNotATemplate{2450};  ///< '{0}' takes no template arguments
 inline constexpr ErrorId kTemplateCount{2451};  ///< '{0}' takes at most {1} template arguments; {2} given
 inline constexpr ErrorId kTemplateArguments{2452};  ///< the template arguments do not match the parameters of '{0}'
@@ -617,6 +619,7 @@ inline constexpr ErrorId kSignatureVectors{2694};  ///< the {0} of {1} fill {2} 
 inline constexpr ErrorId kOwnInitialiser{2695};  ///< variable '{0}' is used in its own initialiser, where it is zero
 inline constexpr ErrorId kTargetNumber{2696};  ///< there is no SV_Target{0}: a pixel shader has {1} targets
 inline constexpr ErrorId kSemanticNotOffered{2697};  ///< '{0}' of {1} is not offered here
+inline constexpr ErrorId kSemanticIsValue{2698};  ///< '{0}' behind ':' is a semantic, so '{1}' is no bit field and has all bits of '{2}'; the width would be '({0})'
 inline constexpr ErrorId kInitialiserImport{2700};  ///< the initialiser of static '{0}' calls '{1}', which has no body in this library
 inline constexpr ErrorId kImportParameter{2701};  ///< '{0}' has no body in this library, so parameter '{1}' cannot be an unbounded array
 inline constexpr ErrorId kImportPayload{2702};  ///< a payload with access qualifiers is passed to '{0}', whose definition in another library may have other qualifiers

@@ -245,5 +245,26 @@ TEST(LanguageMessages, TheNearestNameIsSuggested) {
   }
 }
 
+TEST(VertexInputs, RayDescHasTheNumbersOfItsFields) {
+  FrontendOptions options;
+  options.target = "vs_6_6";
+  const Compilation compilation(
+      "float4 main(RayDesc r : TEXCOORD) : SV_Position { return r.Origin.xyzx + r.TMax; }",
+      options);
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  const auto& inputs = compilation.module->entry_points[0].inputs;
+  ASSERT_EQ(inputs.size(), 4u);
+  EXPECT_EQ(inputs[3].semantic_index, 3u);
+}
+
+TEST(RayQueries, AreConstructedAndNamedAgain) {
+  const Compilation compilation(
+      kernel("RayQuery<0> a = RayQuery<0>();\nRayQuery<0> b;\nb = a;\n"
+             "b.Abort();\na.CommitNonOpaqueTriangleHit();"));
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  const std::string text = compilation.function("main");
+  EXPECT_EQ(text.find("b."), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace kaamos::hlsl

@@ -183,6 +183,7 @@ struct TypeSyntax {
   uint8_t columns = 0;
   SourceLocation location;
   Modifiers modifiers = 0;
+  bool is_unsigned = false;  // kNamed: `unsigned Index`
   const QualifiedName* name = nullptr;
   const Decl* definition = nullptr;  // StructDecl or EnumDecl; also in the enclosing list of decls.
   // kArray. `float a[2][3]` is an array of 2 (arrays of 3 floats). Size null: unbounded, `a[]`.

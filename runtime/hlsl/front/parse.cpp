@@ -155,7 +155,7 @@ const Token* Parser::expect_name(std::string_view what, NameKind kind) {
     return nullptr;
   }
   const Token* name = &token();
-  if (scopes_.builtin(*name).kind == BuiltinName::kNumeric) {
+  if (is_type_keyword(name->text)) {
     fail_here(DiagnosticId::kBuiltinTypeAsName, {name->text, what});
     return nullptr;
   }

@@ -54,8 +54,10 @@ void Parser::one_annotation(Annotations& result, std::vector<RegisterBinding>& r
 void Parser::semantic(Annotations& result) {
   const Token* name = expect_name("a semantic, a register or an access qualifier");
   if (name == nullptr) return;
+  // The first one counts. [DXC]
   if (result.semantic != nullptr) {
-    report(DiagnosticId::kAnnotationTwice, name->location, {"the semantic"});
+    report(DiagnosticId::kSemanticIgnored, name->location, {name->text, result.semantic->text});
+    return;
   }
   Semantic* semantic = make<Semantic>(name->location);
   semantic->text = name->text;
@@ -94,14 +96,18 @@ void Parser::register_binding(std::vector<RegisterBinding>& out) {
   if (!is_space) {
     const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(first.text[0])));
     const bool is_class = std::string_view("tubsci").find(letter) != std::string_view::npos;
-    if (!is_class || !all_digits(first.text.substr(1))) {
+    const bool is_numbered = all_digits(first.text.substr(1)) ||
+                             (first.text.size() == 1 && peek(1).is(Kind::kLeftBracket));
+    if (!is_class || !is_numbered) {
       fail_here(DiagnosticId::kRegisterExpected, {describe(first)});
       return;
     }
     result.location = first.location;
     result.register_class = letter;
-    parse_number(first.text.substr(1), &result.number, first);
+    if (first.text.size() > 1) parse_number(first.text.substr(1), &result.number, first);
     advance();
+    result.number += element_offset();
+    if (panic_) return;
   }
   if (is_space || accept(Kind::kComma)) {
     const Token& space = token();
@@ -119,6 +125,20 @@ void Parser::register_binding(std::vector<RegisterBinding>& out) {
   out.push_back(result);
 }
 
+// `[1]` in `register(t0[1])`, which adds to the number.
+uint32_t Parser::element_offset() {
+  if (!at(Kind::kLeftBracket)) return 0;
+  const size_t open = pos_;
+  advance();
+  uint32_t result = 0;
+  const Token& number = token();
+  if (expect(Kind::kIntLiteral, "a number")) {
+    parse_number(number.text, &result, number);
+    expect_closing(Kind::kRightBracket, open, "the number");
+  }
+  return result;
+}
+
 void Parser::pack_offset(Annotations& result) {
   const Token& keyword = token();
   advance();
@@ -126,7 +146,8 @@ void Parser::pack_offset(Annotations& result) {
   if (!expect(Kind::kLeftParen, "'(' after 'packoffset'")) return;
   const Token& constant = token();
   const bool is_register = at_name() && (constant.text[0] == 'c' || constant.text[0] == 'C') &&
-                           all_digits(constant.text.substr(1));
+                           (all_digits(constant.text.substr(1)) ||
+                            (constant.text.size() == 1 && peek(1).is(Kind::kLeftBracket)));
   if (!is_register) {
     fail_here(DiagnosticId::kPackOffsetExpected, {describe(constant)});
     return;
@@ -135,8 +156,12 @@ void Parser::pack_offset(Annotations& result) {
     report(DiagnosticId::kAnnotationTwice, keyword.location, {"packoffset"});
   }
   PackOffset* offset = make<PackOffset>(constant.location);
-  parse_number(constant.text.substr(1), &offset->register_index, constant);
+  if (constant.text.size() > 1) {
+    parse_number(constant.text.substr(1), &offset->register_index, constant);
+  }
   advance();
+  offset->register_index += element_offset();
+  if (panic_) return;
   if (accept(Kind::kDot)) {
     const std::string_view text = token().text;
     const size_t xyzw = text.size() == 1 ? std::string_view("xyzw").find(text[0]) : 4;

@@ -186,6 +186,10 @@ std::string from_glsl(std::string_view text) {
 
 }  // namespace
 
+bool is_type_keyword(std::string_view text) {
+  return text == "int" || text == "float" || text == "bool" || text == "half" || text == "double";
+}
+
 BuiltinName find_builtin_name(std::string_view text) {
   if (auto found = names().find(text); found != names().end()) return found->second;
   const size_t size = text.size();

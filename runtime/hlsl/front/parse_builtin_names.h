@@ -27,6 +27,8 @@ struct BuiltinName {
   SubobjectKind subobject = SubobjectKind::kStateObjectConfig;
 };
 
+// int, float and the like, which are never names; DXC takes uint, float3 and the rest as names.
+bool is_type_keyword(std::string_view text);
 BuiltinName find_builtin_name(std::string_view text);
 
 // Guesses what the unknown type `text` was meant to be: a name in `declared` or a built-in one that

@@ -191,15 +191,23 @@ const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
   decl->type = array_bounds(type);
   if (at(Kind::kLess)) skip_effect_annotation();
   if (panic_) return decl;
-  // Behind the colon of a bit field stands a number or an expression in parentheses; a name is a
-  // semantic.
-  if (prefix.context == Context::kMember && at(Kind::kColon) && !can_be_name(peek(1).kind) &&
-      !is_keyword(peek(1).kind)) {
+  if (prefix.context == Context::kMember && at(Kind::kColon) && begins_bit_width(pos_ + 1)) {
     bit_field(*decl);
     return decl;
   }
+  const size_t annotation = pos_ + 1;
   decl->annotations = annotations();
   if (panic_) return decl;
+  BinaryOp op = BinaryOp::kAdd;
+  const bool goes_on = decl->annotations.semantic != nullptr && pos_ == annotation + 1 &&
+                       (at(Kind::kColonColon) || at(Kind::kQuestion) || at(Kind::kLeftParen) ||
+                        (!at(Kind::kLess) && !at(Kind::kComma) && precedence_here(&op) > 0));
+  if (prefix.context == Context::kMember && goes_on) {
+    decl->annotations.semantic = nullptr;
+    fail(DiagnosticId::kBitFieldName, token_at(annotation).location,
+         {token_at(annotation).text, name->text});
+    return decl;
+  }
   if (at(Kind::kLess)) skip_effect_annotation();
   if (at(Kind::kLeftBrace) && prefix.context != Context::kMember) {
     report(DiagnosticId::kStateBlockIgnored, here(), {"the state block"});
@@ -220,6 +228,14 @@ bool Parser::starts_qualified_declarator(size_t index) {
     i = end;
   }
   return token_at(i).is(Kind::kColonColon) && is_name(i + 1);
+}
+
+// Behind the colon of a bit field stands anything but a name, which is a semantic. [DXC]
+bool Parser::begins_bit_width(size_t index) {
+  const Token& first = token_at(index);
+  if (first.is(Kind::kSizeof) || first.is(Kind::kTrue) || first.is(Kind::kFalse)) return true;
+  if (is_keyword(first.kind)) return false;
+  return !can_be_name(first.kind) || is_type_keyword(first.text);
 }
 
 void Parser::bit_field(VariableDecl& decl) {

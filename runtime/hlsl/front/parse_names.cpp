@@ -149,6 +149,7 @@ size_t Parser::behind_type(size_t index) {
     case Kind::kUnsigned: {
       const bool has_base =
           is_name(i + 1) && scopes_.builtin(token_at(i + 1)).kind == BuiltinName::kNumeric;
+      if (!has_base && is_unsigned_base(i + 1)) return look_up(i + 1).end;
       return has_base ? i + 2 : i + 1;
     }
     case Kind::kStruct:

@@ -75,7 +75,6 @@ const BuiltinName& ParseScopes::builtin(const Token& name) {
 
 ParsedSymbol ParseScopes::find(const Token& name) {
   const BuiltinName& found = builtin(name);
-  if (found.kind == BuiltinName::kNumeric) return {ParsedKind::kNumericType, kNoScope};
   if (infos_[name.value].is_recorded) {
     for (ScopeId scope = current_; scope != kNoScope; scope = scopes_[scope].parent) {
       int visits = kMaxVisits;
@@ -83,6 +82,7 @@ ParsedSymbol ParseScopes::find(const Token& name) {
       if (symbol.kind != ParsedKind::kUnknown) return symbol;
     }
   }
+  if (found.kind == BuiltinName::kNumeric) return {ParsedKind::kNumericType, kNoScope};
   if (found.kind == BuiltinName::kType) return {ParsedKind::kType, kNoScope};
   if (found.kind == BuiltinName::kNamespace) return {ParsedKind::kNamespace, kBuiltinScope};
   if (found.kind == BuiltinName::kSubobject) return {ParsedKind::kSubobject, kNoScope};

@@ -150,11 +150,23 @@ TypeSyntax* Parser::unknown_type() {
   return error_type(location);
 }
 
+bool Parser::is_unsigned_base(size_t index) {
+  if (!is_name(index)) return false;
+  const NameLookup name = look_up(index);
+  const Kind next = token_at(name.end).kind;
+  return name.symbol.kind == ParsedKind::kType && (can_be_name(next) || next == Kind::kRightParen);
+}
+
 TypeSyntax* Parser::unsigned_type() {
   const SourceLocation location = here();
   advance();
   BuiltinName name{.kind = BuiltinName::kNumeric, .scalar = ScalarKind::kInt};
   const bool has_base = at_name() && is_signed_integer(scopes_.builtin(token()));
+  if (!has_base && is_unsigned_base(pos_)) {
+    TypeSyntax* type = named_type();
+    type->is_unsigned = true;
+    return type;
+  }
   if (has_base) name = scopes_.builtin(token());
   name.scalar = unsigned_of(name.scalar);
   TypeSyntax* type = numeric_type(name);

@@ -157,6 +157,8 @@ class Parser {
   // The index after `<...>` at `index`, or `index` if it does not look like such a list. If the
   // list ends with the first half of a `>>`, the index of the `>>`.
   size_t behind_template_arguments(size_t index) const;
+  // Whether the token after `unsigned` names the type that becomes unsigned.
+  bool is_unsigned_base(size_t index);
   size_t behind_plain_template_arguments(size_t index, bool first_is_type);
   // Parses `::a::b<float>::c`. `is_member`: after a `.`. `container` receives the scope of the last
   // part. `S::operator` ends after the `::`, with `S` as the name.
@@ -278,6 +280,7 @@ class Parser {
   bool starts_qualified_declarator(size_t index);
   void skip_effect_annotation();
   const Expr* variable_initializer();
+  bool begins_bit_width(size_t index);
   void bit_field(VariableDecl& decl);
   void namespace_declaration(DeclList& out);
   void using_declaration(const Prefix& prefix, DeclList& out);
@@ -325,6 +328,7 @@ class Parser {
                       std::vector<PayloadAccess>& payload);
   void semantic(Annotations& result);
   void register_binding(std::vector<RegisterBinding>& out);
+  uint32_t element_offset();
   void pack_offset(Annotations& result);
   void payload_access(std::vector<PayloadAccess>& out);
   bool parse_number(std::string_view digits, uint32_t* value, const Token& token);

@@ -172,7 +172,8 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
                   SourceLocation location) {
   const bool unused = body_.result_unused;
   body_.result_unused = false;
-  for (size_t i = arguments.size(); i < function->parameters.size(); ++i) {
+  const size_t provided = arguments.size();
+  for (size_t i = provided; i < function->parameters.size(); ++i) {
     // A default argument is looked up in the scope of the function's declaration.
     Scope* scope = body_.scope;
     body_.scope = function->scope;
@@ -193,6 +194,7 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
     Value target;
     const ir::Variable* variable;
     const Type* type;
+    const Type* seen;  // what a cast around the target says
   };
   std::vector<CopyOut> copies;
 
@@ -239,7 +241,8 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
       variable = body_.empty_temporary(type->ir);
     }
     statement->arguments.push_back(build_.read(variable));
-    if (writes_back) copies.push_back({target, variable, type});
+    const Value place = target.under_cast ? lower_.places.place_under_cast(target) : target;
+    if (writes_back) copies.push_back({place, variable, type, target.type});
     return true;
   };
 
@@ -263,12 +266,15 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
       const ir::Expr* query = lower_.ray_queries.query_object(argument, parameter.type);
       if (!query) return error_value();
       statement->arguments.push_back(query);
+    } else if (parameter.is_out && i >= provided) {
+      // Nothing reads what comes back.
+      if (!by_reference(argument, parameter.type, parameter.is_in, false, i)) return error_value();
     } else if (parameter.is_out) {
       const std::string purpose = std::string("an argument of ") +
                                   (parameter.is_in ? "inout" : "out") + " parameter '" +
                                   std::string(parameter.name) + "'";
       if (!lower_.bit_fields.require_whole_field(argument, argument.location, purpose) ||
-          !lower_.places.require_place(argument, argument.location, purpose)) {
+          !lower_.places.require_target(argument, argument.location, purpose)) {
         return error_value();
       }
       if (!by_reference(argument, parameter.type, parameter.is_in, true, i)) return error_value();
@@ -290,7 +296,10 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
   body_.emit(statement);
   body_.call_result = result;
   for (const CopyOut& copy : copies) {
-    const Value value = rvalue(build_.read(copy.variable), copy.type);
+    Value value = rvalue(build_.read(copy.variable), copy.type);
+    if (copy.seen != copy.target.type) {
+      value = rvalue(lower_.conversions.convert(value, copy.seen, location, true), copy.seen);
+    }
     lower_.places.store(copy.target,
                         lower_.conversions.convert(value, copy.target.type, location, true));
   }
@@ -316,12 +325,16 @@ void Calls::warn_passed_payload(const FunctionInfo& import, const std::vector<Va
 }
 
 // An unbounded array has no value that could be passed: a function that takes one is lowered again
-// for every array that calls pass to it.
+// for every array that calls pass to it, and one that takes `float a[]` for every size.
 FunctionInfo* Calls::bind_unbounded_arrays(FunctionInfo* function,
                                            const std::vector<Value>& arguments) {
-  std::vector<const BindingInfo*> bindings;
+  std::vector<const void*> bindings;
   for (size_t i = 0; i < arguments.size(); ++i) {
     if (!function->parameters[i].is_unbounded()) continue;
+    if (function->parameters[i].is_unsized()) {
+      bindings.push_back(arguments[i].type->canonical);
+      continue;
+    }
     if (arguments[i].kind != ValueKind::kBindings) {
       lower_.places.load(arguments[i]);
       return nullptr;
@@ -337,7 +350,11 @@ FunctionInfo* Calls::bind_unbounded_arrays(FunctionInfo* function,
     function->state = FunctionInfo::State::kDone;  // only its instances have bodies
     for (size_t i = 0; i < arguments.size(); ++i) {
       ParameterInfo& parameter = instance->parameters[i];
-      if (parameter.is_unbounded()) parameter.binding = arguments[i].binding;
+      if (parameter.is_unsized()) {
+        parameter.type = types_.array(parameter.type->element, arguments[i].type->count);
+      } else if (parameter.is_unbounded()) {
+        parameter.binding = arguments[i].binding;
+      }
     }
   }
   return instance;

@@ -9,14 +9,38 @@
 #include "runtime/hlsl/ir/builtin_types.h"
 
 namespace kaamos::hlsl {
+namespace {
+
+// A vector of scalars of one kind for each scalar that the type holds; false if it holds others.
+bool flat_scalars(const Type* type, std::vector<Scalar>& scalars) {
+  uint64_t count = 1;
+  for (; type->is_array(); type = type->element) count *= type->count;
+  if (!type->is_numeric() || count * type->components() > 4096) return false;
+  scalars.assign(count * type->components(), plain_scalar(type->scalar));
+  return true;
+}
+
+}  // namespace
+
+// A matrix of one row or column is like a vector, which can be longer than its target; any other
+// one and a vector must have the same number of components.
 bool Conversions::convertible_numeric(const Type* from, const Type* to, bool) {
-  if (from->components() == 1 && !from->is_matrix()) return true;
+  const uint32_t given = from->components();
+  const uint32_t wanted = to->components();
+  if (given == 1 || wanted == 1) return true;
   if (from->is_matrix() && to->is_matrix()) {
     return from->rows >= to->rows && from->columns >= to->columns;
   }
-  if (!to->is_matrix() && to->components() == 1) return true;
-  if (from->is_matrix() || to->is_matrix()) return from->components() == to->components();
-  return from->components() >= to->components();
+  const Type* matrix = from->is_matrix() ? from : to;
+  const bool is_line = !matrix->is_matrix() || matrix->rows == 1 || matrix->columns == 1;
+  return is_line ? given >= wanted : given == wanted;
+}
+
+bool Conversions::same_scalars(const Type* from, const Type* to) {
+  if (!from->is_array() || !to->is_array()) return false;
+  std::vector<Scalar> given;
+  std::vector<Scalar> wanted;
+  return flat_scalars(from, given) && flat_scalars(to, wanted) && given == wanted;
 }
 
 ConversionRank Conversions::rank(const Type* from, const Type* to) {
@@ -45,6 +69,16 @@ ConversionRank Conversions::rank(const Type* from, const Type* to) {
     while (from->is_array()) from = from->element, to = to->element;
     result.possible = true;
     if (from->is_numeric() && to->is_numeric()) result.cost = scalar_cost(from->scalar, to->scalar);
+    return result;
+  }
+  if (same_scalars(from, to)) {
+    result.possible = true;
+    return result;
+  }
+  // `float a[]`: the array decides the size.
+  if (from->is_array() && to->is_array() && (to->count == 0) != (from->count == 0) &&
+      !contains_resource(to->element)) {
+    result.possible = from->element->ir == to->element->ir;
     return result;
   }
   if (from->is_struct() && to->is_struct()) {
@@ -115,12 +149,20 @@ const ir::Expr* Conversions::convert_numeric(const ir::Expr* expr, const Type* f
   const Scalar scalar = plain_scalar(to->scalar);
   const bool same_shape = from->rows == to->rows && from->columns == to->columns;
   if (same_shape) return build_.convert(expr, scalar);
+  if (from->is_matrix() && from->components() == 1) {
+    return convert_numeric(build_.matrix_swizzle(expr, {0}), types_.scalar(from->scalar), to);
+  }
   if (from->is_scalar()) return build_.splat(build_.convert(expr, scalar), to->ir);
   if (from->is_vector()) {
     if (to->is_scalar()) return build_.convert(build_.swizzle(expr, {0}), scalar);
     if (to->is_vector()) {
       const ir::Type* shorter = build_.vector_type(plain_scalar(from->scalar), to->columns);
       return build_.convert(build_.truncate(expr, shorter), scalar);
+    }
+    if (to->components() < from->components()) {
+      const ir::Type* shorter =
+          build_.vector_type(plain_scalar(from->scalar), static_cast<uint8_t>(to->components()));
+      expr = to->components() == 1 ? build_.swizzle(expr, {0}) : build_.truncate(expr, shorter);
     }
     return build_.construct(to->ir, {build_.convert(expr, scalar)});
   }
@@ -132,7 +174,7 @@ const ir::Expr* Conversions::convert_numeric(const ir::Expr* expr, const Type* f
         components.push_back(static_cast<uint8_t>(row * 4 + column));
       }
     }
-    if (components.size() > 4) components.resize(to->columns);
+    components.resize(to->columns);
     return build_.convert(build_.matrix_swizzle(expr, components), scalar);
   }
   const bool truncates = from->rows >= to->rows && from->columns >= to->columns;
@@ -182,6 +224,10 @@ const ir::Expr* Conversions::convert(const Value& value, const Type* to, SourceL
   };
   if (same_type(from, to)) return lower_.places.load(value);
   if (from->is_array() && to->is_array() && from->ir == to->ir) return lower_.places.load(value);
+  if (same_scalars(from, to)) {
+    const ir::Expr* expr = lower_.places.load(value);
+    return expr ? build_from_pieces(to, {Piece{expr, from}}, location, false) : nullptr;
+  }
   const bool numbers = (from->is_numeric() || from->is_enum()) && to->is_numeric();
   if (numbers) {
     if (from->is_enum() && from->enumeration->is_class && !is_explicit) return refuse();

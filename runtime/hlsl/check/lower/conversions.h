@@ -20,12 +20,14 @@ class Conversions : LowerPart {
   };
 
   ConversionRank rank(const Value& value, const Type* to);
+  // `float[6]` and `float[2][3]`: as many scalars of one type in another shape.
+  static bool same_scalars(const Type* from, const Type* to);
   ConversionRank rank(const Type* from, const Type* to);
   // An explicit conversion also allows what only a cast may do.
   const ir::Expr* convert(const Value& value, const Type* to, SourceLocation location,
                           bool is_explicit = false);
   const ir::Expr* convert_numeric(const ir::Expr* expr, const Type* from, const Type* to);
-  bool convertible_numeric(const Type* from, const Type* to, bool is_explicit);
+  static bool convertible_numeric(const Type* from, const Type* to, bool is_explicit);
   // Replaces literal types by their default types.
   Value settle(Value value);
   const ir::Expr* as_condition(const Value& value, SourceLocation location);

@@ -19,11 +19,11 @@ class Elements : LowerPart {
   Value element_of(const Value& base, const Value& index, SourceLocation location);
   Value swizzle_of(const Value& base, std::string_view text, SourceLocation location);
   Value matrix_swizzle_of(const Value& base, std::string_view text, SourceLocation location);
+  Value component_of(const Value& base, const std::vector<uint8_t>& components);
 
  private:
   const Type* row_type(const Type* matrix);
   Value memory_element(const Value& base, const ir::Expr* index);
-  Value component_of(const Value& base, const std::vector<uint8_t>& components);
 };
 
 }  // namespace kaamos::hlsl

@@ -169,6 +169,7 @@ Value Expressions::variable_value(VariableInfo* variable, SourceLocation locatio
   switch (variable->kind) {
     case VariableKind::kLocal:
       if (!variable->variable) lower_.locals.declare_variable(variable);
+      ++variable->references;
       if (variable->constant) {
         Value value = rvalue(variable->constant, variable->type);
         value.is_const = true;
@@ -393,7 +394,14 @@ Value Expressions::lower_cast(const CastExpr* expr) {
                          lower_.conversions.rank(operand.type, type).possible;
     if (is_base) return lower_.places.base_of(operand, type->structure);
   }
-  return rvalue(lower_.conversions.convert(operand, type, expr->location, true), type);
+  Value value = rvalue(lower_.conversions.convert(operand, type, expr->location, true), type);
+  // `(float2)v = x` writes v.xy.
+  const bool writes =
+      operand.is_place && !operand.bits && operand.type->is_numeric() && type->is_numeric() &&
+      (type->components() == operand.type->components() ||
+       (type->components() < operand.type->components() && operand.type->is_vector()));
+  if (!value.failed() && writes) value.under_cast = std::make_shared<const Value>(operand);
+  return value;
 }
 
 Value Expressions::lower_construct(const Type* type, std::span<const Expr* const> arguments,

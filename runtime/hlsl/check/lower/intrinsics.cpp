@@ -49,7 +49,7 @@ std::optional<ConversionCost> Intrinsics::cost_of_builtin(std::string_view name,
   const Type* type = arguments[0].type;
   for (size_t i = 1; type && i < joined_arguments(*rule); ++i) {
     bool truncates = false;
-    type = lower_.operators.find_common_type(type, arguments[i].type, truncates);
+    type = lower_.operators.find_joined_type(type, arguments[i].type, truncates);
   }
   if (!type) return std::nullopt;
   if (takes_floats_only(rule->shape) && (type->is_enum() || !is_floating(type->scalar))) {
@@ -184,8 +184,11 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
       arguments[0].type->is_enum() ? types_.scalar(Scalar::kInt32) : arguments[0].type;
   for (size_t i = 1; i < joined; ++i) {
     bool truncates = false;
-    const Type* next = lower_.operators.common_type(type, arguments[i].type, location, truncates);
-    if (!next) return error_value();
+    const Type* next = lower_.operators.find_joined_type(type, arguments[i].type, truncates);
+    if (!next) {
+      report(CheckId::kNoCommonType, location, {to_string(type), to_string(arguments[i].type)});
+      return error_value();
+    }
     if (truncates) {
       const bool first = type->components() > next->components();
       report(CheckId::kTruncation, location,
@@ -214,7 +217,13 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
   const bool vectors_only = shape == S::kLength || shape == S::kDistance || shape == S::kVector ||
                             shape == S::kRefract || shape == S::kDot;
   if (vectors_only && type->is_matrix()) return refuse(0, "a vector");
-  if (matrix_operation && !type->is_matrix()) return refuse(0, "a matrix");
+  if (matrix_operation && type->is_vector()) return refuse(0, "a matrix");
+  if (matrix_operation && !type->is_matrix()) {
+    // A scalar is a matrix of one element.
+    const Type* result =
+        shape == S::kTranspose ? types_.matrix(type->scalar, 1, 1) : types_.scalar(type->scalar);
+    return rvalue(lower_.conversions.convert(arguments[0], result, location), result);
+  }
   const Type* result = type;
   switch (shape) {
     case S::kUint:

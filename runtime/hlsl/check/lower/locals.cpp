@@ -59,13 +59,19 @@ void Locals::lower_local(const VariableDecl* decl) {
   const bool is_sized_by_value = valid && type->is_array() && type->count == 0;
   if (is_sized_by_value) {
     const auto* list = as<InitListExpr>(decl->initializer);
-    if (!list) {
+    Value whole;
+    if (decl->initializer && !list) whole = lower_.expressions.lower(decl->initializer);
+    if (!list && !(whole.type && whole.type->is_array() && whole.type->count != 0)) {
       report(CheckId::kUnboundedVariable, decl->location, {std::string(decl->name)});
       names_.add_variable(body_.scope, decl->name, decl->location, info);
       return;
     }
     std::vector<Conversions::Piece> pieces;
-    lower_.conversions.collect_pieces(list, pieces, 0);
+    if (list) {
+      lower_.conversions.collect_pieces(list, pieces, 0);
+    } else if (const ir::Expr* expr = lower_.places.load(whole)) {
+      pieces.push_back({expr, whole.type});
+    }
     uint64_t count = 0;
     for (const Conversions::Piece& piece : pieces) count += flat_component_count(piece.type);
     const uint64_t element = std::max<uint64_t>(1, flat_component_count(type->element));

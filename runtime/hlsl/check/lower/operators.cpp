@@ -81,21 +81,23 @@ const Type* Operators::find_common_type(const Type* a, const Type* b, bool& trun
   if (single(a) && single(b)) return types_.scalar(scalar);
   if (single(a)) return types_.with_scalar(b, scalar);
   if (single(b)) return types_.with_scalar(a, scalar);
-  if (a->is_vector() && b->is_vector()) {
-    truncates = a->columns != b->columns;
-    return types_.vector(scalar, std::min(a->columns, b->columns));
+  // The one with more components if the other converts to it, or else the other. [DXC]
+  const bool is_longer = a->components() >= b->components();
+  const Type* longer = is_longer ? a : b;
+  const Type* shorter = is_longer ? b : a;
+  if (Conversions::convertible_numeric(shorter, longer, false)) {
+    return types_.with_scalar(longer, scalar);
   }
-  if (a->is_matrix() && b->is_matrix()) {
-    const bool nested = (a->rows <= b->rows && a->columns <= b->columns) ||
-                        (b->rows <= a->rows && b->columns <= a->columns);
-    if (nested) {
-      truncates = a->rows != b->rows || a->columns != b->columns;
-      return types_.matrix(scalar, std::min(a->rows, b->rows), std::min(a->columns, b->columns));
-    }
-  } else if (a->components() == b->components()) {
-    return types_.with_scalar(a->is_vector() ? a : b, scalar);
-  }
-  return nullptr;
+  if (!Conversions::convertible_numeric(longer, shorter, false)) return nullptr;
+  truncates = true;
+  return types_.with_scalar(shorter, scalar);
+}
+
+const Type* Operators::find_joined_type(const Type* a, const Type* b, bool& truncates) {
+  if (!a->is_matrix() || !b->is_matrix()) return find_common_type(a, b, truncates);
+  const Scalar scalar = combined_scalar(a->scalar, b->scalar);
+  truncates = a->rows != b->rows || a->columns != b->columns;
+  return types_.matrix(scalar, std::min(a->rows, b->rows), std::min(a->columns, b->columns));
 }
 
 const Type* Operators::common_type(const Type* a, const Type* b, SourceLocation location,
@@ -168,7 +170,7 @@ Value Operators::lower_unary(const UnaryExpr* expr) {
 }
 
 Value Operators::lower_increment(const UnaryExpr* expr, const Value& operand) {
-  if (!lower_.places.require_place(operand, expr->location, "the operand of ++ or --"))
+  if (!lower_.places.require_target(operand, expr->location, "the operand of ++ or --"))
     return error_value();
   const Type* type = operand.type;
   if (!type->is_numeric() || type->scalar == Scalar::kBool) {
@@ -177,18 +179,21 @@ Value Operators::lower_increment(const UnaryExpr* expr, const Value& operand) {
   }
   const bool up = expr->op == UnaryOp::kPreIncrement || expr->op == UnaryOp::kPostIncrement;
   const bool post = expr->op == UnaryOp::kPostIncrement || expr->op == UnaryOp::kPostDecrement;
-  Value target = operand;
+  Value target = operand.under_cast ? lower_.places.place_under_cast(operand) : operand;
   size_t position = body_.block->size();
   lower_.places.freeze(target, &position);
-  const ir::Expr* before = lower_.places.load(target);
+  const ir::Expr* before = lower_.conversions.convert(target, type, expr->location, true);
   if (post && !body_.result_unused) before = build_.read(body_.temporary(before));
   const Value one = rvalue(build_.literal(types_.scalar(Scalar::kLiteralInt)->ir, {1}),
                            types_.scalar(Scalar::kLiteralInt));
   const ir::Expr* step =
       lower_.conversions.convert(one, types_.with_scalar(type, type->scalar), expr->location);
-  lower_.places.store(
-      target, build_.binary(up ? ir::BinaryOp::kAdd : ir::BinaryOp::kSubtract, before, step));
-  return post ? rvalue(before, type) : target;
+  const Value after =
+      rvalue(build_.binary(up ? ir::BinaryOp::kAdd : ir::BinaryOp::kSubtract, before, step), type);
+  lower_.places.store(target, lower_.conversions.convert(after, target.type, expr->location, true));
+  if (post) return rvalue(before, type);
+  if (!operand.under_cast) return target;
+  return rvalue(lower_.conversions.convert(target, type, expr->location, true), type);
 }
 
 Value Operators::binary_value(BinaryOp op, const Value& left, const Value& right,
@@ -309,9 +314,13 @@ Value Operators::lower_assign(const AssignExpr* expr) {
       value = rvalue(build_.read(body_.temporary(loaded, &position)), value.type);
   }
   at(expr->location);
-  if (!lower_.places.require_place(target, expr->location, "the left side of an assignment")) {
+  if (target.type && target.type->is_query() && lower_.ray_queries.rename_query(expr, value)) {
+    return rvalue(build_.int32(0), types_.void_type());
+  }
+  if (!lower_.places.require_target(target, expr->location, "the left side of an assignment")) {
     return error_value();
   }
+  if (target.under_cast) return assign_through_cast(expr, target, std::move(value));
   if (expr->op) {
     if (target.type->is_struct()) {
       const std::string name = "operator" + std::string(spelling(*expr->op)) + "=";
@@ -332,6 +341,23 @@ Value Operators::lower_assign(const AssignExpr* expr) {
   }
   lower_.places.store(target, converted);
   return target;
+}
+
+Value Operators::assign_through_cast(const AssignExpr* expr, const Value& target, Value value) {
+  const Type* type = target.type;
+  Value place = lower_.places.place_under_cast(target);
+  size_t position = body_.block->size();
+  lower_.places.freeze(place, &position);
+  const auto seen = [&] {
+    return rvalue(lower_.conversions.convert(place, type, expr->location, true), type);
+  };
+  if (expr->op) value = binary_value(*expr->op, seen(), value, expr->location);
+  const ir::Expr* converted = lower_.conversions.convert(value, type, expr->location);
+  if (!converted) return error_value();
+  at(expr->location);
+  lower_.places.store(
+      place, lower_.conversions.convert(rvalue(converted, type), place.type, expr->location, true));
+  return seen();
 }
 
 }  // namespace kaamos::hlsl

@@ -19,16 +19,17 @@ class Operators : LowerPart {
   Value lower_binary(const BinaryExpr* expr);
   Value lower_assign(const AssignExpr* expr);
   Value binary_value(BinaryOp op, const Value& left, const Value& right, SourceLocation location);
-  // The common type of two operands of one numeric shape; reports an error and returns null if
-  // there is none.
   // The type that operands of the two are converted to; null if there is none, which common_type
   // reports. `truncates`: one of the two loses components.
   const Type* find_common_type(const Type* a, const Type* b, bool& truncates);
+  // The same for arguments of an intrinsic function: of two matrices, what both have.
+  const Type* find_joined_type(const Type* a, const Type* b, bool& truncates);
   const Type* common_type(const Type* a, const Type* b, SourceLocation location, bool& truncates);
   std::optional<Value> overloaded_operator(std::string_view name, const Value& left,
                                            std::vector<Value> arguments, SourceLocation location);
 
  private:
+  Value assign_through_cast(const AssignExpr* expr, const Value& target, Value value);
   Value lower_increment(const UnaryExpr* expr, const Value& operand);
 };
 

@@ -85,6 +85,11 @@ const ir::Expr* Places::frozen(const ir::Expr* expr, size_t* position) {
 }
 
 void Places::freeze(Value& value, size_t* position) {
+  if (value.under_cast) {
+    Value place = *value.under_cast;
+    freeze(place, position);
+    value.under_cast = std::make_shared<const Value>(std::move(place));
+  }
   const auto fix = [&](const ir::Expr*& expr) { expr = frozen(expr, position); };
   if (value.kind == ValueKind::kExpr && value.is_place) {
     value.expr = freeze_place(value.expr, position);
@@ -325,6 +330,19 @@ bool Places::require_place(const Value& value, SourceLocation location, std::str
     return false;
   }
   return true;
+}
+
+bool Places::require_target(const Value& value, SourceLocation location, std::string_view purpose) {
+  return require_place(value.under_cast ? *value.under_cast : value, location, purpose);
+}
+
+Value Places::place_under_cast(const Value& value) {
+  const Value& place = *value.under_cast;
+  const uint32_t count = value.type->components();
+  if (count == place.type->components()) return place;
+  std::vector<uint8_t> components;
+  for (uint8_t i = 0; i < count; ++i) components.push_back(i);
+  return lower_.elements.component_of(place, components);
 }
 
 const ir::Expr* Places::binding_value(BindingInfo* binding, const ir::Expr* index) {

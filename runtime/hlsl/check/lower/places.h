@@ -23,6 +23,10 @@ class Places : LowerPart {
   static uint32_t component_bytes(const Value& target, uint32_t component);
   Value field_of(const Value& base, uint32_t index, const Type* type);
   Value base_of(const Value& value, StructInfo* base);
+  // The same of what is only assigned to, which may be a cast.
+  bool require_target(const Value& value, SourceLocation location, std::string_view purpose);
+  // What a write to a cast changes: `(float2)v = x` leaves v.zw alone.
+  Value place_under_cast(const Value& value);
   bool require_place(const Value& value, SourceLocation location, std::string_view purpose);
   void freeze(Value& value, size_t* position);
   const ir::Expr* frozen(const ir::Expr* expr, size_t* position);

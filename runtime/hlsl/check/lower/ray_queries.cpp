@@ -28,7 +28,10 @@ void RayQueries::lower_local_query(const VariableDecl* decl, const Type* type, V
     report(CheckId::kRayQueryPlace, decl->location, {to_string(type), "static"});
     return;
   }
-  if (decl->initializer) {
+  const auto* construct = as<ConstructExpr>(decl->initializer);
+  const bool is_new = construct && construct->arguments.empty() &&
+                      same_type(names_.resolve_type(construct->type, body_.scope), type);
+  if (decl->initializer && !is_new) {
     Value value = lower_.expressions.lower(decl->initializer);
     value.location = decl->initializer->location;
     const ir::Expr* object = query_object(value, type);
@@ -43,6 +46,19 @@ void RayQueries::lower_local_query(const VariableDecl* decl, const Type* type, V
   ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
   node->variable = info->variable;
   body_.emit(node);
+}
+
+// `b = a;` before any other use of b, where b is declared: b becomes a second name for a's object.
+bool RayQueries::rename_query(const AssignExpr* expr, const Value& value) {
+  const auto* name = as<NameExpr>(expr->target);
+  Symbol* symbol = name ? names_.resolve_name(*name->name, body_.scope, true) : nullptr;
+  if (!symbol || symbol->kind != SymbolKind::kVariable || expr->op) return false;
+  VariableInfo* variable = symbol->variable;
+  const bool is_here = names_.find_local(body_.scope, name->name->last().identifier) == symbol;
+  if (!is_here || variable->references != 1 || !variable->type->is_query()) return false;
+  const ir::Expr* object = query_object(value, variable->type);
+  if (object) variable->variable = const_cast<ir::Variable*>(object->variable);
+  return object != nullptr;
 }
 
 Value RayQueries::trace_ray_inline(ir::Stmt* statement, const Type* query,

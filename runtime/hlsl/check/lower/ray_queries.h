@@ -15,6 +15,7 @@ class RayQueries : LowerPart {
 
   Value call_query_method(const Value& object, const NamePart& part, std::vector<Value>& arguments,
                           SourceLocation location);
+  bool rename_query(const AssignExpr* expr, const Value& value);
   void lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info);
   const ir::Expr* query_object(const Value& value, const Type* type);
 

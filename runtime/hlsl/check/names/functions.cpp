@@ -57,13 +57,11 @@ void Functions::resolve_signature(FunctionInfo* function) {
         !parts_.variables.check_variable_type(info.type, parameter->location, parameter->name)) {
       info.type = types_.error();
       function->signature_failed = true;
-    } else if (info.is_unbounded() && (info.is_out || !info.type->element->is_resource())) {
+    } else if (info.is_unbounded() && !info.is_unsized() &&
+               (info.is_out || !info.type->element->is_resource())) {
       report(CheckId::kUnboundedVariable, parameter->location, {std::string(parameter->name)});
       info.type = types_.error();
       function->signature_failed = true;
-    }
-    if (info.default_value && info.is_out) {
-      report(CheckId::kDefaultOfOut, parameter->location, {std::string(parameter->name)});
     }
   }
 }

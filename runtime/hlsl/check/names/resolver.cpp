@@ -93,7 +93,7 @@ const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
       return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
     }
     case TypeSyntaxKind::kNamed:
-      return apply_storage(resolve_named(syntax, scope), syntax->modifiers);
+      return apply_storage(unsigned_twin(syntax, resolve_named(syntax, scope)), syntax->modifiers);
     case TypeSyntaxKind::kDefinition: {
       if (!syntax->definition) return types_.error();
       const auto found = program_.declared_types.find(syntax->definition);
@@ -151,6 +151,26 @@ const Type* Resolver::resolve_array(const TypeSyntax* syntax, Scope* scope) {
     return types_.error();
   }
   return types_.array(element, static_cast<uint32_t>(*size));
+}
+
+// The type of `unsigned Index` for that of `Index`.
+const Type* Resolver::unsigned_twin(const TypeSyntax* syntax, const Type* type) {
+  if (!syntax->is_unsigned || type->is_error()) return type;
+  const bool has_twin = type->is_numeric() && is_signed_integer(type->scalar);
+  if (!has_twin) {
+    report(CheckId::kUnsignedBase, syntax->location, {to_string(type)});
+    return types_.error();
+  }
+  switch (type->scalar) {
+    case Scalar::kInt64:
+      return types_.with_scalar(type, Scalar::kUint64);
+    case Scalar::kInt16:
+      return types_.with_scalar(type, Scalar::kUint16);
+    case Scalar::kInt32:
+      return types_.with_scalar(type, Scalar::kUint32);
+    default:
+      return types_.with_scalar(type, Scalar::kMin16Uint);
+  }
 }
 
 const Type* Resolver::resolve_named(const TypeSyntax* syntax, Scope* scope) {

@@ -25,6 +25,7 @@ class Resolver : NamesPart {
                                         const Type** type = nullptr);
 
  private:
+  const Type* unsigned_twin(const TypeSyntax* syntax, const Type* type);
   const Type* resolve_named(const TypeSyntax* syntax, Scope* scope);
   const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);
   const Type* resolve_ray_query(const NamePart& part, Scope* scope);

@@ -170,6 +170,24 @@ void Structs::declare_bit_field(StructInfo* info, const VariableDecl* decl, cons
   symbol->field = static_cast<uint32_t>(info->fields.size() - 1);
 }
 
+// `uint a : N;` has the semantic N, as in DXC, even if there is a number of that name.
+void Structs::warn_of_width(const VariableDecl* decl, const Type* type, Scope* scope) {
+  const Semantic* semantic = decl->annotations.semantic;
+  const bool may_be_bits =
+      type->is_enum() || (type->is_scalar() && !type->is_error() && !is_floating(type->scalar));
+  if (!semantic || !may_be_bits) return;
+  const Symbol* symbol = scopes_.find(scope, semantic->text);
+  if (!symbol) return;
+  const Type* meant = symbol->kind == SymbolKind::kVariable   ? symbol->variable->type
+                      : symbol->kind == SymbolKind::kConstant ? symbol->type
+                                                              : nullptr;
+  const bool is_width = meant && (meant->is_enum() || (meant->is_scalar() && !meant->is_error() &&
+                                                       !is_floating(meant->scalar)));
+  if (!is_width) return;
+  report(CheckId::kSemanticIsValue, semantic->location,
+         {std::string(semantic->text), std::string(decl->name), to_string(type)});
+}
+
 void Structs::check_interfaces(StructInfo* info) {
   for (StructInfo* interface : info->interfaces) {
     for (const auto& [name, wanted] : interface->scope->symbols) {
@@ -226,6 +244,7 @@ void Structs::declare_member(StructInfo* info, const Decl* member) {
   if (variable->initializer) {
     report(CheckId::kMemberInitialiser, variable->location, {std::string(variable->name)});
   }
+  warn_of_width(variable, type, info->scope);
   info->open_bits = 0;
   FieldInfo& field = info->fields.emplace_back();
   field.name = variable->name;

@@ -20,6 +20,7 @@ class Structs : NamesPart {
   void complete_struct(StructInfo* info);
 
  private:
+  void warn_of_width(const VariableDecl* decl, const Type* type, Scope* scope);
   void check_interfaces(StructInfo* info);
   void declare_member(StructInfo* info, const Decl* member);
   void declare_bit_field(StructInfo* info, const VariableDecl* decl, const Type* type);

@@ -42,6 +42,7 @@ struct VariableInfo : GlobalFacts {
   std::string_view name;
   const Type* type = nullptr;
   bool is_const = false;
+  uint32_t references = 0;             // kLocal: how often it has been named so far
   bool is_loop_variable = false;       // of a `for` of HLSL 2018, which outlives the loop
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember
@@ -65,6 +66,8 @@ struct ParameterInfo {
   const Expr* default_value = nullptr;
   BindingInfo* binding = nullptr;  // an unbounded array of resources: what the call passes
   bool is_unbounded() const { return type->is_array() && type->count == 0; }
+  // `float a[]`, which has the size of what is passed.
+  bool is_unsized() const { return is_unbounded() && !contains_resource(type->element); }
 };
 
 // An argument of a template: a type, or a value of a scalar type.
@@ -95,8 +98,8 @@ struct FunctionInfo : FunctionFacts {
 
   bool is_template = false;
   std::unordered_map<std::string, FunctionInfo*> instances;
-  // One for each combination of unbounded arrays that calls pass.
-  std::map<std::vector<const BindingInfo*>, FunctionInfo*> bound_instances;
+  // One for each combination of unbounded arrays, or types of arrays, that calls pass.
+  std::map<std::vector<const void*>, FunctionInfo*> bound_instances;
   std::string template_suffix;  // "<float>" for an instance
   TemplateValues template_values;
 
@@ -194,6 +197,8 @@ struct Value {
   const FieldInfo* bits = nullptr;  // a bit field of the place, which has the type of its unit
   bool is_sampler_heap = false;
   const InitListExpr* init_list = nullptr;
+  // What a cast of numbers was applied to, if that is a place: it is written through the cast.
+  std::shared_ptr<const Value> under_cast;
   // The value that the place held when it was evaluated, if a later argument may have changed it.
   const ir::Expr* saved = nullptr;
   SourceLocation location;

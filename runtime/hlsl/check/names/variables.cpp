@@ -81,11 +81,15 @@ void Variables::declare_static(const VariableDecl* decl, const Type* type, Scope
   info->state = VariableInfo::State::kPending;
   if (type->is_array() && type->count == 0) {
     const auto* list = as<InitListExpr>(decl->initializer);
-    if (!list) {
+    const Type* whole = decl->initializer && !list
+                            ? parts_.evaluator.value_of(decl->initializer, scope).type
+                            : nullptr;
+    if (!list && !(whole && whole->is_array() && whole->count != 0)) {
       report(CheckId::kUnboundedVariable, decl->location, {std::string(decl->name)});
       type = types_.error();
     } else {
-      const uint64_t count = parts_.evaluator.component_count(list, scope);
+      const uint64_t count =
+          list ? parts_.evaluator.component_count(list, scope) : flat_component_count(whole);
       const uint64_t element = std::max<uint64_t>(1, flat_component_count(type->element));
       type = types_.array(type->element, static_cast<uint32_t>(std::max<uint64_t>(
                                              1, std::min<uint64_t>(count / element, 1u << 20))));

@@ -34,7 +34,9 @@ std::vector<Exported> Exports::exported_functions(uint32_t unit) {
   for (FunctionInfo* function : program_.all_functions) {
     if (function->scope->unit != unit || !function->definition || function->is_static ||
         function->owner || function->signature_failed || !(everything || function->is_exported) ||
-        has_stage(*function)) {
+        has_stage(*function) ||
+        std::any_of(function->parameters.begin(), function->parameters.end(),
+                    [](const ParameterInfo& parameter) { return parameter.is_unsized(); })) {
       continue;
     }
     for (const std::string& name : export_names(function)) {

@@ -152,10 +152,15 @@ class GraphicsSignature : StagePart {
           walk(info.base->type, outer, source, value ? build_.field(value, 0) : nullptr));
     }
     for (const FieldInfo& field : info.fields) {
-      if (!field.decl || field.type->is_error() || field.unit) {
+      if (field.type->is_error() || field.unit) {
         fail(CheckId::kSignatureType, source.location,
              {std::string(source.name), to_string(type), shader()});
         return nullptr;
+      }
+      if (!field.decl) {  // of RayDesc: named by what holds it
+        parts.push_back(
+            walk(field.type, outer, source, value ? build_.field(value, field.index) : nullptr));
+        continue;
       }
       const Modifiers own = field.decl->modifiers & kInterpolationModifiers;
       Name inner = {field.decl->annotations.semantic, 0};
