@@ -53,6 +53,9 @@ constexpr bool is_signed_integer(Scalar scalar) {
          scalar == Scalar::kLiteralInt || scalar == Scalar::kMin16Int ||
          scalar == Scalar::kMin12Int;
 }
+constexpr bool is_min_precision(Scalar scalar) {
+  return scalar >= Scalar::kMin16Float;
+}
 constexpr bool is_integer(Scalar scalar) {
   return !is_floating(scalar) && scalar != Scalar::kBool;
 }

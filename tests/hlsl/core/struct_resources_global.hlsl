@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core global structs that hold resources
 // EXPECT u32 0 3
-// EXPECT u32 4 7
-// EXPECT u32 8 4
+// EXPECT u32 4 3
+// EXPECT u32 8 0
 // EXPECT u32 12 5
-// EXPECT u32 16 8
-// EXPECT u32 20 12
+// EXPECT u32 16 4
+// EXPECT u32 20 9
 // EXPECT u32 24 2
-// EXPECT u32 28 6
-// EXPECT u32 32 13
+// EXPECT u32 28 2
+// EXPECT u32 32 9
 // EXPECT u32 36 14
 // EXPECT u32 40 17
 RWByteAddressBuffer results : register(u0);
@@ -23,7 +23,8 @@ struct Pair : Source {
   uint4 last;
 };
 
-// $Globals: before at 0, pair.first at 16, pair.last at 32, after at 48.
+// $Globals: pair, whose register is an offset in rows too, with first at 0 and last at 16; behind it
+// before at 32 and after at 36.
 uint before;
 Pair pair : register(t0);
 uint after;

@@ -95,7 +95,7 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
   binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
   binding->resource = binding->type->ir;
   apply_register(binding, decl->annotations);
-  uint32_t offset = 0;
+  std::vector<BufferMember> members;
   for (const Decl* member : decl->members) {
     const auto* variable = as<VariableDecl>(member);
     if (!variable || (variable->modifiers & (kModStatic | kModGroupshared))) {
@@ -103,15 +103,12 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
       continue;
     }
     const Type* type = parts_.resolver.resolve_type(variable->type, scope);
-    VariableInfo* info = &program_.variables.emplace_back();
-    info->name = variable->name;
-    info->type = types_.error();
-    info->is_const = true;
     if (scopes_.find_taken(scope, variable->name)) {
       report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
       continue;
     }
-    if (parts_.variables.check_variable_type(type, variable->location, variable->name)) {
+    bool is_valid = parts_.variables.check_variable_type(type, variable->location, variable->name);
+    if (is_valid) {
       const Type* element = type;
       while (element->is_array()) element = element->element;
       if (element->is_resource()) {
@@ -119,48 +116,75 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
         declare_binding(variable, type, scope);
         continue;
       }
-      if (contains_resource(type) && !(type->is_array() && type->count == 0)) {
-        parts_.split_structs.declare_split(variable, type, scope, binding, structure->ir, &offset);
-        continue;
-      }
       if (type->is_array() && type->count == 0) {
         report(CheckId::kUnboundedVariable, variable->location, {std::string(variable->name)});
-      } else {
-        info->kind = VariableKind::kBufferMember;
-        info->type = type;
-        info->binding = binding;
-        info->offset = place_member(type, offset, ir::Layout::kConstantBuffer);
-        const LayoutSize size = layout_of(type, ir::Layout::kConstantBuffer);
-        ir::Field& field = structure->ir->fields.emplace_back();
-        if (const PackOffset* pack = variable->annotations.pack_offset) {
-          const uint64_t bytes = uint64_t{pack->register_index} * kRowBytes + pack->component * 4;
-          const bool whole_row = type->is_array() || type->is_struct() || type->is_matrix();
-          const bool straddles = type->is_numeric() && !type->is_matrix() &&
-                                 pack->component * 4 + size.size > kRowBytes;
-          if (bytes > kMaxBufferBytes - 4 || straddles || (whole_row && pack->component != 0)) {
-            report(CheckId::kPackOffset, pack->location,
-                   {std::string(variable->name), to_string(type)});
-          } else {
-            info->offset = static_cast<uint32_t>(bytes);
-            field.packoffset = static_cast<int32_t>(bytes);
-          }
-        }
-        field.name = variable->name;
-        field.type = type->ir;
-        field.row_major = element->is_matrix() && element->row_major;
-        offset = info->offset + size.size;
-        binding->size_bytes = std::max(binding->size_bytes, offset);
-        if (binding->size_bytes > kMaxBufferBytes) {
-          report(CheckId::kBufferSize, variable->location,
-                 {std::string(decl->name), std::to_string(binding->size_bytes)});
-          offset = 0;
-          binding->size_bytes = 0;
-        }
+        is_valid = false;
       }
     }
+    if (is_valid) {
+      members.push_back(make_member(variable, type, scope, binding, structure->ir));
+      members.back().written = pack_offset(variable, members.back());
+      continue;
+    }
+    VariableInfo* info = &program_.variables.emplace_back();
+    info->name = variable->name;
+    info->type = types_.error();
+    info->is_const = true;
     scopes_.add_symbol(scope, SymbolKind::kVariable, variable->name, variable->location)->variable =
         info;
   }
+  place(members, binding, structure->ir);
+}
+
+// The byte offset of packoffset; -1 without one.
+int64_t Bindings::pack_offset(const VariableDecl* decl, const BufferMember& member) {
+  const PackOffset* pack = decl->annotations.pack_offset;
+  if (!pack) return -1;
+  const Type* type = member.type;
+  const uint64_t bytes = uint64_t{pack->register_index} * kRowBytes + pack->component * 4;
+  const bool whole_row = type->is_array() || type->is_struct() || type->is_matrix();
+  const bool straddles =
+      type->is_numeric() && !type->is_matrix() && pack->component * 4 + member.size > kRowBytes;
+  if (bytes <= kMaxBufferBytes - 4 && !straddles && (!whole_row || pack->component == 0)) {
+    return static_cast<int64_t>(bytes);
+  }
+  report(CheckId::kPackOffset, pack->location, {std::string(decl->name), to_string(type)});
+  return -1;
+}
+
+// Declares the variable and adds its memory to the buffer's struct.
+BufferMember Bindings::make_member(const VariableDecl* decl, const Type* type, Scope* scope,
+                                   BindingInfo* buffer, ir::Struct* structure) {
+  BufferMember member{.name = decl->name, .location = decl->location, .type = type};
+  if (contains_resource(type)) {
+    parts_.split_structs.declare_split(decl, type, scope, buffer, structure, &member);
+    return member;
+  }
+  VariableInfo* info = &program_.variables.emplace_back();
+  info->kind = VariableKind::kBufferMember;
+  info->name = decl->name;
+  info->type = type;
+  info->is_const = true;
+  info->binding = buffer;
+  scopes_.add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+  member.size = layout_of(type, ir::Layout::kConstantBuffer).size;
+  member.parts.push_back({info, structure->fields.size()});
+  ir::Field& field = structure->fields.emplace_back();
+  field.name = decl->name;
+  field.type = type->ir;
+  const Type* element = type;
+  while (element->is_array()) element = element->element;
+  field.row_major = element->is_matrix() && element->row_major;
+  return member;
+}
+
+void Bindings::place(const std::vector<BufferMember>& members, BindingInfo* buffer,
+                     ir::Struct* structure) {
+  const PlacedMembers placed = place_members(members, *structure);
+  buffer->size_bytes = placed.size;
+  if (!placed.too_far) return;
+  report(CheckId::kBufferSize, placed.too_far->location,
+         {buffer->name, std::to_string(placed.size)});
 }
 
 void Bindings::open_globals_buffer(SourceLocation location) {
@@ -179,47 +203,30 @@ void Bindings::open_globals_buffer(SourceLocation location) {
   globals_buffer_->resource = globals_buffer_->type->ir;
 }
 
-// The byte offset of register(cN), which works as packoffset does; -1 without one.
-int64_t Bindings::constant_register(const VariableDecl* decl, const Type* type) {
+// The byte offset of register(cN), which works as packoffset does; -1 without one. Where a struct
+// holds resources, it is also the offset of what else it has, whichever the register's letter, and
+// the last register counts. [DXC: CGMSHLSLRuntime::AddConstant]
+int64_t Bindings::constant_register(const VariableDecl* decl, const BufferMember& member) {
+  const bool is_split = contains_resource(member.type);
+  int64_t offset = -1;
   for (const RegisterBinding& written : decl->annotations.registers) {
-    if (written.register_class != 'c') continue;
+    const bool counts = is_split ? written.register_class != 0 && !written.has_space
+                                 : written.register_class == 'c';
+    if (!counts) continue;
     const uint64_t bytes = uint64_t{written.number} * kRowBytes;
-    if (bytes + layout_of(type, ir::Layout::kConstantBuffer).size <= kMaxBufferBytes) {
-      return static_cast<int64_t>(bytes);
+    if (bytes + member.size > kMaxBufferBytes) {
+      report(CheckId::kPackOffset, written.location,
+             {std::string(decl->name), to_string(member.type)});
+      return -1;
     }
-    report(CheckId::kPackOffset, written.location, {std::string(decl->name), to_string(type)});
+    offset = static_cast<int64_t>(bytes);
+    if (!is_split) break;
   }
-  return -1;
-}
-
-void Bindings::note_split_globals(size_t first_variable, size_t first_field) {
-  for (size_t i = first_variable; i < program_.variables.size(); ++i) {
-    VariableInfo& part = program_.variables[i];
-    if (part.kind != VariableKind::kBufferMember || part.binding != globals_buffer_) continue;
-    globals_.push_back({&part, first_field++, part.offset % kRowBytes == 0});
-  }
+  return offset;
 }
 
 void Bindings::place_globals() {
-  const auto is_written = [](const GlobalMember& member) { return member.written >= 0; };
-  if (std::none_of(globals_.begin(), globals_.end(), is_written)) return;
-  uint32_t end = 0;
-  for (const bool written : {true, false}) {
-    for (const GlobalMember& member : globals_) {
-      if (is_written(member) != written) continue;
-      VariableInfo& variable = *member.variable;
-      if (member.begins_row) end = (end + kRowBytes - 1) / kRowBytes * kRowBytes;
-      variable.offset = written ? static_cast<uint32_t>(member.written)
-                                : place_member(variable.type, end, ir::Layout::kConstantBuffer);
-      globals_struct_->fields[member.field].packoffset = static_cast<int32_t>(variable.offset);
-      const LayoutSize size = layout_of(variable.type, ir::Layout::kConstantBuffer);
-      end = std::max(end, variable.offset + size.size);
-    }
-  }
-  globals_buffer_->size_bytes = end;
-  if (end > kMaxBufferBytes) {
-    report(CheckId::kBufferSize, {globals_buffer_->place}, {"$Globals", std::to_string(end)});
-  }
+  if (globals_buffer_) place(globals_, globals_buffer_, globals_struct_);
 }
 
 // A global that is neither static nor a resource is a member of the constant buffer $Globals.
@@ -232,34 +239,8 @@ void Bindings::declare_uniform(const VariableDecl* decl, const Type* type, Scope
   if (decl->initializer) {
     report(CheckId::kUniformInitialiser, decl->location, {std::string(decl->name)});
   }
-  if (contains_resource(type)) {
-    const size_t variables = program_.variables.size();
-    const size_t fields = globals_struct_->fields.size();
-    parts_.split_structs.declare_split(decl, type, scope, globals_buffer_, globals_struct_,
-                                       &globals_offset_);
-    return note_split_globals(variables, fields);
-  }
-  VariableInfo* info = &program_.variables.emplace_back();
-  globals_.push_back({info, globals_struct_->fields.size(), false, constant_register(decl, type)});
-  info->kind = VariableKind::kBufferMember;
-  info->name = decl->name;
-  info->type = type;
-  info->is_const = true;
-  info->binding = globals_buffer_;
-  info->offset = place_member(type, globals_offset_, ir::Layout::kConstantBuffer);
-  globals_offset_ = info->offset + layout_of(type, ir::Layout::kConstantBuffer).size;
-  globals_buffer_->size_bytes = globals_offset_;
-  if (globals_offset_ > kMaxBufferBytes) {
-    report(CheckId::kBufferSize, decl->location, {"$Globals", std::to_string(globals_offset_)});
-    globals_offset_ = 0;
-  }
-  ir::Field& field = globals_struct_->fields.emplace_back();
-  field.name = decl->name;
-  field.type = type->ir;
-  const Type* element = type;
-  while (element->is_array()) element = element->element;
-  field.row_major = element->is_matrix() && element->row_major;
-  scopes_.add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+  globals_.push_back(make_member(decl, type, scope, globals_buffer_, globals_struct_));
+  globals_.back().written = constant_register(decl, globals_.back());
 }
 
 // A library by itself has given its resources registers, which root signatures rely on.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/hlsl/check/names/buffer_members.h"
 #include "runtime/hlsl/check/names/names_part.h"
 
 namespace kaamos::hlsl {
@@ -24,31 +25,23 @@ class Bindings : NamesPart {
   // Each unit has a $Globals of its own.
   void begin_unit() {
     globals_buffer_ = nullptr;
-    globals_offset_ = 0;
     globals_.clear();
   }
-  // After the last declaration of a unit: moves the members of $Globals to where register(cN) wants
-  // them, and those without one behind them.
+  // After the last declaration of a unit.
   void place_globals();
 
  private:
-  // A member of $Globals, or a part of one that holds resources.
-  struct GlobalMember {
-    VariableInfo* variable;
-    size_t field;          // of the buffer's struct
-    bool begins_row;       // 16 bytes
-    int64_t written = -1;  // its offset by register(cN)
-  };
-
   void open_globals_buffer(SourceLocation location);
-  int64_t constant_register(const VariableDecl* decl, const Type* type);
-  void note_split_globals(size_t first_variable, size_t first_field);
+  BufferMember make_member(const VariableDecl* decl, const Type* type, Scope* scope,
+                           BindingInfo* buffer, ir::Struct* structure);
+  int64_t pack_offset(const VariableDecl* decl, const BufferMember& member);
+  int64_t constant_register(const VariableDecl* decl, const BufferMember& member);
+  void place(const std::vector<BufferMember>& members, BindingInfo* buffer, ir::Struct* structure);
   void apply_register(BindingInfo* binding, const Annotations& annotations);
 
   BindingInfo* globals_buffer_ = nullptr;  // $Globals of the unit that is being declared
   ir::Struct* globals_struct_ = nullptr;
-  uint32_t globals_offset_ = 0;
-  std::vector<GlobalMember> globals_;
+  std::vector<BufferMember> globals_;
 };
 
 }  // namespace kaamos::hlsl

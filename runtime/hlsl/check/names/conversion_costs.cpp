@@ -23,10 +23,6 @@ ConversionCost cost_of(Step step) {
   return ConversionCost{1} << (2 + 7 * step);
 }
 
-bool is_min_precision(Scalar scalar) {
-  return scalar >= Scalar::kMin16Float;
-}
-
 bool is_untyped(Scalar scalar) {
   return scalar == Scalar::kBool || is_literal(scalar);
 }

@@ -54,8 +54,49 @@ const LayoutCase kCases[] = {
      "float4 a : packoffset(c2); float b : packoffset(c1.z);",
      {{"a.x", 32}, {"b", 24}},
      48},
+    {"OthersComeBehindPackOffset",
+     "float a; float b : packoffset(c2); float c;",
+     {{"a", 36}, {"b", 32}, {"c", 40}},
+     44},
+    {"EmptyStructBeginsNoRow", "float a; E e; float b;", {{"b", 4}}, 8},
+    {"EmptyStructInAStruct", "float a; F f; float b;", {{"f.x", 16}, {"f.y", 32}, {"b", 36}}, 40},
+    {"EmptyStructEndsARow", "G g; float b;", {{"g.x", 0}, {"b", 16}}, 20},
+    {"ResourcesTakeNoMemory", "float a; R r; float b; R rs[2]; float c;", {{"b", 4}, {"c", 8}}, 12},
+    {"StructWithAResource", "float a; M m; float b;", {{"m.x", 16}, {"b", 20}}, 24},
+    {"StructOfResourcesEndsARow", "N n; float b;", {{"n.x", 0}, {"b", 16}}, 20},
+    {"ArrayOfResourcesEndsARow", "O o; float b;", {{"o.x", 0}, {"o.y", 16}, {"b", 20}}, 24},
+    {"ArrayOfStructsWithResources",
+     "N n[2]; float b;",
+     {{"n[0].x", 0}, {"n[1].x", 16}, {"b", 32}},
+     36},
+    {"PackOffsetOfResources",
+     "M m : packoffset(c3); float b : packoffset(c1.y);",
+     {{"m.x", 48}, {"b", 20}},
+     52},
+    // DXC's test cbufferMinPrec.hlsl
+    {"MinTypesHaveRowsOfTheirOwn",
+     "min16float a; float3 b; min16float2 c; float3 d; float2 e; min16float4 f; min16float2 g; "
+     "min16float3 h; double i;",
+     {{"a", 0},
+      {"b.x", 16},
+      {"c.x", 32},
+      {"d.x", 48},
+      {"e.x", 64},
+      {"f.x", 80},
+      {"g.x", 96},
+      {"h.x", 112},
+      {"i", 128}},
+     136},
+    {"MinTypesInStructsDoNot", "H h; min16int b; int c;", {{"h.y", 4}, {"b", 16}, {"c", 32}}, 36},
     {"Row2Dimensional", "float a[2][3]; float b;", {{"a[1][2]", 80}, {"b", 84}}, 88},
 };
+
+constexpr char kStructs[] =
+    "struct S { float x; float2 y; };\nstruct E {};\nstruct F { float x; E e; float y; };\n"
+    "struct G { float x; E e; };\nstruct H { float x; min16float y; };\n"
+    "struct R { ByteAddressBuffer a; SamplerState s; };\nstruct M { ByteAddressBuffer a; float x; "
+    "};\n"
+    "struct N { float x; R r; };\nstruct O { float x; ByteAddressBuffer a[2]; float y; };\n";
 
 // All offsets at which a function's text reads a constant buffer.
 std::vector<uint32_t> loaded_offsets(const std::string& text) {
@@ -71,9 +112,9 @@ std::vector<uint32_t> loaded_offsets(const std::string& text) {
 TEST(Layout, ConstantBufferOffsets) {
   for (const LayoutCase& one : kCases) {
     for (const auto& [member, offset] : one.offsets) {
-      const Compilation compilation(kernel(
-          std::string("results.Store(0, (uint)") + member + ");",
-          std::string("struct S { float x; float2 y; };\ncbuffer C { ") + one.members + " };"));
+      const Compilation compilation(
+          kernel(std::string("results.Store(0, (uint)") + member + ");",
+                 std::string(kStructs) + "cbuffer C { " + one.members + " };"));
       ASSERT_NE(compilation.module, nullptr) << one.name << compilation.messages();
       const std::string text = compilation.function("main");
       std::vector<uint32_t> offsets = loaded_offsets(text);

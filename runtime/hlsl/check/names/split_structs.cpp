@@ -11,14 +11,8 @@ namespace {
 
 constexpr size_t kMaxSplitParts = 4096;
 
-bool has_memory(const Type* type) {
-  while (type->is_array()) type = type->element;
-  if (type->is_resource()) return false;
-  if (!type->is_struct()) return true;
-  const StructInfo& structure = *type->structure;
-  return (structure.base && has_memory(structure.base->type)) ||
-         std::any_of(structure.fields.begin(), structure.fields.end(),
-                     [](const FieldInfo& field) { return has_memory(field.type); });
+uint32_t next_row(uint32_t offset) {
+  return (offset + kRowBytes - 1) / kRowBytes * kRowBytes;
 }
 
 }  // namespace
@@ -28,7 +22,8 @@ struct SplitStructs::SplitPlan {
   const VariableDecl* decl;
   BindingInfo* buffer;
   ir::Struct* members;  // of the buffer
-  uint32_t* offset;     // the end of the buffer's members so far
+  BufferMember* member;
+  uint32_t end = 0;  // of its memory so far
   // For each class of registers: the one that the next resource gets.
   struct Next {
     const RegisterBinding* written = nullptr;
@@ -68,19 +63,12 @@ SplitPart SplitStructs::split_memory(const Type* type, const std::string& name, 
   info->type = type;
   info->is_const = true;
   info->binding = plan.buffer;
-  info->offset = place_member(type, *plan.offset, ir::Layout::kConstantBuffer);
-  *plan.offset = info->offset + layout_of(type, ir::Layout::kConstantBuffer).size;
-  plan.buffer->size_bytes = std::max(plan.buffer->size_bytes, *plan.offset);
-  if (*plan.offset > kMaxBufferBytes) {
-    report(CheckId::kBufferSize, plan.decl->location,
-           {plan.buffer->name, std::to_string(*plan.offset)});
-    *plan.offset = 0;
-    plan.buffer->size_bytes = 0;
-  }
+  const uint32_t offset = place_member(type, plan.end, ir::Layout::kConstantBuffer);
+  plan.end = std::min(offset + layout_of(type, ir::Layout::kConstantBuffer).size, kMaxLayoutBytes);
+  plan.member->parts.push_back({info, plan.members->fields.size(), offset});
   ir::Field& field = plan.members->fields.emplace_back();
   field.name = name;
   field.type = type->ir;
-  field.packoffset = static_cast<int32_t>(info->offset);
   const Type* element = type;
   while (element->is_array()) element = element->element;
   field.row_major = element->is_matrix() && element->row_major;
@@ -92,7 +80,10 @@ SplitPart SplitStructs::split(const Type* type, const std::string& name, SplitPl
   if (++plan.parts > kMaxSplitParts) return part;
   const Type* element = type;
   while (element->is_array()) element = element->element;
-  if (element->is_resource()) return split_resource(type, name, plan);
+  if (element->is_resource()) {
+    if (type->is_array()) plan.end = next_row(plan.end);
+    return split_resource(type, name, plan);
+  }
   if (!contains_resource(type)) return split_memory(type, name, plan);
   if (type->is_array()) {
     for (uint32_t i = 0; i < type->count && plan.parts <= kMaxSplitParts; ++i) {
@@ -100,8 +91,7 @@ SplitPart SplitStructs::split(const Type* type, const std::string& name, SplitPl
     }
     return part;
   }
-  // A struct begins a row, but only if something of it stays in the buffer.
-  if (has_memory(type)) *plan.offset = (*plan.offset + kRowBytes - 1) / kRowBytes * kRowBytes;
+  plan.end = next_row(plan.end);
   const StructInfo& structure = *type->structure;
   if (structure.base) part.parts.push_back(split(structure.base->type, name, plan));
   for (const FieldInfo& field : structure.fields) {
@@ -113,12 +103,14 @@ SplitPart SplitStructs::split(const Type* type, const std::string& name, SplitPl
 }
 
 void SplitStructs::declare_split(const VariableDecl* decl, const Type* type, Scope* scope,
-                                 BindingInfo* buffer, ir::Struct* members, uint32_t* offset) {
-  SplitPlan plan{.decl = decl, .buffer = buffer, .members = members, .offset = offset};
+                                 BindingInfo* buffer, ir::Struct* members, BufferMember* member) {
+  SplitPlan plan{.decl = decl, .buffer = buffer, .members = members, .member = member};
   for (const RegisterBinding& written : decl->annotations.registers) {
     const size_t register_class = std::string_view("tubs").find(written.register_class);
     if (written.register_class == 0) {
       plan.space = &written;
+    } else if (written.register_class == 'c') {
+      continue;  // for the memory
     } else if (register_class == std::string_view::npos) {
       report(CheckId::kSplitRegister, written.location,
              {std::string(decl->name), std::string(1, written.register_class)});
@@ -134,6 +126,7 @@ void SplitStructs::declare_split(const VariableDecl* decl, const Type* type, Sco
   info->type = type;
   info->is_const = true;
   info->split = split(type, Scopes::qualify(scope, decl->name), plan);
+  member->size = plan.end;
   if (plan.parts > kMaxSplitParts) {
     report(CheckId::kSplitSize, decl->location, {to_string(type), std::to_string(kMaxSplitParts)});
     info->type = types_.error();
