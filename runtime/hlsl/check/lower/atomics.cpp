@@ -6,23 +6,46 @@
 
 namespace kaamos::hlsl {
 
+// Anything else than an unsigned integer of that size becomes a signed one.
+const Type* Atomics::any_integer(const Type* given, uint32_t bytes) {
+  const Scalar is_unsigned = bytes == 8 ? Scalar::kUint64 : Scalar::kUint32;
+  const Scalar is_signed = bytes == 8 ? Scalar::kInt64 : Scalar::kInt32;
+  const bool keeps = given && given->is_numeric() && given->scalar == is_unsigned;
+  return types_.scalar(keeps ? is_unsigned : is_signed);
+}
+
+// Converts an argument to the parameter's type, which is unsigned where the operation is the same
+// for both, and that to the memory's, which keeps its bits. [DXC: gen_intrin_main.txt]
+const ir::Expr* Atomics::operand(const AtomicRule& rule, const Value& argument, const Type* type,
+                                 bool is_compared) {
+  // Floats are exchanged as their bits.
+  if (is_floating(type->scalar)) {
+    const ir::Expr* value = lower_.conversions.convert(argument, type, argument.location);
+    const ir::Type* bits = types_.scalar(Scalar::kUint32)->ir;
+    return value ? build_.intrinsic(Intrinsic::asuint, bits, {value}) : nullptr;
+  }
+  const uint32_t bytes = scalar_bytes(type->scalar, ScalarStorage::kBuffer);
+  const bool takes_any = rule.op == ir::AtomicOp::kMin || rule.op == ir::AtomicOp::kMax ||
+                         (rule.op == ir::AtomicOp::kExchange && bytes == 8);
+  const Type* parameter = takes_any && !is_compared
+                              ? any_integer(argument.type, bytes)
+                              : types_.scalar(bytes == 8 ? Scalar::kUint64 : Scalar::kUint32);
+  const ir::Expr* value = lower_.conversions.convert(argument, parameter, argument.location);
+  return value ? lower_.conversions.convert_numeric(value, parameter, type) : nullptr;
+}
+
 Value Atomics::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
-                           std::span<Value> arguments, SourceLocation location) {
+                           bool is_method, std::span<Value> arguments, SourceLocation location) {
   size_t index = 0;
   statement->atomic = rule.op;
-  // Floats are exchanged as their bits.
   const bool is_float = is_floating(type->scalar);
   const ir::Type* memory_type = is_float ? types_.scalar(Scalar::kUint32)->ir : type->ir;
-  const auto operand = [&](const Value& argument) {
-    const ir::Expr* value = lower_.conversions.convert(argument, type, argument.location);
-    return value && is_float ? build_.intrinsic(Intrinsic::asuint, memory_type, {value}) : value;
-  };
   if (rule.has_compare) {
-    statement->compare = operand(arguments[index]);
+    statement->compare = operand(rule, arguments[index], type, true);
     if (!statement->compare) return error_value();
     ++index;
   }
-  statement->value = operand(arguments[index]);
+  statement->value = operand(rule, arguments[index], type, false);
   if (!statement->value) return error_value();
   ++index;
   at(location);
@@ -45,8 +68,16 @@ Value Atomics::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
   statement->result = result;
   body_.emit(statement);
   const ir::Expr* before = build_.read(result);
-  if (is_float) before = build_.intrinsic(Intrinsic::asfloat, type->ir, {before});
-  lower_.places.store(original, lower_.conversions.convert(rvalue(before, type), original.type,
+  const Type* given = type;
+  if (is_float) {
+    before = build_.intrinsic(Intrinsic::asfloat, type->ir, {before});
+  } else {
+    const uint32_t bytes = scalar_bytes(type->scalar, ScalarStorage::kBuffer);
+    given = is_method && bytes == 4 ? types_.scalar(Scalar::kUint32)
+                                    : any_integer(original.type, bytes);
+    before = lower_.conversions.convert_numeric(before, type, given);
+  }
+  lower_.places.store(original, lower_.conversions.convert(rvalue(before, given), original.type,
                                                            original.location, true));
   return rvalue(build_.int32(0), types_.void_type());
 }
@@ -107,7 +138,7 @@ Value Atomics::call_interlocked(const AtomicRule& rule, std::vector<Value>& argu
     statement->target = ir::AtomicTarget::kPlace;
     statement->place = target.expr;
   }
-  return emit_atomic(rule, statement, type, std::span(arguments).subspan(1), location);
+  return emit_atomic(rule, statement, type, false, std::span(arguments).subspan(1), location);
 }
 
 }  // namespace kaamos::hlsl

@@ -17,8 +17,15 @@ class Atomics : LowerPart {
 
   Value call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
                          SourceLocation location);
-  Value emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
+  // `type` is that of the memory; min and max go by its sign.
+  Value emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type, bool is_method,
                     std::span<Value> arguments, SourceLocation location);
+  // The type as which DXC takes an argument that may be a signed or an unsigned integer of `bytes`.
+  const Type* any_integer(const Type* given, uint32_t bytes);
+
+ private:
+  const ir::Expr* operand(const AtomicRule& rule, const Value& argument, const Type* type,
+                          bool is_compared);
 };
 
 }  // namespace kaamos::hlsl

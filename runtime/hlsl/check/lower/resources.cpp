@@ -137,18 +137,13 @@ std::optional<Value> Resources::call_raw_method(const Value& object, const NameP
     statement->target = ir::AtomicTarget::kMemory;
     statement->operands = {resource, build_.convert(offset, Scalar::kUint32)};
     if (atomic->on_floats) {
-      return lower_.atomics.emit_atomic(*atomic, statement, types_.scalar(Scalar::kFloat32),
+      return lower_.atomics.emit_atomic(*atomic, statement, types_.scalar(Scalar::kFloat32), true,
                                         std::span(arguments).subspan(1), location);
     }
-    const Type* given = arguments[1].type;
-    const bool is_signed =
-        given && given->is_numeric() &&
-        (plain_scalar(given->scalar) == Scalar::kInt32 || given->scalar == Scalar::kInt64);
-    const Type* type = types_.scalar(wide        ? (is_signed ? Scalar::kInt64 : Scalar::kUint64)
-                                     : is_signed ? Scalar::kInt32
-                                                 : Scalar::kUint32);
-    return lower_.atomics.emit_atomic(*atomic, statement, type, std::span(arguments).subspan(1),
-                                      location);
+    // The memory has no type: the value's sign counts.
+    const Type* type = lower_.atomics.any_integer(arguments[1].type, wide ? 8 : 4);
+    return lower_.atomics.emit_atomic(*atomic, statement, type, true,
+                                      std::span(arguments).subspan(1), location);
   }
   name.remove_prefix(is_load ? 4 : 5);
   const bool plain = name.empty();
