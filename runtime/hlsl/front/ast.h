@@ -184,6 +184,9 @@ struct TypeSyntax {
   SourceLocation location;
   Modifiers modifiers = 0;
   bool is_unsigned = false;  // kNamed: `unsigned Index`
+  // kNamed: kModRowMajor or kModColumnMajor by `#pragma pack_matrix`, for a name that turns out to
+  // mean a matrix without an order of its own.
+  Modifiers pack_matrix = 0;
   const QualifiedName* name = nullptr;
   const Decl* definition = nullptr;  // StructDecl or EnumDecl; also in the enclosing list of decls.
   // kArray. `float a[2][3]` is an array of 2 (arrays of 3 floats). Size null: unbounded, `a[]`.

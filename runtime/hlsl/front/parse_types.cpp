@@ -50,6 +50,8 @@ const TypeSyntax* Parser::type_specifier(Modifiers& modifiers, DeclList* definit
                                                type->name->last().identifier == "matrix");
   if (is_matrix && (type->modifiers & (kModRowMajor | kModColumnMajor)) == 0) {
     type->modifiers |= pack_matrix_modifier();
+  } else if (type->name != nullptr) {
+    type->pack_matrix = pack_matrix_modifier();
   }
   return type;
 }

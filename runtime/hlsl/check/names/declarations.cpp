@@ -142,6 +142,8 @@ void Declarations::declare_alias(const TypeAliasDecl* decl, Scope* scope) {
   }
   Symbol* symbol = scopes_.add_symbol(scope, SymbolKind::kType, decl->name, decl->location);
   symbol->type = type;
+  symbol->lacks_matrix_order = type->is_matrix() && decl->type->pack_matrix == 0 &&
+                               parts_.resolver.lacks_matrix_order(decl->type, scope);
 }
 
 void Declarations::declare_using(const QualifiedName& name, Scope* scope, SourceLocation location) {

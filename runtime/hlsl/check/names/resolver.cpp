@@ -76,6 +76,19 @@ const Type* Resolver::apply_storage(const Type* type, Modifiers modifiers) {
   return type;
 }
 
+bool Resolver::lacks_matrix_order(const TypeSyntax* syntax, Scope* scope) {
+  if (syntax->modifiers & (kModRowMajor | kModColumnMajor)) return false;
+  if (syntax->kind != TypeSyntaxKind::kNamed) return syntax->is_matrix();
+  Symbol* symbol = resolve_name(*syntax->name, scope, true);
+  if (!symbol) return syntax->name->is_simple() && syntax->name->last().identifier == "matrix";
+  if (symbol->hidden) symbol = symbol->hidden;
+  if (symbol->kind == SymbolKind::kAliasTemplate) {
+    const TypeSyntax* type = symbol->alias->type;
+    return type->pack_matrix == 0 && lacks_matrix_order(type, symbol->scope);
+  }
+  return symbol->kind == SymbolKind::kType && symbol->lacks_matrix_order;
+}
+
 const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
   if (!syntax) return types_.error();
   switch (syntax->kind) {
@@ -92,8 +105,12 @@ const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
       if (syntax->rows == 0 && syntax->columns == 1) return types_.single(scalar);
       return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
     }
-    case TypeSyntaxKind::kNamed:
-      return apply_storage(unsigned_twin(syntax, resolve_named(syntax, scope)), syntax->modifiers);
+    case TypeSyntaxKind::kNamed: {
+      const Type* type = unsigned_twin(syntax, resolve_named(syntax, scope));
+      const bool packs = syntax->pack_matrix != 0 && type->is_matrix();
+      return apply_storage(type, packs && lacks_matrix_order(syntax, scope) ? syntax->pack_matrix
+                                                                            : syntax->modifiers);
+    }
     case TypeSyntaxKind::kDefinition: {
       if (!syntax->definition) return types_.error();
       const auto found = program_.declared_types.find(syntax->definition);

@@ -23,6 +23,8 @@ class Resolver : NamesPart {
   const Type* type_argument(const TemplateArgument& argument, Scope* scope);
   std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope,
                                         const Type** type = nullptr);
+  // Whether `#pragma pack_matrix` at the place of a matrix's name decides on its order.
+  bool lacks_matrix_order(const TypeSyntax* syntax, Scope* scope);
 
  private:
   const Type* unsigned_twin(const TypeSyntax* syntax, const Type* type);

@@ -141,8 +141,9 @@ struct Symbol {
   uint32_t sequence = 0;  // 0: visible everywhere in its scope
   VariableInfo* variable = nullptr;
   std::vector<FunctionInfo*> functions;
-  const Type* type = nullptr;  // kType, kConstant
-  Scope* scope = nullptr;      // kNamespace; kType: the members of a struct or enum
+  const Type* type = nullptr;       // kType, kConstant
+  bool lacks_matrix_order = false;  // an alias for a matrix without row_major or column_major
+  Scope* scope = nullptr;           // kNamespace; kType: the members of a struct or enum
   StructTemplate* struct_template = nullptr;
   const TypeAliasDecl* alias = nullptr;
   const ir::Expr* value = nullptr;  // kConstant
