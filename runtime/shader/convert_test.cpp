@@ -52,6 +52,26 @@ TEST(ShaderHalf, RoundsToNearestEven) {
   }
 }
 
+// [D3D11.3 3.2.2] Of a finite number, the nearest half that is not further from zero.
+TEST(ShaderHalf, TexelsRoundTowardZero) {
+  const auto next = [](half h) { return to_float({static_cast<uint16_t>(h.bits + 1)}); };
+  for (uint32_t bits = 0x30000000u; bits < 0x47800000u; bits += 0x3C1u) {
+    const float x = std::bit_cast<float>(bits);
+    const half h = to_half_toward_zero(x);
+    EXPECT_LE(to_float(h), x);
+    EXPECT_GT(h.bits == 0x7BFF ? kInf : next(h), x);
+    EXPECT_EQ(to_half_toward_zero(-x).bits, h.bits | 0x8000);
+  }
+  for (const float x : {65504.0f, 65519.0f, 65520.0f, 65536.0f, 1e30f}) {
+    EXPECT_EQ(to_half_toward_zero(x).bits, 0x7BFF);
+    EXPECT_EQ(to_half_toward_zero(-x).bits, 0xFBFF);
+  }
+  EXPECT_EQ(to_half_toward_zero(kInf).bits, 0x7C00);
+  EXPECT_EQ(to_half_toward_zero(-kInf).bits, 0xFC00);
+  EXPECT_GT(to_half_toward_zero(std::nanf("")).bits & 0x7FFF, 0x7C00);
+  EXPECT_EQ(to_half_toward_zero(-0.0f).bits, 0x8000);
+}
+
 TEST(ShaderHalf, DoubleIsRoundedOnce) {
   // Rounding to float first would give the tie 1 + 2^-11, which then rounds down to 1.
   EXPECT_EQ(to_half(1.0 + 0x1p-11 + 0x1p-40).bits, 0x3C01);

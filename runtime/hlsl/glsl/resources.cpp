@@ -197,8 +197,8 @@ std::string GlslEmitter::from_texel(const Type* t, const std::string& texel) {
   if (t->scalar == texel_scalar(t->scalar)) {
     return components;
   }
-  return (t->scalar == Scalar::kFloat16 ? std::string("k_to_f16") : type(t)) + "(" + components +
-         ")";
+  return (t->scalar == Scalar::kFloat16 ? std::string("k_texel_to_f16") : type(t)) + "(" +
+         components + ")";
 }
 
 std::string GlslEmitter::to_texel(const Type* t, const std::string& text) {

@@ -93,6 +93,19 @@ $f64 k_to_f64($T x) { return $f64(x); }
 $f16 k_to_f16($T x) { return $f16(x); }
 //@ k_to_f16 ints any
 $f16 k_to_f16($T x) { return $f16($F(x)); }
+// Toward zero, so that what is finite stays finite. [D3D11.3 3.2.2]
+//@ k_texel_to_f16 f32 each
+float16_t k_texel_to_f16(float x) {
+  uint bits = floatBitsToUint(x);
+  uint sign = bits >> 16 & 0x8000u;
+  uint magnitude = bits & 0x7FFFFFFFu;
+  uint rounded = magnitude > 0x7F800000u ? 0x7E00u | (magnitude >> 13 & 0x3FFu)
+                 : magnitude == 0x7F800000u ? 0x7C00u
+                 : magnitude >= 0x477FE000u ? 0x7BFFu
+                 : magnitude >= 0x38800000u ? (magnitude - 0x38000000u) >> 13
+                                            : uint(uintBitsToFloat(magnitude) * 16777216.0);
+  return unpackFloat2x16(sign | rounded).x;
+}
 // Goes through a float that is rounded to odd, because rounding to nearest twice is not the same as
 // once.
 //@ k_to_f16 f64 each

@@ -124,7 +124,7 @@ float k_f16tof32(uint x) {
   }
   return uintBitsToFloat(sign | ((magnitude << 13) + 0x38000000u));
 }
-// Rounded to nearest even; overflow gives infinity. [D3D11.3 3.2.2]
+// Rounded to nearest even; overflow gives infinity.
 //@ k_f32tof16 f32 each
 uint k_f32tof16(float x) {
   uint bits = floatBitsToUint(x);

@@ -43,7 +43,7 @@ KAAMOS_CONSTEXPR float to_float(half h) {
   return __builtin_bit_cast(float, sign | ((magnitude << 13) + 0x38000000u));
 }
 
-// Rounds to nearest even; overflow gives infinity. [D3D11.3 3.2.2]
+// Rounds to nearest even; overflow gives infinity.
 KAAMOS_CONSTEXPR half to_half(float value) {
   const uint32_t bits = __builtin_bit_cast(uint32_t, value);
   const uint32_t sign = bits >> 16 & 0x8000u;
@@ -60,6 +60,22 @@ KAAMOS_CONSTEXPR half to_half(float value) {
   }
   const uint32_t rounded = magnitude - 0x38000000u + 0xFFFu + (magnitude >> 13 & 1u);
   return {static_cast<uint16_t>(sign | rounded >> 13)};
+}
+
+// Rounds toward zero, so that what is finite stays finite: 65536 becomes 65504. That is how formats
+// convert; conversions in shaders round to nearest. [D3D11.3 3.2.2]
+KAAMOS_CONSTEXPR half to_half_toward_zero(float value) {
+  const uint32_t bits = __builtin_bit_cast(uint32_t, value);
+  const uint32_t sign = bits >> 16 & 0x8000u;
+  const uint32_t magnitude = bits & 0x7FFFFFFFu;
+  if (magnitude >= 0x7F800000u) return to_half(value);
+  if (magnitude >= 0x477FE000u) return {static_cast<uint16_t>(sign | 0x7BFFu)};
+  if (magnitude >= 0x38800000u) {
+    return {static_cast<uint16_t>(sign | (magnitude - 0x38000000u) >> 13)};
+  }
+  // A multiple of 2^-24.
+  const float steps = __builtin_bit_cast(float, magnitude) * 0x1p24f;
+  return {static_cast<uint16_t>(sign | static_cast<uint32_t>(static_cast<int32_t>(steps)))};
 }
 
 // Rounding to nearest float first would round twice, so the float is rounded to odd.

@@ -23,7 +23,12 @@ KAAMOS_INLINE V from_texel(const Texel& texel) {
   using T = scalar_of<V>;
   V value{};
   unroll<shape<V>::count>([&](int i) KAAMOS_INLINE_LAMBDA {
-    component(value, i) = op::Convert<T>::apply(__builtin_bit_cast(Wide<T>, texel.bits[i]));
+    const auto wide = __builtin_bit_cast(Wide<T>, texel.bits[i]);
+    if constexpr (std::is_same_v<T, half>) {
+      component(value, i) = to_half_toward_zero(wide);
+    } else {
+      component(value, i) = op::Convert<T>::apply(wide);
+    }
   });
   return value;
 }
