@@ -620,6 +620,7 @@ inline constexpr ErrorId kOwnInitialiser{2695};  ///< variable '{0}' is used in 
 inline constexpr ErrorId kTargetNumber{2696};  ///< there is no SV_Target{0}: a pixel shader has {1} targets
 inline constexpr ErrorId kSemanticNotOffered{2697};  ///< '{0}' of {1} is not offered here
 inline constexpr ErrorId kSemanticIsValue{2698};  ///< '{0}' behind ':' is a semantic, so '{1}' is no bit field and has all bits of '{2}'; the width would be '({0})'
+inline constexpr ErrorId kNoQuads{2699};  ///< '{0}' needs quads of threads, and compute shader '{1}' has [numthreads({2})]
 inline constexpr ErrorId kInitialiserImport{2700};  ///< the initialiser of static '{0}' calls '{1}', which has no body in this library
 inline constexpr ErrorId kImportParameter{2701};  ///< '{0}' has no body in this library, so parameter '{1}' cannot be an unbounded array
 inline constexpr ErrorId kImportPayload{2702};  ///< a payload with access qualifiers is passed to '{0}', whose definition in another library may have other qualifiers

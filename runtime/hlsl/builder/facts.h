@@ -22,6 +22,7 @@ struct StageUse {
   std::string_view name;
   uint32_t stages = 0;             // ir::StageBits
   bool is_implicit_level = false;  // a warning in other stages, which sample level 0
+  bool is_derivative = false;      // in compute shaders: needs quads, as implicit levels do
 };
 
 struct BindingFacts {

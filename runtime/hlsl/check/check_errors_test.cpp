@@ -188,6 +188,14 @@ const std::vector<Case>& cases() {
       {"WaveMultiPrefixOfBits", Id::kIntrinsicArgument,
        kernel("float x = WaveMultiPrefixBitAnd(@1.0, 1);")},
       {"WaveArguments", Id::kArgumentCount, kernel("uint x = @WaveReadLaneAt(1u);")},
+      {"DerivativeWithoutQuads", Id::kNoQuads,
+       "RWByteAddressBuffer r;\n"
+       "[shader(\"compute\")][numthreads(3, 2, 1)] void main(uint i : SV_GroupIndex) {\n"
+       "  r.Store(0, @ddx(i)); }"},
+      {"DerivativeInRowsOfRows", Id::kNoQuads,
+       "RWByteAddressBuffer r;\n"
+       "[shader(\"compute\")][numthreads(4, 3, 1)] void main(uint i : SV_GroupIndex) {\n"
+       "  r.Store(0, @fwidth(i)); }"},
       {"QuadOfRays", Id::kStage,
        "[shader(\"raygeneration\")] void main() { uint x = @QuadReadAcrossX(1u); }"},
       {"WaveSizeNoPowerOfTwo", Id::kWaveSize,
@@ -261,7 +269,7 @@ const std::vector<Case>& cases() {
            "void f() { @IgnoreHit(); }\n[shader(\"miss\")] void M(inout Payload p) { f(); }"},
       {"HitKindInRayGeneration", Id::kStage,
        "[shader(\"raygeneration\")] void R() { uint k = @HitKind(); }"},
-      {"DerivativeInCompute", Id::kStage, kernel("float x = @ddx(1.0);")},
+      {"DerivativeInCompute", Id::kNoQuads, kernel("float x = @ddx(1.0);")},
       {"BarrierInRayGeneration", Id::kStage,
        "[shader(\"raygeneration\")] void R() { @GroupMemoryBarrierWithGroupSync(); }"},
       {"DispatchRaysIndexInCompute", Id::kStage, kernel("uint3 i = @DispatchRaysIndex();")},

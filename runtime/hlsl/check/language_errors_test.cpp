@@ -213,6 +213,33 @@ TEST(GraphicsStages, SharedFunctionsAreCopied) {
   EXPECT_NE(looks[1].find("if live"), std::string::npos) << looks[1];
 }
 
+TEST(ComputeDerivatives, NeedShaderModel66) {
+  const std::string text =
+      "RWByteAddressBuffer r : register(u0);\n"
+      "[numthreads(2, 2, 1)] void main(uint i : SV_GroupIndex) { r.Store(0, ddx(i)); }";
+  EXPECT_EQ(messages_of(text, "cs_6_6"), "");
+  EXPECT_NE(messages_of(text, "cs_6_5").find("[KA2576]"), std::string::npos);
+}
+
+// What a shader without quads shares keeps mip 0.
+TEST(ComputeDerivatives, SharedFunctionsAreCopied) {
+  const Compilation compilation(
+      "Texture2D t;\nSamplerState s;\nRWByteAddressBuffer r : register(u0);\n"
+      "float4 look(float2 uv) { return t.Sample(s, uv); }\n"
+      "[shader(\"compute\")] [numthreads(2, 2, 1)] void Squares(uint3 i : SV_GroupThreadID) {\n"
+      "  r.Store(0, look(i.xy).x); }\n"
+      "[shader(\"compute\")] [numthreads(1, 2, 1)] void Alone(uint3 i : SV_GroupThreadID) {\n"
+      "  r.Store(0, look(i.xy).x); }");
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  std::vector<std::string> looks;
+  for (const ir::Function* function : compilation.module->functions) {
+    if (function->name == "look") looks.push_back(dump(*function));
+  }
+  ASSERT_EQ(looks.size(), 2u);
+  EXPECT_NE(looks[0].find("sample_level"), std::string::npos) << looks[0];
+  EXPECT_NE(looks[1].find("sample_gradient"), std::string::npos) << looks[1];
+}
+
 TEST(LanguageMessages, AMissingIncludeIsTheOnlyError) {
   const std::string messages =
       messages_of("#include \"nowhere.hlsli\"\n" + kernel("Thing t = Make(3);"), "lib_6_6");

@@ -486,7 +486,9 @@ std::string CppEmitter::run() {
   for (const EntryPoint& entry : module_.entry_points) wide.plan(entry);
   if (wide.any()) line("#include <kaamos/shader/wide_memory.h>");
   if (wide.any()) line("#include <kaamos/shader/wide_stage.h>");
-  if (wide.any() && graphics) line("#include <kaamos/shader/wide_columns.h>");
+  if (wide.any() && (graphics || wave_words_ != 0)) {
+    line("#include <kaamos/shader/wide_columns.h>");
+  }
   if (wide.any() && wave_words_ != 0) line("#include <kaamos/shader/wide_wave.h>");
   if (options_.flags & shader::kLibraryDebug) emit_unoptimised();
   line("namespace {");

@@ -166,6 +166,7 @@ class GlslEmitter {
   std::string multi_prefix_function(shader::WaveOp op, const ir::Type* type);
   std::string match_function(const ir::Type* type);
   std::string quad_votes_function();
+  std::string difference_function(shader::WaveOp op, const std::string& real);
   std::string all_equal(const ir::Expr* operand);
   std::string lone_wave(const ir::Stmt& stmt);
   std::string wave_text(const ir::Stmt& stmt);

@@ -180,14 +180,16 @@ std::string GlslEmitter::graphics_layout() const {
   return out;
 }
 
-// Only pixel shaders have derivatives. SPIR-V takes them of 32-bit floats only.
+// SPIR-V takes derivatives of 32-bit floats only, and of pixel shaders.
 std::string GlslEmitter::derivative(const Stmt& stmt) {
   constexpr const char* kNames[] = {"dFdxCoarse", "dFdyCoarse", "dFdxFine", "dFdyFine"};
   const Type* t = stmt.operands[0]->type;
   const auto op = static_cast<size_t>(stmt.wave) - static_cast<size_t>(shader::WaveOp::kDdxCoarse);
   const std::string real = glsl::vector_name(
       Scalar::kFloat32, t->kind == TypeKind::kScalar ? 1 : static_cast<int>(t->columns));
-  return type(t) + "(" + kNames[op] + "(" + real + "(" + value(stmt.operands[0]) + ")))";
+  const std::string name =
+      entry_.stage == kStagePixel ? kNames[op] : difference_function(stmt.wave, real);
+  return type(t) + "(" + name + "(" + real + "(" + value(stmt.operands[0]) + ")))";
 }
 
 }  // namespace kaamos::hlsl

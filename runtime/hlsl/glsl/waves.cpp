@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Wave operations in compute shaders as subgroup operations. What those lack is made of shuffles,
-// over the lanes in ascending order.
+// Wave operations in compute and pixel shaders as subgroup operations. What those lack is made of
+// shuffles, over the lanes in ascending order.
 #include <cctype>
 
 #include "runtime/hlsl/glsl/emitter.h"
@@ -113,6 +113,24 @@ std::string GlslEmitter::match_function(const Type* t) {
                           "subgroupBallotBitExtract(taking_part, i)) {\n"
                           "      same[i >> 5] |= 1u << (i & 31u);\n    }\n  }\n  return same;\n}\n",
                       type(t)));
+}
+
+// A derivative in a compute shader, of the GLSL type `real`; 0 where one of the two lanes takes no
+// part.
+std::string GlslEmitter::difference_function(WaveOp op, const std::string& real) {
+  const bool across = op == WaveOp::kDdxCoarse || op == WaveOp::kDdxFine;
+  const bool fine = op == WaveOp::kDdxFine || op == WaveOp::kDdyFine;
+  const std::string step = across ? "1u" : "2u";
+  const std::string name =
+      std::string("g_difference_") + (across ? "x_" : "y_") + (fine ? "fine_" : "coarse_") + real;
+  return generated(
+      name, real + " " + name + "(" + real + " v) {\n" +
+                "  const uint first = gl_SubgroupInvocationID & ~" + (fine ? step : "3u") + ";\n" +
+                "  const uint second = first + " + step + ";\n" +
+                "  const uvec4 lanes = subgroupBallot(true);\n" + "  const " + real +
+                " difference = subgroupShuffle(v, second) - " + "subgroupShuffle(v, first);\n" +
+                "  return subgroupBallotBitExtract(lanes, first) && " +
+                "subgroupBallotBitExtract(lanes, second) ? difference : " + real + "(0);\n}\n");
 }
 
 std::string GlslEmitter::quad_votes_function() {

@@ -41,7 +41,12 @@ class EntryReach {
     entry_.attribute_bytes = std::max(entry_.attribute_bytes, function->reported_bytes);
     entry_.attribute_type = joined_type(entry_.attribute_type, function->reported_type);
     for (const StageUse& use : function->stage_uses) {
-      if ((use.stages & entry_.stage) == 0) report_.stage_use(use, entry_);
+      if ((use.stages & entry_.stage) == 0) {
+        report_.stage_use(use, entry_);
+      } else if (entry_.stage == ir::kStageCompute && !has_quads(entry_) &&
+                 (use.is_derivative || use.is_implicit_level)) {
+        report_.no_quads(use, entry_);
+      }
     }
     for (BindingFacts* binding : function->bindings) {
       binding->reachable = true;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Functions as pixel shaders need them. What other stages reach too is copied, so that theirs stay
-// as they are. In these functions
+// Functions as pixel shaders need them, and compute shaders that take derivatives. What other
+// stages reach too is copied, so that theirs stay as they are. In these functions
 // - derivatives become statements of the quad, and implicit levels of detail gradients. Where the
 //   operand is made of values that do not change, the statement stands right behind the last of
-//   them, so that it is run by all lanes that have the values, and once,
+//   them, so that it is run by all lanes that have the values, and once, and, of pixel shaders,
 // - wave operations leave out helpers (pixel_waves.h),
 // - stores and atomics depend on `live`, a static global that says whether the pixel is covered and
 //   was not discarded; an atomic of another lane gives 0.
@@ -19,6 +19,7 @@
 
 #include "runtime/hlsl/builder/finish/lone_lane.h"
 #include "runtime/hlsl/builder/finish/pixel_waves.h"
+#include "runtime/hlsl/builder/finish/square_quads.h"
 #include "runtime/hlsl/ir/builtin_types.h"
 #include "runtime/hlsl/ir/visit.h"
 
@@ -31,25 +32,36 @@ namespace {
 // An expression may replace at most this many variables by their values.
 constexpr int kMostReplaced = 8;
 
-class PixelFunctions {
+// Functions to make for one stage, callees before callers.
+struct ReachedFunctions {
+  std::set<const ir::Function*> all;     // those to make
+  std::set<const ir::Function*> shared;  // of them, those that others need as they are
+};
+
+class QuadFunctions {
  public:
-  PixelFunctions(ir::Module& module, IrBuilder& build, const ModuleFacts& facts)
+  QuadFunctions(ir::Module& module, IrBuilder& build, uint32_t stage, const ir::Variable* live,
+                const ir::Variable* waves_of_helpers)
       : module_(module),
         build_(build),
-        live_(facts.live),
-        waves_of_helpers_(facts.waves_of_helpers) {}
+        stage_(stage),
+        live_(live),
+        waves_of_helpers_(waves_of_helpers) {}
 
-  void run() {
+  void run(const ReachedFunctions& reached) {
     std::vector<ir::Function*> functions;
     for (ir::Function* function : module_.functions) {
-      const bool is_shared = function->stages != ir::kStagePixel;
+      const bool is_made = reached.all.count(function) != 0;
+      const bool is_shared = !is_made || reached.shared.count(function) != 0;
       if (is_shared) functions.push_back(function);
-      if (function->stages & ir::kStagePixel) functions.push_back(make(function, is_shared));
+      if (is_made) functions.push_back(make(function, is_shared));
     }
     module_.functions = std::move(functions);
-    for (ir::EntryPoint& entry : module_.entry_points) {
-      if (entry.stage == ir::kStagePixel) entry.function = made_.at(entry.function);
-    }
+  }
+  // What stands for the function now.
+  const ir::Function* made(const ir::Function* function) const {
+    const auto found = made_.find(function);
+    return found == made_.end() ? function : found->second;
   }
 
  private:
@@ -62,9 +74,9 @@ class PixelFunctions {
     find_changing(*from);
     if (is_shared) {
       to = &module_.function_pool.emplace_back(*from);
-      to->mangled += "#pixel";
-      to->stages = ir::kStagePixel;
-      from->stages &= ~uint32_t{ir::kStagePixel};
+      to->mangled += stage_ == ir::kStagePixel ? "#pixel" : "#compute";
+      to->stages = stage_;
+      if (stage_ == ir::kStagePixel) from->stages &= ~uint32_t{ir::kStagePixel};
       for (ir::Variable*& parameter : to->parameters) parameter = copy(parameter);
     }
     is_shared_ = is_shared;
@@ -368,7 +380,7 @@ class PixelFunctions {
     if (from.kind == ir::StmtKind::kDeclare && is_shared_) {
       to->variable = copy(from.variable);
     }
-    if (from.kind == ir::StmtKind::kCall) to->function = made_.at(from.function);
+    if (from.kind == ir::StmtKind::kCall) to->function = made(from.function);
     if (from.result) to->result = variable(from.result);
     to->place = expr(from.place);
     if (from.kind != ir::StmtKind::kLoop) to->value = expr(from.value);
@@ -390,12 +402,13 @@ class PixelFunctions {
       case ir::StmtKind::kStore:
       case ir::StmtKind::kStoreElement:
       case ir::StmtKind::kTypedStore:
+        if (!live_) break;
         return if_live(to, nullptr);
       case ir::StmtKind::kAtomic:
-        if (from.target != ir::AtomicTarget::kPlace) return if_live(to, to->result);
-        break;
+        if (!live_ || from.target == ir::AtomicTarget::kPlace) break;
+        return if_live(to, to->result);
       case ir::StmtKind::kWave:
-        if (!leaves_out_helpers(from.wave)) break;
+        if (!live_ || !leaves_out_helpers(from.wave)) break;
         return append_pixel_wave(build_, to, takes_part(), *out_);
       case ir::StmtKind::kDiscard:
         assign(live_, build_.boolean(false));
@@ -436,7 +449,8 @@ class PixelFunctions {
 
   ir::Module& module_;
   IrBuilder& build_;
-  const ir::Variable* live_;
+  const uint32_t stage_;
+  const ir::Variable* live_;  // null outside of pixel shaders, which have helpers
   const ir::Variable* waves_of_helpers_;
   std::map<const ir::Function*, ir::Function*> made_;
   std::map<const ir::Variable*, const ir::Variable*> variables_;  // of the function being copied
@@ -448,6 +462,62 @@ class PixelFunctions {
   bool is_shared_ = false;
   ir::Block* out_ = nullptr;
 };
+
+void make_pixel_shaders(ir::Module& module, IrBuilder& build, const ModuleFacts& facts) {
+  ReachedFunctions reached;
+  for (const ir::Function* function : module.functions) {
+    if ((function->stages & ir::kStagePixel) == 0) continue;
+    reached.all.insert(function);
+    if (function->stages != ir::kStagePixel) reached.shared.insert(function);
+  }
+  QuadFunctions functions(module, build, ir::kStagePixel, facts.live, facts.waves_of_helpers);
+  functions.run(reached);
+  for (ir::EntryPoint& entry : module.entry_points) {
+    if (entry.stage == ir::kStagePixel) entry.function = functions.made(entry.function);
+  }
+}
+
+void collect_reached(const ir::Function& function, std::set<const ir::Function*>& reached) {
+  if (!reached.insert(&function).second) return;
+  ir::visit(
+      function.body, [](const ir::Expr&) {},
+      [&](const ir::Stmt& stmt) {
+        if (stmt.kind == ir::StmtKind::kCall) collect_reached(*stmt.function, reached);
+      });
+}
+
+// Functions of compute shaders that take derivatives, and their callers, if the group has quads.
+void make_compute_quads(ir::Module& module, IrBuilder& build) {
+  std::set<const ir::Function*> in_quads, elsewhere;
+  for (const ir::EntryPoint& entry : module.entry_points) {
+    if (!entry.imports.empty()) continue;
+    collect_reached(*entry.function, has_quads(entry) ? in_quads : elsewhere);
+  }
+  ReachedFunctions reached;
+  for (const ir::Function* function : module.functions) {
+    if (in_quads.count(function) == 0) continue;
+    bool takes = false;
+    ir::visit(
+        function->body,
+        [&](const ir::Expr& expr) {
+          takes = takes || expr.kind == ir::ExprKind::kQuad || expr.implicit_level;
+        },
+        [&](const ir::Stmt& stmt) {
+          takes = takes || (stmt.kind == ir::StmtKind::kCall && reached.all.count(stmt.function));
+        });
+    if (!takes) continue;
+    reached.all.insert(function);
+    if (elsewhere.count(function) != 0) reached.shared.insert(function);
+  }
+  if (reached.all.empty()) return;
+  QuadFunctions functions(module, build, ir::kStageCompute, nullptr, nullptr);
+  functions.run(reached);
+  for (ir::EntryPoint& entry : module.entry_points) {
+    if (has_quads(entry) && entry.imports.empty()) {
+      entry.function = functions.made(entry.function);
+    }
+  }
+}
 
 // Returns what the functions that an entry point reaches can do, as flags.
 uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& seen) {
@@ -500,8 +570,9 @@ void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& fac
   if (facts.live && !has_errors) {
     module.globals.push_back(facts.live);
     if (facts.waves_of_helpers) module.globals.push_back(facts.waves_of_helpers);
-    PixelFunctions(module, build, facts).run();
+    make_pixel_shaders(module, build, facts);
   }
+  if (!has_errors) make_compute_quads(module, build);
   for (FunctionFacts* function : facts.functions) take_level_zero(build, *function);
   if (has_errors) return;
   for (ir::EntryPoint& entry : module.entry_points) {

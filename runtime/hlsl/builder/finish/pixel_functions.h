@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Functions as pixel shaders need them, and what takes their place in all other stages.
+// Functions as pixel shaders need them, and compute shaders with derivatives, and what takes their
+// place in all other stages.
 #pragma once
 
 #include "runtime/hlsl/builder/finish/finish_module.h"
@@ -9,7 +10,7 @@
 
 namespace kaamos::hlsl {
 
-// Copies the functions that pixel shaders reach, as said in pixel_functions.cpp, sets levels of
+// Copies the functions that these shaders reach, as said in pixel_functions.cpp, sets levels of
 // detail to 0 everywhere else, and sets EntryPoint::graphics_flags.
 void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts,
                           bool has_errors);

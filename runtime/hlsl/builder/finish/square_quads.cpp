@@ -95,7 +95,7 @@ class ThreadIds {
 }  // namespace
 
 bool reads_quads(const FunctionFacts& function) {
-  return !function.quads.empty() ||
+  return !function.quads.empty() || !function.implicit_levels.empty() ||
          std::any_of(function.waves.begin(), function.waves.end(),
                      [](const ir::Stmt* wave) { return shader::is_quad_operation(wave->wave); });
 }
@@ -103,6 +103,12 @@ bool reads_quads(const FunctionFacts& function) {
 bool has_square_quads(const ir::EntryPoint& entry) {
   return entry.stage == ir::kStageCompute && entry.thread_group[0] % 2 == 0 &&
          entry.thread_group[1] % 2 == 0;
+}
+
+bool has_quads(const ir::EntryPoint& entry) {
+  const bool in_row =
+      entry.thread_group[0] % 4 == 0 && entry.thread_group[1] == 1 && entry.thread_group[2] == 1;
+  return entry.stage == ir::kStageCompute && (in_row || has_square_quads(entry));
 }
 
 void make_quads_square(ir::Module& module, IrBuilder& build, ir::EntryPoint& entry) {

@@ -12,11 +12,16 @@
 
 namespace kaamos::hlsl {
 
-// Whether the function itself reads other lanes of its quad.
+// Whether the function itself reads other lanes of its quad, as derivatives do.
 bool reads_quads(const FunctionFacts& function);
 
 // Whether quads of this shader's groups are squares, in shader model 6.6 and higher.
 bool has_square_quads(const ir::EntryPoint& entry);
+
+// Whether a compute shader's groups are made of quads, so that it may take derivatives: X and Y are
+// even, or X is a multiple of 4 and Y and Z are 1. [HLSL SM 6.6 Derivatives: Thread Groups and
+// Quads]
+bool has_quads(const ir::EntryPoint& entry);
 
 // Puts a function around the entry point's that computes the ids of threads in the order of quads.
 // It is a function of `module` afterwards.

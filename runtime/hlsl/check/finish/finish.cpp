@@ -34,6 +34,16 @@ class Reports final : public FinishReport, public PayloadReport {
                       std::string(stage_name(entry.stage)), entry.name});
   }
 
+  void no_quads(const StageUse& use, const ir::EntryPoint& entry) override {
+    if (use.is_implicit_level) return stage_use(use, entry);
+    if (!reported_.insert({use.place, entry.stage}).second) return;
+    std::string size;
+    for (const uint32_t number : entry.thread_group) {
+      size += (size.empty() ? "" : ", ") + std::to_string(number);
+    }
+    messages_.report(CheckId::kNoQuads, {use.place}, {std::string(use.name), entry.name, size});
+  }
+
   void no_register(const BindingFacts& binding) override {
     messages_.report(CheckId::kNoRegister, {binding.place}, {binding.name});
   }

@@ -10,6 +10,19 @@ namespace kaamos::hlsl {
 
 using shader::WaveOp;
 
+// Compute shaders have derivatives from Shader Model 6.6 on.
+uint32_t PixelIntrinsics::stages_with_quads() const {
+  const bool in_compute = shader_model_minor(names_.options().target) >= 6;
+  return ir::kStagePixel | (in_compute ? uint32_t{ir::kStageCompute} : 0);
+}
+
+void PixelIntrinsics::use_derivative(std::string_view name, SourceLocation location) {
+  const uint32_t stages = stages_with_quads();
+  if (body_.function) {
+    body_.function->stage_uses.push_back({location.raw, name, stages, false, true});
+  }
+}
+
 const ir::Expr* PixelIntrinsics::quad_value(WaveOp op, const ir::Expr* operand) {
   ir::Expr* node = build_.expr(ir::ExprKind::kQuad, operand->type, {operand});
   node->wave = op;
@@ -20,7 +33,11 @@ const ir::Expr* PixelIntrinsics::quad_value(WaveOp op, const ir::Expr* operand) 
 Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Value>& arguments,
                                            SourceLocation location) {
   if (!lower_.intrinsics.check_count(name, arguments.size(), 1, 1, location)) return error_value();
-  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  if (name == "clip") {
+    lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  } else {
+    use_derivative(name, location);
+  }
   const Type* type = arguments[0].type;
   if (!type || !type->is_numeric()) {
     report(CheckId::kIntrinsicArgument, arguments[0].location,
@@ -79,7 +96,7 @@ void PixelIntrinsics::use_implicit_level(std::string_view name, ir::Expr* sample
                                          SourceLocation location) {
   sample->implicit_level = true;
   if (!body_.function) return;
-  body_.function->stage_uses.push_back({location.raw, name, ir::kStagePixel, true});
+  body_.function->stage_uses.push_back({location.raw, name, stages_with_quads(), true});
   body_.function->implicit_levels.push_back(sample);
 }
 
@@ -89,7 +106,7 @@ Value PixelIntrinsics::call_level_of_detail(const Value& object, bool clamped,
   const std::string_view name =
       clamped ? "CalculateLevelOfDetail" : "CalculateLevelOfDetailUnclamped";
   if (!lower_.intrinsics.check_count(name, arguments.size(), 2, 2, location)) return error_value();
-  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  use_derivative(name, location);
   const ResourceTraits& traits = traits_of(object.type->resource);
   const uint32_t size = traits.coordinates - (traits.is_array ? 1u : 0u);
   const ir::Expr* resource = lower_.places.load(object);
@@ -112,6 +129,7 @@ Value PixelIntrinsics::call_level_of_detail(const Value& object, bool clamped,
   ir::Expr* level = build_.expr(ir::ExprKind::kSample, type->ir, {resource, sampler, coordinates});
   level->sample = ir::SampleKind::kLevelOfDetail;
   level->implicit_level = true;
+  if (body_.function) body_.function->implicit_levels.push_back(level);
   if (!clamped) return rvalue(level, type);
   const ir::Expr* sizes =
       build_.expr(ir::ExprKind::kDimensions, build_.vector_type(Scalar::kUint32, 4),

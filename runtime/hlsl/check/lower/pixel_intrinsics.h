@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Lowers what needs the quad of a pixel shader: derivatives, implicit levels of detail; and clip.
-// What is made of them here stays an expression until it is known which stages reach it.
+// Lowers what needs the quad of a pixel or compute shader: derivatives, implicit levels of detail;
+// and clip. What is made of them here stays an expression until it is known which stages reach it.
 // [builder/finish/pixel_functions.h]
 #pragma once
 
@@ -23,6 +23,8 @@ class PixelIntrinsics : LowerPart {
   void use_implicit_level(std::string_view name, ir::Expr* sample, SourceLocation location);
 
  private:
+  uint32_t stages_with_quads() const;
+  void use_derivative(std::string_view name, SourceLocation location);
   const ir::Expr* quad_value(shader::WaveOp op, const ir::Expr* operand);
 };
 
