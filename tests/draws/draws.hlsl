@@ -102,6 +102,15 @@ uint4 Waves(float4 position : SV_Position) : SV_Target0 {
                WaveGetLaneIndex() < WaveGetLaneCount() && lanes <= WaveGetLaneCount() ? 1 : 0);
 }
 
+// Only pixels of even columns stay; helpers are not covered.
+[shader("pixel")]
+uint4 EvenColumns(float4 position : SV_Position, uint covered : SV_Coverage, out uint mask : SV_Coverage) : SV_Target0 {
+  counter.InterlockedAdd(0, 1);
+  const uint2 pixel = uint2(position.xy);
+  mask = (pixel.x & 1) != 0 ? ~1u : covered;
+  return uint4(covered, IsHelperLane() ? 0 : 1, QuadReadAcrossX(covered), QuadReadAcrossX(IsHelperLane() ? 1u : 0u));
+}
+
 // Whether any pixel of the quad has this column, and all have it or its neighbour.
 [shader("pixel")]
 uint4 QuadVotes(float4 position : SV_Position) : SV_Target0 {

@@ -258,6 +258,52 @@ TEST_P(Draws, HelpersTakePartInQuadsAndNotInWaves) {
   EXPECT_EQ(counted, kCovered);
 }
 
+TEST_P(Draws, CoverageIsOfOneSample) {
+  Canvas canvas(GetParam(), Format::kR32G32B32A32Uint);
+  GraphicsPipelineStateDesc desc = canvas.desc("FromBuffers", "EvenColumns");
+  desc.InputLayout = layout();
+  const PipelineState pipeline = canvas.make(desc);
+  std::vector<Corner> corners;
+  // Column 19 is the last one, whose quad is covered; the right half of column 11's is not.
+  for (const auto& [left, right] : {std::pair(4.0f, 11.0f), {14.0f, 20.0f}}) {
+    for (const auto& [x, y] : {std::pair(left, 4.0f),
+                               {right, 4.0f},
+                               {left, 8.0f},
+                               {right, 4.0f},
+                               {right, 8.0f},
+                               {left, 8.0f}}) {
+      corners.push_back({{ndc_x(x), ndc_y(y), 0.5f}, {0, 0, 0}});
+    }
+  }
+  const Buffer vertices = CreateUploadBuffer(canvas.device, corners).value();
+  const Buffer offset = CreateUploadBuffer(canvas.device, std::vector<float>{0, 0}).value();
+  canvas.run([&](CommandList& list) {
+    Canvas::use(list, pipeline);
+    const VertexBufferView views[] = {view(vertices, sizeof(Corner)), view(offset, 8)};
+    list.IASetVertexBuffers(0, views);
+    list.DrawInstanced(static_cast<uint32_t>(corners.size()), 1, 0, 0);
+  });
+  for (uint32_t y = 0; y < kSize; ++y) {
+    for (uint32_t x = 0; x < kSize; ++x) {
+      const bool covered = y >= 4 && y < 8 && ((x >= 4 && x < 11) || (x >= 14 && x < 20));
+      const bool stays = covered && x % 2 == 0;
+      EXPECT_EQ(canvas.depth(x, y), stays ? 0.5f : 1.0f) << x << ", " << y;
+      EXPECT_EQ(canvas.texel<uint32_t>(x, y, 0), stays ? 1u : 0u) << x << ", " << y;
+      EXPECT_EQ(canvas.texel<uint32_t>(x, y, 1), stays ? 1u : 0u) << x << ", " << y;
+    }
+  }
+  // Inside, both pixels of a row are covered; at column 10 the other one is a helper. The edge that
+  // the triangles of a rectangle share is not looked at.
+  EXPECT_EQ(canvas.texel<uint32_t>(10, 7, 2), 0u);
+  EXPECT_EQ(canvas.texel<uint32_t>(10, 7, 3), 1u);
+  EXPECT_EQ(canvas.texel<uint32_t>(4, 4, 2), 1u);
+  EXPECT_EQ(canvas.texel<uint32_t>(4, 4, 3), 0u);
+  const auto bytes = ReadbackBuffer(canvas.device, canvas.queue, canvas.counter).value();
+  uint32_t counted = 0;
+  std::memcpy(&counted, bytes.data(), sizeof counted);
+  EXPECT_EQ(counted, 4u * (7 + 6));
+}
+
 TEST_P(Draws, RAS_120_BlendingInTheOrderOfDraws) {
   GraphicsPipelineStateDesc desc = canvas_->desc("WholeTarget", "Constant");
   desc.DepthStencilState.DepthEnable = false;

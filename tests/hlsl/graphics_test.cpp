@@ -382,6 +382,72 @@ float4 main(float f : F) : SV_Target {
          EXPECT_EQ(run.out("SV_Target", 0, 2), (Lanes{1, 0, 0, 0, 1, 0, 0, 0}));
          EXPECT_EQ(run.out("SV_Target", 0, 3), (Lanes{0, 0, 0, 0, 4, 4, 4, 4}));
        }},
+      {"IsHelperLane", "ps_6_6", R"(
+RWByteAddressBuffer r : register(u0);
+uint4 main(float f : F) : SV_Target {
+  const bool before = IsHelperLane();
+  const uint helpers = QuadReadAcrossX(uint(before));
+  if (f == 1) discard;
+  const uint others = QuadReadAcrossX(uint(IsHelperLane()));
+  r.Store(4 * uint(f), IsHelperLane() ? 2 : 1);
+  return uint4(before, helpers, others, ddx(f));
+})",
+       [](GraphicsRunner& run) {
+         run.set("F", 0, 0, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.live = 0x2F;
+         run.run();
+         EXPECT_EQ(run.live, 0x2Du);
+         const Lanes own = run.out("SV_Target", 0, 0);
+         const Lanes helpers = run.out("SV_Target", 0, 1);
+         const Lanes others = run.out("SV_Target", 0, 2);
+         for (const size_t lane : {0, 2, 3, 5}) EXPECT_EQ(own[lane], 0u) << lane;
+         EXPECT_EQ(helpers[0], 0u);
+         EXPECT_EQ(helpers[5], 1u);
+         EXPECT_EQ(others[0], 1u) << "discarded";
+         EXPECT_EQ(others[2], 0u);
+         EXPECT_EQ(run.memory[0], 1u);
+         EXPECT_EQ(run.memory[1], 0u);
+         EXPECT_EQ(run.memory[4], 0u);
+       }},
+      // The one sample is bit 0.
+      {"Coverage", "ps_6_6", R"(
+RWByteAddressBuffer r : register(u0);
+struct Out { uint mask : SV_Coverage; float4 c : SV_Target; };
+Out main(float f : F, uint covered : SV_Coverage) {
+  r.InterlockedAdd(0, 1);
+  Out o;
+  o.mask = f == 2 ? 0 : f == 3 ? 2 : f == 5 ? 0xFFFFFFFF : covered;
+  o.c = float4(covered, QuadReadAcrossX(covered), ddx(f), 1);
+  return o;
+})",
+       [](GraphicsRunner& run) {
+         EXPECT_EQ(run.graphics().input_count, 1u);
+         EXPECT_EQ(run.graphics().output_count, 1u);
+         EXPECT_NE(run.graphics().flags & shader::kGraphicsDiscards, 0u);
+         run.set("F", 0, 0, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.live = 0x2F;
+         run.run();
+         EXPECT_EQ(run.live, 0x23u);
+         EXPECT_EQ(run.memory[0], 5u) << "a mask of 0 undoes no stores";
+         EXPECT_EQ(run.floats("SV_Target", 0, 0)[1], 1.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 1)[5], 0.0f) << "its neighbour is a helper";
+         EXPECT_EQ(run.floats("SV_Target", 0, 2)[5], 1.0f);
+       }},
+      {"EvaluateAttributes", "ps_6_6", R"(
+float4 main(float2 a : A, centroid float3x2 m : M) : SV_Target {
+  return float4(EvaluateAttributeCentroid(a), EvaluateAttributeAtSample(a, 0).y,
+                EvaluateAttributeCentroid(m)[2].x);
+})",
+       [](GraphicsRunner& run) {
+         run.set("A", 0, 0, all(2));
+         run.set("A", 0, 1, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.set("M", 0, 2, all(9));
+         run.run();
+         EXPECT_EQ(run.floats("SV_Target", 0, 0), all(2));
+         EXPECT_EQ(run.floats("SV_Target", 0, 1), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
+         EXPECT_EQ(run.floats("SV_Target", 0, 2), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
+         EXPECT_EQ(run.floats("SV_Target", 0, 3), all(9));
+       }},
       {"ImplicitLevels", "ps_6_6", R"(
 Texture2D<float> t;
 SamplerState s;

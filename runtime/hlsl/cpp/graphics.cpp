@@ -23,7 +23,8 @@ const char* system_value_name(shader::SystemValue value) {
                                     "kRenderTargetArrayIndex",
                                     "kViewportArrayIndex",
                                     "kTarget",
-                                    "kDepth"};
+                                    "kDepth",
+                                    "kCoverage"};
   return kNames[static_cast<size_t>(value)];
 }
 

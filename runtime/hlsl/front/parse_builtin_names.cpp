@@ -31,6 +31,8 @@ constexpr ScalarName kScalars[] = {
     {"int32_t", ScalarKind::kInt},
     {"uint32_t", ScalarKind::kUint},
     {"float32_t", ScalarKind::kFloat},
+    {"int8_t4_packed", ScalarKind::kUint},
+    {"uint8_t4_packed", ScalarKind::kUint},
     {"int64_t", ScalarKind::kInt64},
     {"uint64_t", ScalarKind::kUint64},
     {"float64_t", ScalarKind::kDouble},

@@ -117,6 +117,8 @@ enum class SampleForm : uint8_t {
   kCompare,
   kCompareZero,
   kCompareLevel,
+  kCompareBias,
+  kCompareGradient,
   kGather,
   kGatherCompare
 };
@@ -130,7 +132,7 @@ const SampleRule* find_sample(std::string_view name);
 // For HLSL functions that are known but not supported yet: the feature they belong to. Empty for
 // any other name.
 std::string_view unsupported_function(std::string_view name);
-// ddx and the like, and clip: legal only in pixel shaders.
+// ddx and the like, clip, and what else is about pixels.
 bool is_pixel_function(std::string_view name);
 // Any of the above, or a function that is handled by name.
 bool is_builtin_function(std::string_view name);

@@ -36,6 +36,8 @@ struct ModuleFacts {
   // The static global that says whether a pixel may still write; null if there are no pixel
   // shaders.
   ir::Variable* live = nullptr;
+  // Static global, which pixel shaders have as `not live`: IsHelperLane(). Null if none reads it.
+  ir::Variable* is_helper = nullptr;
   // Static global of pixel shaders: whether [WaveOpsIncludeHelperLanes]. Null if none has that.
   ir::Variable* waves_of_helpers = nullptr;
   bool names_ordered_views = false;

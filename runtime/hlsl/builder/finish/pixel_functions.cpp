@@ -40,13 +40,14 @@ struct ReachedFunctions {
 
 class QuadFunctions {
  public:
-  QuadFunctions(ir::Module& module, IrBuilder& build, uint32_t stage, const ir::Variable* live,
-                const ir::Variable* waves_of_helpers)
+  // `facts`: of pixel shaders, which have helpers; null for compute shaders.
+  QuadFunctions(ir::Module& module, IrBuilder& build, const ModuleFacts* facts)
       : module_(module),
         build_(build),
-        stage_(stage),
-        live_(live),
-        waves_of_helpers_(waves_of_helpers) {}
+        stage_(facts ? ir::kStagePixel : ir::kStageCompute),
+        live_(facts ? facts->live : nullptr),
+        waves_of_helpers_(facts ? facts->waves_of_helpers : nullptr),
+        is_helper_(facts ? facts->is_helper : nullptr) {}
 
   void run(const ReachedFunctions& reached) {
     std::vector<ir::Function*> functions;
@@ -116,6 +117,9 @@ class QuadFunctions {
   const ir::Expr* expr(const ir::Expr* from) {
     if (!from) return nullptr;
     if (from->kind == ir::ExprKind::kVariable) {
+      if (is_helper_ && from->variable == is_helper_) {
+        return build_.unary(ir::UnaryOp::kNot, build_.read(live_));
+      }
       const ir::Variable* own = variable(from->variable);
       if (own == from->variable) return from;
       ir::Expr* read = &module_.expr_pool.emplace_back(*from);
@@ -333,7 +337,8 @@ class QuadFunctions {
       return least ? build_.intrinsic(Intrinsic::max, real, {level, least}) : level;
     };
     if (sample.sample == ir::SampleKind::kCompareLevel) {
-      sample.operands[4] = at_least(level_of_detail());
+      sample.operands[4] =
+          at_least(build_.binary(ir::BinaryOp::kAdd, level_of_detail(), sample.operands[4]));
       return;
     }
     if (least) {
@@ -452,6 +457,7 @@ class QuadFunctions {
   const uint32_t stage_;
   const ir::Variable* live_;  // null outside of pixel shaders, which have helpers
   const ir::Variable* waves_of_helpers_;
+  const ir::Variable* is_helper_;
   std::map<const ir::Function*, ir::Function*> made_;
   std::map<const ir::Variable*, const ir::Variable*> variables_;  // of the function being copied
   std::set<const ir::Variable*> changing_;                        // written after their declaration
@@ -470,7 +476,7 @@ void make_pixel_shaders(ir::Module& module, IrBuilder& build, const ModuleFacts&
     reached.all.insert(function);
     if (function->stages != ir::kStagePixel) reached.shared.insert(function);
   }
-  QuadFunctions functions(module, build, ir::kStagePixel, facts.live, facts.waves_of_helpers);
+  QuadFunctions functions(module, build, &facts);
   functions.run(reached);
   for (ir::EntryPoint& entry : module.entry_points) {
     if (entry.stage == ir::kStagePixel) entry.function = functions.made(entry.function);
@@ -510,7 +516,7 @@ void make_compute_quads(ir::Module& module, IrBuilder& build) {
     if (elsewhere.count(function) != 0) reached.shared.insert(function);
   }
   if (reached.all.empty()) return;
-  QuadFunctions functions(module, build, ir::kStageCompute, nullptr, nullptr);
+  QuadFunctions functions(module, build, nullptr);
   functions.run(reached);
   for (ir::EntryPoint& entry : module.entry_points) {
     if (has_quads(entry) && entry.imports.empty()) {
@@ -567,6 +573,7 @@ void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& fac
       quad->operands.clear();
     }
   }
+  if (facts.is_helper) module.globals.push_back(facts.is_helper);
   if (facts.live && !has_errors) {
     module.globals.push_back(facts.live);
     if (facts.waves_of_helpers) module.globals.push_back(facts.waves_of_helpers);

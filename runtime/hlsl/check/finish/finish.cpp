@@ -90,6 +90,7 @@ void Finish::run() {
   }
   for (BindingInfo& binding : program_.bindings) program_.facts.bindings.push_back(&binding);
   program_.facts.reserve_unused = program_.options->reserve_unused;
+  program_.facts.is_helper = bench_.is_helper;
   program_.facts.square_quads = shader_model_minor(program_.options->target) >= 6;
   Reports reports(messages_);
   finish_module(bench_.module, build_, program_.facts, reports);

@@ -32,6 +32,8 @@ const ir::Expr* PixelIntrinsics::quad_value(WaveOp op, const ir::Expr* operand) 
 
 Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Value>& arguments,
                                            SourceLocation location) {
+  if (name == "IsHelperLane") return is_helper_lane(arguments, location);
+  if (name.starts_with("EvaluateAttribute")) return evaluate_attribute(name, arguments, location);
   if (!lower_.intrinsics.check_count(name, arguments.size(), 1, 1, location)) return error_value();
   if (name == "clip") {
     lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
@@ -90,6 +92,43 @@ Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Va
     row = build_.binary(ir::BinaryOp::kAdd, length(WaveOp::kDdxCoarse), length(WaveOp::kDdyCoarse));
   }
   return rvalue(type->is_matrix() ? build_.construct(type->ir, rows) : rows[0], type);
+}
+
+// A static global that stays false, except in the functions of pixel shaders, where `live` takes
+// its place.
+Value PixelIntrinsics::is_helper_lane(std::vector<Value>& arguments, SourceLocation location) {
+  if (!lower_.intrinsics.check_count("IsHelperLane", arguments.size(), 0, 0, location)) {
+    return error_value();
+  }
+  ir::Variable*& variable = bench_.is_helper;
+  if (!variable) {
+    variable =
+        build_.variable("is_helper", build_.scalar_type(Scalar::kBool), ir::Storage::kStaticGlobal);
+  }
+  return rvalue(build_.read(body_.temporary(build_.read(variable))), types_.boolean());
+}
+
+// Targets have one sample, at the centre of the pixel, which is where an input has its value.
+Value PixelIntrinsics::evaluate_attribute(std::string_view name, std::vector<Value>& arguments,
+                                          SourceLocation location) {
+  const size_t count = name.ends_with("Sample") ? 2 : 1;
+  if (!lower_.intrinsics.check_count(name, arguments.size(), count, count, location)) {
+    return error_value();
+  }
+  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  const Type* type = arguments[0].type;
+  if (!type || !type->is_numeric()) {
+    report(CheckId::kIntrinsicArgument, arguments[0].location,
+           {"1", std::string(name), "a number, a vector or a matrix",
+            type ? to_string(type) : "a resource"});
+    return error_value();
+  }
+  if (count == 2 && !lower_.conversions.convert(arguments[1], types_.scalar(Scalar::kUint32),
+                                                arguments[1].location)) {
+    return error_value();
+  }
+  type = types_.settled(type);
+  return rvalue(lower_.conversions.convert(arguments[0], type, arguments[0].location), type);
 }
 
 void PixelIntrinsics::use_implicit_level(std::string_view name, ir::Expr* sample,

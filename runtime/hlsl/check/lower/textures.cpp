@@ -88,7 +88,11 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
   const ResourceTraits& traits = traits_of(type->resource);
   const uint32_t dimensions = traits.coordinates - (traits.is_array ? 1u : 0u);
   const bool compares = rule.form == F::kCompare || rule.form == F::kCompareZero ||
-                        rule.form == F::kCompareLevel || rule.form == F::kGatherCompare;
+                        rule.form == F::kCompareLevel || rule.form == F::kCompareBias ||
+                        rule.form == F::kCompareGradient || rule.form == F::kGatherCompare;
+  const bool from_quad = rule.form == F::kSample || rule.form == F::kBias ||
+                         rule.form == F::kCompare || rule.form == F::kCompareBias;
+  const bool from_gradient = rule.form == F::kGradient || rule.form == F::kCompareGradient;
   const bool gathers = rule.form == F::kGather || rule.form == F::kGatherCompare;
   const bool is_cube = type->resource == ir::ResourceKind::kTextureCube ||
                        type->resource == ir::ResourceKind::kTextureCubeArray;
@@ -102,14 +106,16 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
   }
   // Sampler, location and the operands of the form; then an offset, if the texture takes one.
   size_t fixed = 2;
-  if (rule.form == F::kGradient || rule.form == F::kCompareLevel) {
+  if (rule.form == F::kCompareGradient) {
+    fixed = 5;
+  } else if (rule.form == F::kGradient || rule.form == F::kCompareLevel ||
+             rule.form == F::kCompareBias) {
     fixed = 4;
   } else if (rule.form != F::kSample && rule.form != F::kGather) {
     fixed = 3;
   }
   const size_t offsets = is_cube ? 0 : 1;
-  const bool has_clamp = rule.form == F::kSample || rule.form == F::kBias ||
-                         rule.form == F::kGradient || rule.form == F::kCompare;
+  const bool has_clamp = from_quad || from_gradient;
   const size_t clamp_at = fixed + offsets;
   const size_t status_at = clamp_at + (has_clamp ? 1 : 0);
   const bool has_channel =
@@ -126,10 +132,6 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
     return with_status(call_sample(object, rule, arguments, location), status);
   }
   const Value* clamp = has_clamp && arguments.size() > clamp_at ? &arguments[clamp_at] : nullptr;
-  if (clamp && rule.form == F::kGradient) {
-    report(CheckId::kUnsupported, location, {"the clamp of 'SampleGrad'"});
-    return error_value();
-  }
   const auto sampler_kind =
       compares ? ir::ResourceKind::kSamplerComparison : ir::ResourceKind::kSampler;
   const ir::Expr* resource = lower_.places.load(object);
@@ -138,6 +140,8 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
   const ir::Expr* coordinates = lower_.resources.to_vector(
       arguments[1], Scalar::kFloat32, traits.coordinates, arguments[1].location);
   if (!resource || !sampler || !coordinates) return error_value();
+  at(location);
+  if (from_gradient) coordinates = body_.repeatable(coordinates);
   std::vector<const ir::Expr*> operands = {resource, sampler, coordinates};
   const auto scalar_operand = [&](size_t index) {
     operands.push_back(lower_.conversions.convert(arguments[index], types_.scalar(Scalar::kFloat32),
@@ -145,6 +149,22 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
   };
   const auto zero_level = [&] {
     operands.push_back(build_.zero(types_.scalar(Scalar::kFloat32)->ir));
+  };
+  const auto gradient = [&](size_t index) {
+    return lower_.resources.to_vector(arguments[index], Scalar::kFloat32, dimensions,
+                                      arguments[index].location);
+  };
+  const auto level_of_gradient = [&](size_t index) -> const ir::Expr* {
+    const ir::Expr* ddx = gradient(index);
+    const ir::Expr* ddy = gradient(index + 1);
+    const Type* real = types_.scalar(Scalar::kFloat32);
+    const ir::Expr* least =
+        clamp ? lower_.conversions.convert(*clamp, real, clamp->location) : nullptr;
+    if (!ddx || !ddy || (clamp && !least)) return nullptr;
+    ir::Expr* level =
+        build_.expr(ir::ExprKind::kSample, real->ir, {resource, sampler, coordinates, ddx, ddy});
+    level->sample = ir::SampleKind::kLevelOfDetail;
+    return least ? build_.intrinsic(Intrinsic::max, real->ir, {level, least}) : level;
   };
   ir::SampleKind kind = ir::SampleKind::kLevel;
   switch (rule.form) {
@@ -156,11 +176,12 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
       scalar_operand(2);
       break;
     case F::kGradient:
-      kind = ir::SampleKind::kGradient;
-      for (size_t i = 2; i < 4; ++i) {
-        operands.push_back(lower_.resources.to_vector(arguments[i], Scalar::kFloat32, dimensions,
-                                                      arguments[i].location));
+      if (clamp) {
+        operands.push_back(level_of_gradient(2));
+        break;
       }
+      kind = ir::SampleKind::kGradient;
+      for (const size_t i : {2, 3}) operands.push_back(gradient(i));
       break;
     case F::kCompare:
     case F::kCompareZero:
@@ -168,6 +189,12 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
       scalar_operand(2);
       zero_level();
       break;
+    case F::kCompareGradient:
+      kind = ir::SampleKind::kCompareLevel;
+      scalar_operand(2);
+      operands.push_back(level_of_gradient(3));
+      break;
+    case F::kCompareBias:
     case F::kCompareLevel:
       kind = ir::SampleKind::kCompareLevel;
       scalar_operand(2);
@@ -185,7 +212,7 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
     operands.push_back(lower_.resources.to_vector(arguments[fixed], Scalar::kInt32, dimensions,
                                                   arguments[fixed].location));
   }
-  if (clamp)
+  if (clamp && from_quad)
     operands.push_back(
         lower_.conversions.convert(*clamp, types_.scalar(Scalar::kFloat32), clamp->location));
   for (const ir::Expr* operand : operands) {
@@ -199,7 +226,7 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
   node->operands = std::move(operands);
   node->sample = kind;
   node->index = rule.component;
-  if (rule.form == F::kSample || rule.form == F::kBias || rule.form == F::kCompare) {
+  if (from_quad) {
     node->clamps_level = clamp != nullptr;
     lower_.pixel_intrinsics.use_implicit_level(rule.name, node, location);
   }

@@ -30,7 +30,8 @@ struct Workbench {
   IrBuilder build;
   Messages messages;
   PayloadFacts payloads;
-  int depth = 0;  // of nested declarations, statements and expressions
+  ir::Variable* is_helper = nullptr;  // ModuleFacts::is_helper
+  int depth = 0;                      // of nested declarations, statements and expressions
 };
 
 }  // namespace kaamos::hlsl

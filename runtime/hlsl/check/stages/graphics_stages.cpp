@@ -2,6 +2,7 @@
 #include "runtime/hlsl/check/stages/graphics_stages.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/attributes.h"
@@ -69,15 +70,17 @@ class GraphicsSignature : StagePart {
     Modifiers modifiers = 0;
   };
 
+  // `live`: of a pixel shader.
   GraphicsSignature(Program& program, Lowerer& lowerer, const ir::EntryPoint& entry, bool is_output,
-                    ir::Function& wrapper)
+                    ir::Function& wrapper, const ir::Variable* live)
       : StagePart(program, lowerer),
         entry_(entry),
         is_output_(is_output),
         wrapper_(wrapper),
         point_(entry.stage == ir::kStageVertex
                    ? (is_output ? SignaturePoint::kVertexOut : SignaturePoint::kVertexIn)
-                   : (is_output ? SignaturePoint::kPixelOut : SignaturePoint::kPixelIn)) {}
+                   : (is_output ? SignaturePoint::kPixelOut : SignaturePoint::kPixelIn)),
+        live_(live) {}
 
   std::vector<ir::SignatureElement> elements;
   bool failed = false;
@@ -217,6 +220,7 @@ class GraphicsSignature : StagePart {
     element.semantic_index = name.next++;
     element.location = locate(source.location);
     if (!describe(element, type, *name.semantic, source)) return nullptr;
+    if (element.system_value == SystemValue::kCoverage) return cover(type, source, value);
     const Scalar scalar = element.type == ColumnType::kFloat ? Scalar::kFloat32
                           : element.type == ColumnType::kInt ? Scalar::kInt32
                                                              : Scalar::kUint32;
@@ -235,6 +239,26 @@ class GraphicsSignature : StagePart {
     statement->place = build_.read(variable);
     statement->value = build_.convert(value, plain_scalar(scalar));
     lower_.body.emit(statement);
+    return nullptr;
+  }
+
+  // Of the one sample that a pixel has: as an input, whether it is covered; as an output, whether
+  // it stays. [D3D11.3: 16.5 Sample mask]
+  const ir::Expr* cover(const Type* type, const Source& source, const ir::Expr* value) {
+    at(source.location);
+    if (std::exchange(has_coverage_, true)) {
+      fail(CheckId::kSemanticTwice, source.location,
+           {is_output_ ? "outputs" : "inputs", shader(), "SV_Coverage"});
+      return nullptr;
+    }
+    if (!value) return build_.convert(build_.read(live_), plain_scalar(type->scalar));
+    const ir::Expr* number = build_.convert(value, Scalar::kUint32);
+    ir::Stmt* condition = build_.stmt(ir::StmtKind::kIf);
+    condition->value = build_.binary(ir::BinaryOp::kEqual,
+                                     build_.binary(ir::BinaryOp::kBitAnd, number, build_.uint32(1)),
+                                     build_.uint32(0));
+    condition->body.push_back(build_.stmt(ir::StmtKind::kDiscard));
+    lower_.body.emit(condition);
     return nullptr;
   }
 
@@ -306,6 +330,8 @@ class GraphicsSignature : StagePart {
   const bool is_output_;
   ir::Function& wrapper_;
   const SignaturePoint point_;
+  const ir::Variable* const live_;
+  bool has_coverage_ = false;
 };
 
 }  // namespace
@@ -321,8 +347,19 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   mangled += "#body";
   BodyScope body(lower_, nullptr, &wrapper->body, function->scope);
   at(location);
-  GraphicsSignature inputs(program_, lower_, entry, false, *wrapper);
-  GraphicsSignature outputs(program_, lower_, entry, true, *wrapper);
+  const bool is_pixel = entry.stage == ir::kStagePixel;
+  const ir::Type* flag = build_.scalar_type(Scalar::kBool);
+  const auto flag_parameter = [&](const char* name, ir::ParameterMode mode) {
+    ir::Variable* variable = build_.variable(name, flag, ir::Storage::kParameter);
+    variable->mode = mode;
+    return variable;
+  };
+  ir::Variable* is_live = is_pixel ? flag_parameter("is_live", ir::ParameterMode::kIn) : nullptr;
+  const ir::Variable* live = is_pixel ? live_variable() : nullptr;
+  if (is_pixel) lower_.body.assign(live, build_.read(is_live));
+  if (!read_waves_of_helpers(*function, entry)) return false;
+  GraphicsSignature inputs(program_, lower_, entry, false, *wrapper, live);
+  GraphicsSignature outputs(program_, lower_, entry, true, *wrapper, live);
   const auto name_of_value = [](const Semantic* semantic) {
     return GraphicsSignature::Name{semantic, semantic ? semantic->index : 0};
   };
@@ -367,16 +404,6 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
     call->arguments.push_back(value);
   }
   if (!inputs.failed) inputs.check_limits(location);
-  const bool is_pixel = entry.stage == ir::kStagePixel;
-  const ir::Type* flag = build_.scalar_type(Scalar::kBool);
-  const auto flag_parameter = [&](const char* name, ir::ParameterMode mode) {
-    ir::Variable* variable = build_.variable(name, flag, ir::Storage::kParameter);
-    variable->mode = mode;
-    return variable;
-  };
-  ir::Variable* is_live = is_pixel ? flag_parameter("is_live", ir::ParameterMode::kIn) : nullptr;
-  if (is_pixel) lower_.body.assign(live_variable(), build_.read(is_live));
-  if (!read_waves_of_helpers(*function, entry)) return false;
   lower_.body.emit(call);
   for (Output& output : results) {
     outputs.write(output.type, output.name, output.source, build_.read(output.variable));
@@ -389,7 +416,7 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
     wrapper->parameters.push_back(is_live);
     ir::Variable* stays = flag_parameter("stays_live", ir::ParameterMode::kOut);
     wrapper->parameters.push_back(stays);
-    lower_.body.assign(stays, build_.read(live_variable()));
+    lower_.body.assign(stays, build_.read(live));
     entry.parameters.push_back(ir::EntryParameter::kIsLive);
     entry.parameters.push_back(ir::EntryParameter::kStaysLive);
   }

@@ -31,7 +31,7 @@ constexpr Row kRows[] = {
     {"SV_Depth", SystemValue::kDepth, "...s"},
     {"SV_DepthGreaterEqual", SystemValue::kNone, "...n"},
     {"SV_DepthLessEqual", SystemValue::kNone, "...n"},
-    {"SV_Coverage", SystemValue::kNone, "..nn"},
+    {"SV_Coverage", SystemValue::kCoverage, "..ss"},
     {"SV_StencilRef", SystemValue::kNone, "...n"},
     {"SV_SampleIndex", SystemValue::kNone, "..n."},
     {"SV_InnerCoverage", SystemValue::kNone, "..n."},

@@ -32,6 +32,7 @@ enum class SystemValue : uint8_t {
   kViewportArrayIndex,      // vertex shader out, pixel shader in
   kTarget,                  // pixel shader out; semantic_index is the slot
   kDepth,                   // pixel shader out
+  kCoverage,                // pixel shader in and out, and in no signature: see PixelLanes::live
 };
 
 enum class ColumnType : uint8_t { kFloat, kInt, kUint };
