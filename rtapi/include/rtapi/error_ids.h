@@ -477,6 +477,7 @@ inline constexpr ErrorId kReturnTypeDiffers{2444};  ///< this function differs f
 inline constexpr ErrorId kFunctionRedefined{2445};  ///< '{0}' already has a body
 inline constexpr ErrorId kSizeof{2446};  ///< '{0}' has no size
 inline constexpr ErrorId kUnsignedBase{2447};  ///< 'unsigned {0}' is no type: only signed integers have a twin
+inline constexpr ErrorId kNormType{2448};  ///< '{0}' has no effect on '{1}': it is for floating-point numbers
 inline constexpr ErrorId kNotATemplate{2450};  ///< '{0}' takes no template arguments
 inline constexpr ErrorId kTemplateCount{2451};  ///< '{0}' takes at most {1} template arguments; {2} given
 inline constexpr ErrorId kTemplateArguments{2452};  ///< the template arguments do not match the parameters of '{0}'
@@ -513,6 +514,11 @@ inline constexpr ErrorId kHeapType{2486};  ///< an element of {0} cannot be a '{
 inline constexpr ErrorId kHeapUntyped{2487};  ///< give the element of a descriptor heap a type first: Texture2D t = ResourceDescriptorHeap[i];
 inline constexpr ErrorId kMipsUse{2488};  ///< '{0}' needs a {1} and a location: texture.{0}[{1}][location]
 inline constexpr ErrorId kTooDeep{2489};  ///< nested more than {0} deep
+inline constexpr ErrorId kShiftByFloat{2490};  ///< '{0}' by a value of type '{1}', which is converted to an integer
+inline constexpr ErrorId kMixedShapes{2491};  ///< '{0}' of '{1}' and '{2}': of a vector and a matrix, DXC makes no common type
+inline constexpr ErrorId kTexelOffset{2492};  ///< texel offset {0} is outside of -8 to 7
+inline constexpr ErrorId kScalarArgument{2493};  ///< argument {0} of '{1}' must be a scalar, not '{2}', of which the first component is used
+inline constexpr ErrorId kTextureIndex{2494};  ///< the index of a '{0}' has {1} components, of which it takes {2}
 inline constexpr ErrorId kNotCallable{2500};  ///< the called expression is not a function
 inline constexpr ErrorId kNoOverload{2501};  ///< no matching function for the call to '{0}' with {1}
 inline constexpr ErrorId kAmbiguousCall{2502};  ///< the call to '{0}' with {1} is ambiguous
@@ -533,6 +539,8 @@ inline constexpr ErrorId kDuplicateCase{2522};  ///< duplicate case label '{0}'
 inline constexpr ErrorId kReturnsValue{2523};  ///< a void function cannot return a value
 inline constexpr ErrorId kReturnsNothing{2524};  ///< this function must return a value of type '{0}'
 inline constexpr ErrorId kMissingReturn{2525};  ///< '{0}' can reach its end without a return; it then returns zero
+inline constexpr ErrorId kLoopAttributes{2526};  ///< [{0}] and [{1}] exclude each other
+inline constexpr ErrorId kEmptySwitch{2527};  ///< the switch has no case
 inline constexpr ErrorId kRegisterClass{2540};  ///< register '{0}' cannot be used for '{2}'; a '{1}' register is needed
 inline constexpr ErrorId kTwoRegisters{2541};  ///< '{0}' already has a register
 inline constexpr ErrorId kRegisterRange{2542};  ///< the registers of '{0}' extend past 4294967295
@@ -540,6 +548,8 @@ inline constexpr ErrorId kNoRegister{2543};  ///< no registers are left for '{0}
 inline constexpr ErrorId kOverlap{2544};  ///< '{0}' and '{1}' share register {2} in space{3}, and shader '{4}' uses both
 inline constexpr ErrorId kPackOffset{2545};  ///< packoffset of '{0}' does not work for a '{1}': it would straddle a 16-byte row or be past 64 KiB
 inline constexpr ErrorId kBufferSize{2546};  ///< constant buffer '{0}' has {1} bytes; the limit is 65536
+inline constexpr ErrorId kPackOverlap{2547};  ///< packoffset of '{0}' overlaps '{1}'
+inline constexpr ErrorId kPackOffsetPlace{2548};  ///< packoffset of '{0}' is ignored: it is for members of a constant buffer
 inline constexpr ErrorId kShaderAttribute{2560};  ///< [shader()] takes "raygeneration", "intersection", "anyhit", "closesthit", "miss", "callable", "compute", "vertex" or "pixel", not {0}
 inline constexpr ErrorId kSkippedStage{2561};  ///< '{0}' is skipped: {1} shaders are not supported yet
 inline constexpr ErrorId kNoEntryPoint{2562};  ///< entry point '{0}' not found
@@ -562,6 +572,9 @@ inline constexpr ErrorId kSkipped{2578};  ///< {0} function(s) are not checked, 
 inline constexpr ErrorId kRayQueryFlags{2580};  ///< {0} is not a valid set of ray flags; a RayQuery takes 0 to 1023 (0x3FF)
 inline constexpr ErrorId kRayQueryCopy{2581};  ///< a {0} cannot be copied; call its methods, pass the variable to a function, or declare a second name that is initialised with it
 inline constexpr ErrorId kRayQueryPlace{2582};  ///< a {0} cannot be {1}; make it a local variable, or a parameter of a function
+inline constexpr ErrorId kUnassignedResource{2583};  ///< static '{0}' is used, and nothing assigns a resource to it
+inline constexpr ErrorId kIgnoredInStage{2584};  ///< [{0}] has no effect on a {1} shader
+inline constexpr ErrorId kStageStrict{2585};  ///< DXC allows '{0}' only in {1}, but {2} shader '{3}' reaches it
 inline constexpr ErrorId kSubobjectCount{2590};  ///< '{0}' takes {1} arguments; {2} given
 inline constexpr ErrorId kSubobjectString{2591};  ///< argument {0} of '{1}' must be a string
 inline constexpr ErrorId kSubobjectRange{2592};  ///< the value {0} is out of range

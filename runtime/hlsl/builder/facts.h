@@ -23,6 +23,7 @@ struct StageUse {
   uint32_t stages = 0;             // ir::StageBits
   bool is_implicit_level = false;  // a warning in other stages, which sample level 0
   bool is_derivative = false;      // in compute shaders: needs quads, as implicit levels do
+  bool is_lenient = false;         // works in other stages, too, where DXC refuses it
 };
 
 struct BindingFacts {

@@ -29,7 +29,7 @@ class Reports final : public FinishReport, public PayloadReport {
       messages_.report(CheckId::kImplicitLevel, {use.place}, {std::string(use.name)});
       return;
     }
-    messages_.report(CheckId::kStage, {use.place},
+    messages_.report(use.is_lenient ? CheckId::kStageStrict : CheckId::kStage, {use.place},
                      {std::string(use.name), stage_list(use.stages),
                       std::string(stage_name(entry.stage)), entry.name});
   }
@@ -92,6 +92,15 @@ void Finish::run() {
   program_.facts.reserve_unused = program_.options->reserve_unused;
   program_.facts.is_helper = bench_.is_helper;
   program_.facts.square_quads = shader_model_minor(program_.options->target) >= 6;
+  for (const VariableInfo& variable : program_.variables) {
+    const bool is_used = variable.kind == VariableKind::kGlobal && variable.variable &&
+                         variable.type && variable.decl && !variable.decl->initializer &&
+                         variable.references != 0;
+    if (is_used && contains_resource(variable.type) &&
+        !lower_.places.is_assigned(variable.variable)) {
+      report(CheckId::kUnassignedResource, variable.decl->location, {std::string(variable.name)});
+    }
+  }
   Reports reports(messages_);
   finish_module(bench_.module, build_, program_.facts, reports);
 }

@@ -178,6 +178,7 @@ Value Expressions::variable_value(VariableInfo* variable, SourceLocation locatio
       return lower_.places.place(variable->variable, variable->type, variable->is_const);
     case VariableKind::kGlobal: {
       lower_.initialisers.initialise(variable);
+      ++variable->references;
       at(location);
       if (body_.function) body_.function->globals.push_back(variable);
       return lower_.places.place(variable->variable, variable->type, variable->is_const);

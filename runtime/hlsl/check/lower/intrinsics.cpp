@@ -29,6 +29,12 @@ bool takes_floats_only(IntrinsicShape shape) {
          shape == S::kFloatToHalf;
 }
 
+bool takes_vectors_only(IntrinsicShape shape) {
+  using S = IntrinsicShape;
+  return shape == S::kLength || shape == S::kDistance || shape == S::kVector ||
+         shape == S::kRefract || shape == S::kDot;
+}
+
 // Returns how many arguments a function of numbers takes that has no IntrinsicRule; 0: it is none.
 size_t other_arguments(std::string_view name) {
   if (name == "mul" || name == "and" || name == "or" || name == "modf" || name == "frexp") return 2;
@@ -76,12 +82,13 @@ bool Intrinsics::check_count(std::string_view name, size_t given, size_t lowest,
   return false;
 }
 
-void Intrinsics::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location) {
+void Intrinsics::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location,
+                               bool is_lenient) {
   if (!body_.function) return;
   const bool known =
       std::any_of(body_.function->stage_uses.begin(), body_.function->stage_uses.end(),
                   [&](const StageUse& use) { return use.name == name; });
-  if (!known) body_.function->stage_uses.push_back({location.raw, name, stages});
+  if (!known) body_.function->stage_uses.push_back({location.raw, name, stages, false, is_lenient});
 }
 
 std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<Value>& arguments,
@@ -144,7 +151,7 @@ std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<
   if (const BarrierRule* rule = find_barrier(name)) {
     if (!check_count(name, count, 0, 0, location)) return error_value();
     const bool group = rule->flags & (ir::kGroupMemory | ir::kGroupSync);
-    if (group && name != "AllMemoryBarrier") use_in_stages(name, ir::kStageCompute, location);
+    if (group) use_in_stages(name, ir::kStageCompute, location, name == "AllMemoryBarrier");
     if (body_.function && (rule->flags & ir::kGroupSync)) body_.function->has_barrier = true;
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kBarrier);
     statement->barrier = rule->flags;
@@ -194,6 +201,14 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
       report(CheckId::kTruncation, location,
              {to_string(first ? type : arguments[i].type), to_string(next)});
     }
+    const bool mixes = (type->is_vector() && arguments[i].type->is_matrix()) ||
+                       (type->is_matrix() && arguments[i].type->is_vector());
+    if (mixes) {
+      report(CheckId::kMixedShapes, location,
+             {std::string(rule.name), to_string(type), to_string(arguments[i].type)});
+      // Functions of vectors take the matrix for one.
+      if (takes_vectors_only(shape)) next = types_.vector(next->scalar, next->components());
+    }
     type = next;
   }
   const bool matrix_operation = shape == S::kTranspose || shape == S::kDeterminant;
@@ -214,9 +229,13 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
             to_string(arguments[index].type)});
     return error_value();
   };
-  const bool vectors_only = shape == S::kLength || shape == S::kDistance || shape == S::kVector ||
-                            shape == S::kRefract || shape == S::kDot;
-  if (vectors_only && type->is_matrix()) return refuse(0, "a vector");
+  const bool scalars_only = shape == S::kLit || shape == S::kRefract;
+  for (size_t i = shape == S::kLit ? 0 : joined; scalars_only && i < arguments.size(); ++i) {
+    if (arguments[i].type->components() == 1 || arguments[i].type->is_enum()) continue;
+    report(CheckId::kScalarArgument, arguments[i].location,
+           {std::to_string(i + 1), std::string(rule.name), to_string(arguments[i].type)});
+  }
+  if (takes_vectors_only(shape) && type->is_matrix()) return refuse(0, "a vector");
   if (matrix_operation && type->is_vector()) return refuse(0, "a matrix");
   if (matrix_operation && !type->is_matrix()) {
     // A scalar is a matrix of one element.

@@ -239,6 +239,10 @@ Value Operators::binary_value(BinaryOp op, const Value& left, const Value& right
   const bool logical = op == BinaryOp::kLogicalAnd || op == BinaryOp::kLogicalOr;
   if (logical) type = types_.with_scalar(type, Scalar::kBool);
   if (is_shift(op)) {
+    const bool by_float = is_floating(right.type->scalar) && !is_floating(left.type->scalar);
+    if (by_float) {
+      report(CheckId::kShiftByFloat, location, {std::string(spelling(op)), to_string(right.type)});
+    }
     // The left operand decides the type; a literal shifted by a variable is an int.
     const Type* own = left.type;
     Scalar scalar = own->scalar;

@@ -283,6 +283,11 @@ void Places::store(const Value& target, const ir::Expr* value) {
     statement->value = lower_.textures.to_texel(stored, target.whole ? target.whole : target.type);
     body_.emit(statement);
   } else if (target.kind == ValueKind::kExpr) {
+    const ir::Expr* root = target.expr;
+    while (root->kind != ir::ExprKind::kVariable && !root->operands.empty()) {
+      root = root->operands[0];
+    }
+    assigned_.insert(root->variable);
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
     statement->place = target.expr;
     statement->value = value;

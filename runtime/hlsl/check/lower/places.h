@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 
@@ -27,6 +28,8 @@ class Places : LowerPart {
   bool require_target(const Value& value, SourceLocation location, std::string_view purpose);
   // What a write to a cast changes: `(float2)v = x` leaves v.zw alone.
   Value place_under_cast(const Value& value);
+  // Whether anything is stored in the variable or a part of it.
+  bool is_assigned(const ir::Variable* variable) const { return assigned_.contains(variable); }
   bool require_place(const Value& value, SourceLocation location, std::string_view purpose);
   void freeze(Value& value, size_t* position);
   const ir::Expr* frozen(const ir::Expr* expr, size_t* position);
@@ -45,6 +48,7 @@ class Places : LowerPart {
   void store_component(const Value& target, uint32_t component, const ir::Expr* value);
   const ir::Expr* freeze_place(const ir::Expr* expr, size_t* position);
 
+  std::set<const ir::Variable*> assigned_;
   std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // for kBinding
 };
 

@@ -57,6 +57,11 @@ Value Resources::index_resource(const Value& base, const Value& index, SourceLoc
   const bool is_unsigned = index.type && index.type->is_numeric() &&
                            plain_scalar(index.type->scalar) != Scalar::kInt32 &&
                            index.type->scalar != Scalar::kLiteralInt;
+  if (index.type && index.type->is_vector() && index.type->columns > traits.coordinates) {
+    report(
+        CheckId::kTextureIndex, location,
+        {to_string(type), std::to_string(index.type->columns), std::to_string(traits.coordinates)});
+  }
   const ir::Expr* coordinates = to_vector(index, is_unsigned ? Scalar::kUint32 : Scalar::kInt32,
                                           traits.coordinates, location);
   if (!coordinates) return error_value();

@@ -246,6 +246,10 @@ std::optional<uint32_t> Statements::most_turns(const Stmt& loop) {
 void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt* body,
                             bool test_at_end, const Stmt& statement) {
   at(statement.location);
+  if (find_attribute(statement.attributes, "loop") &&
+      find_attribute(statement.attributes, "unroll")) {
+    report(CheckId::kLoopAttributes, statement.location, {"loop", "unroll"});
+  }
   ir::Stmt* node = build_.stmt(ir::StmtKind::kLoop);
   node->test_at_end = test_at_end;
   ir::Block* outer = body_.block;
@@ -293,6 +297,7 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
 }
 
 void Statements::lower_switch(const SwitchStmt* statement) {
+  if (statement->sections.empty()) report(CheckId::kEmptySwitch, statement->location);
   Value selector = lower_.expressions.lower(statement->condition);
   selector = lower_.conversions.settle(selector);
   at(statement->location);

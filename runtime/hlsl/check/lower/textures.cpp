@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/lower/textures.h"
 
+#include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 #include "runtime/hlsl/ir/builtin_types.h"
@@ -71,6 +72,7 @@ Value Textures::call_load(const Value& object, std::vector<Value>& arguments,
     const ir::Expr* offset =
         lower_.resources.to_vector(arguments[1], Scalar::kInt32, size, arguments[1].location);
     if (!offset) return error_value();
+    check_offset(offset, arguments[1].location);
     at(location);
     const ir::Expr* raw = build_.expr(ir::ExprKind::kTypedLoad, types_.texel_of(type->element)->ir,
                                       {resource, coordinates, mip, offset});
@@ -211,6 +213,7 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
   if (offsets && arguments.size() > fixed) {
     operands.push_back(lower_.resources.to_vector(arguments[fixed], Scalar::kInt32, dimensions,
                                                   arguments[fixed].location));
+    if (!gathers) check_offset(operands.back(), arguments[fixed].location);
   }
   if (clamp && from_quad)
     operands.push_back(
@@ -231,6 +234,18 @@ Value Textures::call_sample(const Value& object, const SampleRule& rule,
     lower_.pixel_intrinsics.use_implicit_level(rule.name, node, location);
   }
   return rvalue(node, result);
+}
+
+// A known offset is one that an instruction can hold. [DXC]
+void Textures::check_offset(const ir::Expr* offset, SourceLocation location) {
+  const auto bits = offset ? evaluate(offset) : std::nullopt;
+  if (!bits) return;
+  for (const uint64_t component : *bits) {
+    const int64_t number = static_cast<int64_t>(component);
+    if (number >= -8 && number <= 7) continue;
+    report(CheckId::kTexelOffset, location, {std::to_string(number)});
+    return;
+  }
 }
 
 // Component i of the result comes from the texels at offset i.

@@ -25,6 +25,7 @@ class Textures : LowerPart {
   const ir::Expr* to_texel(const ir::Expr* value, const Type* type);
 
  private:
+  void check_offset(const ir::Expr* offset, SourceLocation location);
   Value call_load(const Value& object, std::vector<Value>& arguments, SourceLocation location);
   Value call_sample(const Value& object, const SampleRule& rule, std::vector<Value>& arguments,
                     SourceLocation location);

@@ -133,7 +133,26 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
     scopes_.add_symbol(scope, SymbolKind::kVariable, variable->name, variable->location)->variable =
         info;
   }
+  report_overlaps(members);
   place(members, binding, structure->ir);
+}
+
+// Only offsets that are written can overlap, and DXC refuses them in a cbuffer.
+void Bindings::report_overlaps(const std::vector<BufferMember>& members) {
+  for (size_t i = 0; i < members.size(); ++i) {
+    const BufferMember& member = members[i];
+    if (member.written < 0) continue;
+    for (size_t k = 0; k < i; ++k) {
+      const BufferMember& other = members[k];
+      if (other.written < 0 || member.written >= other.written + other.size ||
+          other.written >= member.written + member.size) {
+        continue;
+      }
+      report(CheckId::kPackOverlap, member.location,
+             {std::string(member.name), std::string(other.name)});
+      break;
+    }
+  }
 }
 
 // The byte offset of packoffset; -1 without one.

@@ -34,6 +34,7 @@ class Bindings : NamesPart {
   void open_globals_buffer(SourceLocation location);
   BufferMember make_member(const VariableDecl* decl, const Type* type, Scope* scope,
                            BindingInfo* buffer, ir::Struct* structure);
+  void report_overlaps(const std::vector<BufferMember>& members);
   int64_t pack_offset(const VariableDecl* decl, const BufferMember& member);
   int64_t constant_register(const VariableDecl* decl, const BufferMember& member);
   void place(const std::vector<BufferMember>& members, BindingInfo* buffer, ir::Struct* structure);

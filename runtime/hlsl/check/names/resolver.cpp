@@ -89,6 +89,16 @@ bool Resolver::lacks_matrix_order(const TypeSyntax* syntax, Scope* scope) {
   return symbol->kind == SymbolKind::kType && symbol->lacks_matrix_order;
 }
 
+// unorm and snorm say how the texels of a view of floats are stored.
+const Type* Resolver::check_norm(const TypeSyntax* syntax, const Type* type) {
+  const Modifiers norm = syntax->modifiers & (kModUnorm | kModSnorm);
+  if (norm && type->is_numeric() && !is_floating(type->scalar)) {
+    report(CheckId::kNormType, syntax->location,
+           {(norm & kModUnorm) ? "unorm" : "snorm", to_string(type)});
+  }
+  return type;
+}
+
 const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
   if (!syntax) return types_.error();
   switch (syntax->kind) {
@@ -103,13 +113,14 @@ const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
               ? true
               : program_.options->row_major && !(syntax->modifiers & kModColumnMajor);
       if (syntax->rows == 0 && syntax->columns == 1) return types_.single(scalar);
-      return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
+      return check_norm(syntax, types_.numeric(scalar, syntax->rows, syntax->columns, row_major));
     }
     case TypeSyntaxKind::kNamed: {
       const Type* type = unsigned_twin(syntax, resolve_named(syntax, scope));
       const bool packs = syntax->pack_matrix != 0 && type->is_matrix();
-      return apply_storage(type, packs && lacks_matrix_order(syntax, scope) ? syntax->pack_matrix
-                                                                            : syntax->modifiers);
+      return check_norm(syntax, apply_storage(type, packs && lacks_matrix_order(syntax, scope)
+                                                        ? syntax->pack_matrix
+                                                        : syntax->modifiers));
     }
     case TypeSyntaxKind::kDefinition: {
       if (!syntax->definition) return types_.error();

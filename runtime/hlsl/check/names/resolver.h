@@ -27,6 +27,7 @@ class Resolver : NamesPart {
   bool lacks_matrix_order(const TypeSyntax* syntax, Scope* scope);
 
  private:
+  const Type* check_norm(const TypeSyntax* syntax, const Type* type);
   const Type* unsigned_twin(const TypeSyntax* syntax, const Type* type);
   const Type* resolve_named(const TypeSyntax* syntax, Scope* scope);
   const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);

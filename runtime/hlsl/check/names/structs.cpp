@@ -245,6 +245,10 @@ void Structs::declare_member(StructInfo* info, const Decl* member) {
     report(CheckId::kMemberInitialiser, variable->location, {std::string(variable->name)});
   }
   warn_of_width(variable, type, info->scope);
+  if (variable->annotations.pack_offset) {
+    report(CheckId::kPackOffsetPlace, variable->annotations.pack_offset->location,
+           {std::string(variable->name)});
+  }
   info->open_bits = 0;
   FieldInfo& field = info->fields.emplace_back();
   field.name = variable->name;

@@ -42,7 +42,7 @@ struct VariableInfo : GlobalFacts {
   std::string_view name;
   const Type* type = nullptr;
   bool is_const = false;
-  uint32_t references = 0;             // kLocal: how often it has been named so far
+  uint32_t references = 0;             // how often it has been named so far
   bool is_loop_variable = false;       // of a `for` of HLSL 2018, which outlives the loop
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember

@@ -51,6 +51,10 @@ void Variables::declare_variable(const VariableDecl* decl, Scope* scope) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
     return;
   }
+  if (decl->annotations.pack_offset) {
+    report(CheckId::kPackOffsetPlace, decl->annotations.pack_offset->location,
+           {std::string(decl->name)});
+  }
   if (type->is_query()) {
     report(CheckId::kRayQueryPlace, decl->location, {to_string(type), "a global variable"});
     return;

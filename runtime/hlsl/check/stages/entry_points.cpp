@@ -118,6 +118,11 @@ void EntryPoints::check_entry_point(FunctionInfo* function, uint32_t stage,
            {std::string(stage_name(stage)), name, to_string(function->result)});
     valid = false;
   }
+  if (const Attribute* attribute = find_attribute(*function, "numthreads");
+      attribute && stage != ir::kStageCompute) {
+    report(CheckId::kIgnoredInStage, attribute->location,
+           {"numthreads", std::string(stage_name(stage))});
+  }
   // The body is checked even if the signature is wrong, so that one run reports all errors.
   lower_.calls.lower_function(function, location);
   const bool parameters =
