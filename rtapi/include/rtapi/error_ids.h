@@ -519,6 +519,8 @@ inline constexpr ErrorId kMixedShapes{2491};  ///< '{0}' of '{1}' and '{2}': of 
 inline constexpr ErrorId kTexelOffset{2492};  ///< texel offset {0} is outside of -8 to 7
 inline constexpr ErrorId kScalarArgument{2493};  ///< argument {0} of '{1}' must be a scalar, not '{2}', of which the first component is used
 inline constexpr ErrorId kTextureIndex{2494};  ///< the index of a '{0}' has {1} components, of which it takes {2}
+inline constexpr ErrorId kConstantDivision{2495};  ///< division by a constant 0
+inline constexpr ErrorId kConstantShift{2496};  ///< a constant is shifted by at least its {0} bits
 inline constexpr ErrorId kNotCallable{2500};  ///< the called expression is not a function
 inline constexpr ErrorId kNoOverload{2501};  ///< no matching function for the call to '{0}' with {1}
 inline constexpr ErrorId kAmbiguousCall{2502};  ///< the call to '{0}' with {1} is ambiguous
@@ -533,6 +535,7 @@ inline constexpr ErrorId kAtomicType{2510};  ///< '{0}' needs a scalar of 32 or 
 inline constexpr ErrorId kAtomicTarget{2511};  ///< the target of '{0}' must be groupshared or in a writable resource
 inline constexpr ErrorId kImplicitLevel{2512};  ///< '{0}' needs derivatives, which this stage does not have; mip level 0 is used: write SampleLevel
 inline constexpr ErrorId kUserStruct{2513};  ///< {0} must be a struct without resources, not '{1}'
+inline constexpr ErrorId kAmbiguousStrict{2514};  ///< the call to '{0}' with {1} takes the function, which DXC calls ambiguous with a template's instance
 inline constexpr ErrorId kStrayJump{2520};  ///< '{0}' must be inside {1}
 inline constexpr ErrorId kSwitchType{2521};  ///< switch needs an integer, not '{0}'
 inline constexpr ErrorId kDuplicateCase{2522};  ///< duplicate case label '{0}'
@@ -541,6 +544,9 @@ inline constexpr ErrorId kReturnsNothing{2524};  ///< this function must return 
 inline constexpr ErrorId kMissingReturn{2525};  ///< '{0}' can reach its end without a return; it then returns zero
 inline constexpr ErrorId kLoopAttributes{2526};  ///< [{0}] and [{1}] exclude each other
 inline constexpr ErrorId kEmptySwitch{2527};  ///< the switch has no case
+inline constexpr ErrorId kEndlessLoop{2528};  ///< nothing ends this loop
+inline constexpr ErrorId kUnrollCount{2529};  ///< [unroll] cannot tell how often the loop runs
+inline constexpr ErrorId kReturnsThis{2530};  ///< DXC cannot return 'this' as a whole
 inline constexpr ErrorId kRegisterClass{2540};  ///< register '{0}' cannot be used for '{2}'; a '{1}' register is needed
 inline constexpr ErrorId kTwoRegisters{2541};  ///< '{0}' already has a register
 inline constexpr ErrorId kRegisterRange{2542};  ///< the registers of '{0}' extend past 4294967295
@@ -550,6 +556,8 @@ inline constexpr ErrorId kPackOffset{2545};  ///< packoffset of '{0}' does not w
 inline constexpr ErrorId kBufferSize{2546};  ///< constant buffer '{0}' has {1} bytes; the limit is 65536
 inline constexpr ErrorId kPackOverlap{2547};  ///< packoffset of '{0}' overlaps '{1}'
 inline constexpr ErrorId kPackOffsetPlace{2548};  ///< packoffset of '{0}' is ignored: it is for members of a constant buffer
+inline constexpr ErrorId kElementSize{2549};  ///< an element of '{0}' has {1} bytes; D3D12 allows 2048
+inline constexpr ErrorId kGroupsharedSize{2550};  ///< the groupshared variables of '{0}' take {1} bytes; D3D12 allows 32768
 inline constexpr ErrorId kShaderAttribute{2560};  ///< [shader()] takes "raygeneration", "intersection", "anyhit", "closesthit", "miss", "callable", "compute", "vertex" or "pixel", not {0}
 inline constexpr ErrorId kSkippedStage{2561};  ///< '{0}' is skipped: {1} shaders are not supported yet
 inline constexpr ErrorId kNoEntryPoint{2562};  ///< entry point '{0}' not found
@@ -575,6 +583,9 @@ inline constexpr ErrorId kRayQueryPlace{2582};  ///< a {0} cannot be {1}; make i
 inline constexpr ErrorId kUnassignedResource{2583};  ///< static '{0}' is used, and nothing assigns a resource to it
 inline constexpr ErrorId kIgnoredInStage{2584};  ///< [{0}] has no effect on a {1} shader
 inline constexpr ErrorId kStageStrict{2585};  ///< DXC allows '{0}' only in {1}, but {2} shader '{3}' reaches it
+inline constexpr ErrorId kUninitialised{2586};  ///< variable '{0}' is read, and nothing writes it: it is zero
+inline constexpr ErrorId kOutUnwritten{2587};  ///< out parameter '{0}' is never written: it is zero
+inline constexpr ErrorId kNeedsModel{2588};  ///< '{0}' needs Shader Model {1}, and the target is {2}
 inline constexpr ErrorId kSubobjectCount{2590};  ///< '{0}' takes {1} arguments; {2} given
 inline constexpr ErrorId kSubobjectString{2591};  ///< argument {0} of '{1}' must be a string
 inline constexpr ErrorId kSubobjectRange{2592};  ///< the value {0} is out of range

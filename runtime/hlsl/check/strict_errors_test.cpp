@@ -56,6 +56,41 @@ const std::vector<StrictCase>& strict_cases() {
       {"ThreadsOfPixelShader", Id::kIgnoredInStage, "[@numthreads(1, 1, 1)]\n" + pixel(""),
        "ps_6_6"},
       {"UnormIntegers", Id::kNormType, kernel("unorm @uint4 u = 0;")},
+      {"NeverWritten", Id::kUninitialised, kernel("uint @x;\nresults.Store(0, x);")},
+      {"NeverWrittenStruct", Id::kUninitialised,
+       kernel("S @s;\nresults.Store(0, s.a);", "struct S { uint a; };")},
+      {"EndlessWhile", Id::kEndlessLoop, kernel("@while (true) results.Store(0, 1);")},
+      {"EndlessFor", Id::kEndlessLoop,
+       kernel("@for (;;) { switch (results.Load(0)) { case 1: break; } }")},
+      {"UnrollByMemory", Id::kUnrollCount,
+       kernel("[@unroll] for (uint i = 0; i < n; ++i) results.Store(0, i);",
+              "cbuffer C { uint n; };")},
+      {"ReturnsThis", Id::kReturnsThis,
+       kernel("S s = {1};\nresults.Store(0, s.copy().a);",
+              "struct S { uint a; S copy() { return @this; } };")},
+      {"DividesByZero", Id::kConstantDivision,
+       kernel("results.Store(0, a);", "static const uint a = 7u @/ 0u;")},
+      {"VariableByZero", Id::kConstantDivision,
+       kernel("uint2 v = results.Load(0);\nv = v @% uint2(1, 0);")},
+      {"ShiftByAllBits", Id::kConstantShift,
+       kernel("results.Store(0, a);", "static const uint a = 1u @<< 32;")},
+      {"HeapOfOlderModel", Id::kNeedsModel,
+       kernel("ByteAddressBuffer b = @ResourceDescriptorHeap[0];"), "lib_6_5"},
+      {"AtomicOfOlderModel", Id::kNeedsModel, kernel("results.@InterlockedAdd64(0, 1);"),
+       "lib_6_5"},
+      {"QuadAnyOfOlderModel", Id::kNeedsModel, kernel("bool b = @QuadAny(true);"), "lib_6_6"},
+      {"RayQueryOfOlderModel", Id::kNeedsModel, kernel("RayQuery<0> @q;"), "lib_6_4"},
+      {"LongElement", Id::kElementSize,
+       kernel("results.Store(0, asuint(b[0].x[0]));",
+              "struct S { float x[600]; };\nStructuredBuffer<S> @b;")},
+      {"MuchGroupshared", Id::kGroupsharedSize,
+       kernel("a[0] = b[0] = 1;", "groupshared float4 a[1024];\ngroupshared float4 @b[1025];")},
+      {"GroupsharedInRays", Id::kStageStrict,
+       "groupshared uint a;\n[shader(\"raygeneration\")] void main() { @a = 1; }"},
+      {"FunctionBesideInstance", Id::kAmbiguousStrict,
+       kernel("results.Store(0, @f(1u));",
+              "uint f(uint a) { return 1; }\ntemplate <typename T> T f(T a) { return 2; }")},
+      {"VectorCondition", Id::kVectorLogic, kernel("float2 a = 1;\na = a > 1 @? a : 2;")},
       {"SnormTexels", Id::kNormType, kernel("", "Buffer<snorm @int> b;")},
   };
   return all;
@@ -79,13 +114,37 @@ TEST_P(Strict, Refuses) {
 INSTANTIATE_TEST_SUITE_P(All, Strict, testing::ValuesIn(strict_cases()),
                          [](const auto& one) { return one.param.name; });
 
+TEST(StrictOnly, ChecksBodiesThatNothingReaches) {
+  const std::string text = "void unused() {\nreturn @nonsense; }\n" + kernel("");
+  FrontendOptions options;
+  EXPECT_NE(Compilation(strip_mark(text).text, options).module, nullptr);
+  options.strict = true;
+  expect_at_mark(Id::kUndeclared, text, options);
+  // What depends on the caller, or is a limit of this compiler, does not count.
+  const Compilation whole(
+      "uint twice(uint a) { return a == 0 ? 0 : twice(a - 1); }\nuint other(uint a);\n"
+      "uint third(uint a) { uint b; return other(a) / 0u + b; }\n" +
+          kernel(""),
+      options);
+  EXPECT_NE(whole.module, nullptr) << whole.messages();
+}
+
+TEST(OutParameters, NeverWritten) {
+  expect_at_mark(Id::kOutUnwritten,
+                 kernel("uint a;\nput(a);\nresults.Store(0, a);", "void put(out uint @v) {}"));
+}
+
 TEST(StrictDoesNot, RefuseWhatDxcTakes) {
   FrontendOptions options;
   options.strict = true;
   const Compilation compilation(
       kernel("t = u;\nresults.Store(0, t.Load(0, int2(7, -8)).x + u[uint2(0, 0)].x + a + b);\n"
              "results.Store(0, dot(float4(1, 2, 3, 4), float4(1, 1, 1, 1)) * (1 << 2));\n"
-             "[unroll] for (uint i = 0; i < 3; ++i) results.Store(0, i);",
+             "[unroll] for (uint i = 0; i < 3; ++i) results.Store(0, i);\n"
+             "E e; results.Store(0, e.get()); P p; p.a = 1; results.Store(0, p.a + p.b);\n"
+             "while (true) { if (results.Load(0) == 1) break; }\n"
+             "for (;;) { if (results.Load(0) == 1) return; }",
+             "struct E { uint get() { return 1; } };\nstruct P { uint a; uint b; };\n"
              "static Texture2D<uint4> t;\nTexture2D<uint4> u;\n"
              "cbuffer C { uint a : packoffset(c0.y); uint b : packoffset(c0.x); }"),
       options);

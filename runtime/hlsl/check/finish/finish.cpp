@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/finish/finish.h"
 
+#include <algorithm>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "runtime/hlsl/builder/finish/finish_module.h"
 #include "runtime/hlsl/builder/finish/payload_uses.h"
 #include "runtime/hlsl/builder/payload_access.h"
+#include "runtime/hlsl/check/names/layout.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 
 namespace kaamos::hlsl {
@@ -102,7 +105,56 @@ void Finish::run() {
     }
   }
   Reports reports(messages_);
+  check_groupshared();
   finish_module(bench_.module, build_, program_.facts, reports);
+  check_unreached();
+}
+
+// The memory that the groups of one shader share is limited. [D3D12]
+void Finish::check_groupshared() {
+  constexpr uint32_t kMaxBytes = 32768;
+  for (const auto& [facts, index] : program_.facts.entries) {
+    std::set<const FunctionFacts*> seen;
+    std::set<const VariableInfo*> shared;
+    const std::function<void(const FunctionFacts*)> visit = [&](const FunctionFacts* function) {
+      if (!function || !seen.insert(function).second) return;
+      for (const GlobalFacts* global : function->globals) {
+        if (global->variable->storage == ir::Storage::kGroupShared) {
+          shared.insert(static_cast<const VariableInfo*>(global));
+        }
+      }
+      for (const FunctionFacts* callee : function->callees) visit(callee);
+    };
+    visit(facts);
+    uint64_t bytes = 0;
+    const VariableInfo* last = nullptr;
+    for (const VariableInfo* variable : shared) {
+      bytes += layout_of(variable->type, ir::Layout::kStructured).size;
+      if (!last || last->decl->location.raw < variable->decl->location.raw) last = variable;
+    }
+    if (bytes <= kMaxBytes) continue;
+    report(CheckId::kGroupsharedSize, last->decl->location,
+           {bench_.module.entry_points[index].name, std::to_string(bytes)});
+  }
+}
+
+// DXC checks what no entry point reaches, too.
+void Finish::check_unreached() {
+  if (!program_.options->strict || program_.link) return;
+  const size_t imports = bench_.module.imports.size();
+  messages_.enter_unreached();
+  for (size_t i = 0; i < program_.functions.size(); ++i) {
+    FunctionInfo& function = program_.functions[i];
+    const bool is_whole = function.definition && !function.is_template &&
+                          function.template_suffix.empty() && !function.signature_failed &&
+                          std::none_of(function.parameters.begin(), function.parameters.end(),
+                                       [](const ParameterInfo& one) { return one.is_unbounded(); });
+    if (is_whole && function.state == FunctionInfo::State::kPending) {
+      lower_.calls.lower_function(&function, function.definition->location);
+    }
+  }
+  messages_.leave_unreached();
+  bench_.module.imports.resize(imports);
 }
 
 void Finish::check_payload_uses() {

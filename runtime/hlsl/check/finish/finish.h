@@ -15,6 +15,10 @@ class Finish : StagePart {
   void check_payload_uses();
   // Bodies that nothing reaches were not checked.
   void warn_skipped();
+
+ private:
+  void check_groupshared();
+  void check_unreached();
 };
 
 }  // namespace kaamos::hlsl

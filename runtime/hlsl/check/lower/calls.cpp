@@ -454,6 +454,7 @@ void Calls::lower_function(FunctionInfo* function, SourceLocation use) {
       body.push_back(end);
     }
     function->ir->body = std::move(body);
+    lower_.body_rules.check_variables(*function);
   }
   bench_.depth = depth;
   --function_depth_;

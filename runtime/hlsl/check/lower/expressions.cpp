@@ -179,6 +179,9 @@ Value Expressions::variable_value(VariableInfo* variable, SourceLocation locatio
     case VariableKind::kGlobal: {
       lower_.initialisers.initialise(variable);
       ++variable->references;
+      if (variable->variable && variable->variable->storage == ir::Storage::kGroupShared) {
+        lower_.intrinsics.use_in_stages(variable->name, ir::kStageCompute, location, true);
+      }
       at(location);
       if (body_.function) body_.function->globals.push_back(variable);
       return lower_.places.place(variable->variable, variable->type, variable->is_const);
@@ -246,6 +249,7 @@ Value Expressions::lower_name(const NameExpr* expr) {
     const std::string_view identifier = name.last().identifier;
     const bool is_sampler = identifier == "SamplerDescriptorHeap";
     if (is_sampler || identifier == "ResourceDescriptorHeap") {
+      lower_.body_rules.check_model(identifier, expr->location);
       Value value;
       value.kind = ValueKind::kHeap;
       value.is_sampler_heap = is_sampler;

@@ -96,6 +96,7 @@ std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<
   const std::string_view name = part.identifier;
   const size_t count = arguments.size();
   at(location);
+  lower_.body_rules.check_model(name, location);
   if (name == "mul") return call_mul(arguments, location);
   if (lower_.packed_numbers.is_packed_intrinsic(name))
     return lower_.packed_numbers.call_packed(name, arguments, location);

@@ -114,6 +114,7 @@ void Locals::lower_local(const VariableDecl* decl) {
     node->variable = info->variable;
     node->value = value;
     body_.emit(node);
+    if (!decl->initializer) lower_.body_rules.note_without_value(*info, decl->location);
   }
   // `const uint n = 4; float a[n];`
   const bool is_known = info->is_const && !uses_itself && value &&

@@ -10,6 +10,7 @@
 #include "runtime/hlsl/check/lower/atomics.h"
 #include "runtime/hlsl/check/lower/bit_fields.h"
 #include "runtime/hlsl/check/lower/body.h"
+#include "runtime/hlsl/check/lower/body_rules.h"
 #include "runtime/hlsl/check/lower/calls.h"
 #include "runtime/hlsl/check/lower/conversions.h"
 #include "runtime/hlsl/check/lower/counters.h"
@@ -55,6 +56,7 @@ class Lowerer final : public Evaluator {
   Workbench& bench;
   Body body;
 
+  BodyRules body_rules{*this};
   Places places{*this};
   Elements elements{*this};
   BitFields bit_fields{*this};

@@ -91,6 +91,13 @@ FunctionInfo* Overloads::resolve_overload(const std::vector<FunctionInfo*>& cand
     if (!beaten) best.push_back(&one);
   }
   if (best.size() == 1) {
+    const bool ties = std::any_of(viable.begin(), viable.end(), [&](const Viable& other) {
+      return &other != best[0] && other.cost == best[0]->cost;
+    });
+    if (ties && !quiet) {
+      report(CheckId::kAmbiguousStrict, location,
+             {std::string(part.identifier), describe(arguments)});
+    }
     if (lowest) *lowest = best[0]->cost;
     return best[0]->function;
   }

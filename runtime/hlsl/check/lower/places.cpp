@@ -7,6 +7,7 @@
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/layout.h"
 #include "runtime/hlsl/ir/builtin_types.h"
+#include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -283,11 +284,7 @@ void Places::store(const Value& target, const ir::Expr* value) {
     statement->value = lower_.textures.to_texel(stored, target.whole ? target.whole : target.type);
     body_.emit(statement);
   } else if (target.kind == ValueKind::kExpr) {
-    const ir::Expr* root = target.expr;
-    while (root->kind != ir::ExprKind::kVariable && !root->operands.empty()) {
-      root = root->operands[0];
-    }
-    assigned_.insert(root->variable);
+    assigned_.insert(ir::root_of(target.expr));
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
     statement->place = target.expr;
     statement->value = value;

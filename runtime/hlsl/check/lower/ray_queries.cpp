@@ -24,6 +24,7 @@ const ir::Expr* RayQueries::query_object(const Value& value, const Type* type) {
 
 // With an initialiser, the variable becomes a second name for that object. [DXR: RayQuery]
 void RayQueries::lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info) {
+  lower_.body_rules.check_model("RayQuery", decl->location);
   if (decl->modifiers & kModStatic) {
     report(CheckId::kRayQueryPlace, decl->location, {to_string(type), "static"});
     return;

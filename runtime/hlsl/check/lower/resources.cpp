@@ -76,6 +76,7 @@ Value Resources::index_resource(const Value& base, const Value& index, SourceLoc
 
 Value Resources::call_resource_method(const Value& object, const NamePart& part,
                                       std::vector<Value>& arguments, SourceLocation location) {
+  lower_.body_rules.check_model(part.identifier, location);
   const Type* type = object.type;
   const std::string_view name = part.identifier;
   const ResourceTraits& traits = traits_of(type->resource);

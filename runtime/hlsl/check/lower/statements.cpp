@@ -292,6 +292,12 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
     body_.block = outer;
     const ir::Expr* left = build_.binary(ir::BinaryOp::kLess, turn, build_.uint32(*most));
     node->value = node->value ? build_.binary(ir::BinaryOp::kBitAnd, node->value, left) : left;
+  } else {
+    lower_.body_rules.check_loop(*node, statement.location);
+  }
+  const Attribute* unroll = find_attribute(statement.attributes, "unroll");
+  if (unroll && unroll->arguments.empty()) {
+    lower_.body_rules.check_unroll(*node, unroll->location);
   }
   body_.emit(node);
 }
@@ -380,6 +386,9 @@ void Statements::lower_return(const ReturnStmt* statement) {
       body_.function && body_.function->result ? body_.function->result : types_.void_type();
   const ir::Expr* value = nullptr;
   if (statement->value) {
+    if (statement->value->kind == ExprKind::kThis) {
+      report(CheckId::kReturnsThis, statement->value->location);
+    }
     Value given = lower_.expressions.lower(statement->value);
     if (result->is_void()) {
       const bool is_void = !given.failed() && given.type && given.type->is_void();

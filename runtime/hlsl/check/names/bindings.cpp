@@ -58,7 +58,11 @@ VariableInfo* Bindings::make_binding(const std::string& name, const Type* type,
   if (element->resource == ir::ResourceKind::kConstantBuffer) {
     binding->size_bytes = layout_of(element->element, ir::Layout::kConstantBuffer).size;
   } else if (has_elements(element->resource)) {
+    constexpr uint32_t kMaxElementBytes = 2048;
     binding->size_bytes = layout_of(element->element, ir::Layout::kStructured).size;
+    if (binding->size_bytes > kMaxElementBytes) {
+      report(CheckId::kElementSize, location, {name, std::to_string(binding->size_bytes)});
+    }
   }
   VariableInfo* info = &program_.variables.emplace_back();
   info->kind = VariableKind::kBinding;

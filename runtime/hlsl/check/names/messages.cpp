@@ -6,11 +6,31 @@
 
 namespace kaamos::hlsl {
 
+namespace {
+
+// What DXC finds where a function is defined, not where it is reached, and no warnings.
+bool counts_unreached(DiagnosticId id) {
+  switch (id) {
+    case DiagnosticId::kRecursion:
+    case DiagnosticId::kCallDepth:
+    case DiagnosticId::kNoBody:
+    case DiagnosticId::kUnsupported:
+    case DiagnosticId::kTooDeep:
+    case DiagnosticId::kStage:
+      return false;
+    default:
+      return diagnostic_info(id).severity == DiagnosticClass::kError;
+  }
+}
+
+}  // namespace
+
 void Messages::report_with_notes(DiagnosticId id, SourceLocation location,
                                  const std::vector<std::string>& arguments,
                                  const std::vector<std::pair<SourceLocation, std::string>>& notes) {
   const bool is_error = diagnostic_info(id).severity == DiagnosticClass::kError ||
                         (diagnostic_info(id).severity == DiagnosticClass::kStrict && strict_);
+  if (is_unreached_ && !counts_unreached(id)) return;
   if (is_error) ++error_count_;
   if (muted_ > 0) return;
   has_errors_ = has_errors_ || is_error;

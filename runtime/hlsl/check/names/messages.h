@@ -41,6 +41,10 @@ class Messages {
   void mute() { ++muted_; }
   void unmute() { --muted_; }
 
+  // In functions that no entry point reaches, only mistakes count that need no whole program.
+  void enter_unreached() { is_unreached_ = true; }
+  void leave_unreached() { is_unreached_ = false; }
+
   bool has_errors() const { return has_errors_; }
   // The parser's too.
   bool has_any_errors() const { return has_errors_ || diagnostics_.has_errors(); }
@@ -52,6 +56,7 @@ class Messages {
   ir::Module& module_;
   bool strict_ = false;
   int muted_ = 0;
+  bool is_unreached_ = false;
   size_t error_count_ = 0;
   bool has_errors_ = false;
   std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
