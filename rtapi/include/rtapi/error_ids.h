@@ -520,7 +520,6 @@ inline constexpr ErrorId kTexelOffset{2492};  ///< texel offset {0} is outside o
 inline constexpr ErrorId kScalarArgument{2493};  ///< argument {0} of '{1}' must be a scalar, not '{2}', of which the first component is used
 inline constexpr ErrorId kTextureIndex{2494};  ///< the index of a '{0}' has {1} components, of which it takes {2}
 inline constexpr ErrorId kConstantDivision{2495};  ///< division by a constant 0
-inline constexpr ErrorId kConstantShift{2496};  ///< a constant is shifted by at least its {0} bits
 inline constexpr ErrorId kNotCallable{2500};  ///< the called expression is not a function
 inline constexpr ErrorId kNoOverload{2501};  ///< no matching function for the call to '{0}' with {1}
 inline constexpr ErrorId kAmbiguousCall{2502};  ///< the call to '{0}' with {1} is ambiguous
@@ -586,6 +585,7 @@ inline constexpr ErrorId kStageStrict{2585};  ///< DXC allows '{0}' only in {1},
 inline constexpr ErrorId kUninitialised{2586};  ///< variable '{0}' is read, and nothing writes it: it is zero
 inline constexpr ErrorId kOutUnwritten{2587};  ///< out parameter '{0}' is never written: it is zero
 inline constexpr ErrorId kNeedsModel{2588};  ///< '{0}' needs Shader Model {1}, and the target is {2}
+inline constexpr ErrorId kUndefinedStored{2589};  ///< variable '{0}' is stored, and nothing writes it: it is zero
 inline constexpr ErrorId kSubobjectCount{2590};  ///< '{0}' takes {1} arguments; {2} given
 inline constexpr ErrorId kSubobjectString{2591};  ///< argument {0} of '{1}' must be a string
 inline constexpr ErrorId kSubobjectRange{2592};  ///< the value {0} is out of range

@@ -56,8 +56,8 @@ const std::vector<StrictCase>& strict_cases() {
       {"ThreadsOfPixelShader", Id::kIgnoredInStage, "[@numthreads(1, 1, 1)]\n" + pixel(""),
        "ps_6_6"},
       {"UnormIntegers", Id::kNormType, kernel("unorm @uint4 u = 0;")},
-      {"NeverWritten", Id::kUninitialised, kernel("uint @x;\nresults.Store(0, x);")},
-      {"NeverWrittenStruct", Id::kUninitialised,
+      {"NeverWritten", Id::kUndefinedStored, kernel("uint @x;\nresults.Store(0, x);")},
+      {"NeverWrittenStruct", Id::kUndefinedStored,
        kernel("S @s;\nresults.Store(0, s.a);", "struct S { uint a; };")},
       {"EndlessWhile", Id::kEndlessLoop, kernel("@while (true) results.Store(0, 1);")},
       {"EndlessFor", Id::kEndlessLoop,
@@ -72,13 +72,14 @@ const std::vector<StrictCase>& strict_cases() {
        kernel("results.Store(0, a);", "static const uint a = 7u @/ 0u;")},
       {"VariableByZero", Id::kConstantDivision,
        kernel("uint2 v = results.Load(0);\nv = v @% uint2(1, 0);")},
-      {"ShiftByAllBits", Id::kConstantShift,
-       kernel("results.Store(0, a);", "static const uint a = 1u @<< 32;")},
       {"HeapOfOlderModel", Id::kNeedsModel,
        kernel("ByteAddressBuffer b = @ResourceDescriptorHeap[0];"), "lib_6_5"},
       {"AtomicOfOlderModel", Id::kNeedsModel, kernel("results.@InterlockedAdd64(0, 1);"),
        "lib_6_5"},
-      {"QuadAnyOfOlderModel", Id::kNeedsModel, kernel("bool b = @QuadAny(true);"), "lib_6_6"},
+      {"SampleCmpLevelOfOlderModel", Id::kNeedsModel,
+       kernel("results.Store(0, asuint(t.@SampleCmpLevel(s, 0, 0, 0)));",
+              "Texture2D<float> t;\nSamplerComparisonState s;"),
+       "lib_6_6"},
       {"RayQueryOfOlderModel", Id::kNeedsModel, kernel("RayQuery<0> @q;"), "lib_6_4"},
       {"LongElement", Id::kElementSize,
        kernel("results.Store(0, asuint(b[0].x[0]));",
@@ -129,6 +130,10 @@ TEST(StrictOnly, ChecksBodiesThatNothingReaches) {
   EXPECT_NE(whole.module, nullptr) << whole.messages();
 }
 
+TEST(Variables, ReadAndNeverWritten) {
+  expect_at_mark(Id::kUninitialised, kernel("uint @a;\nresults.Store(0, a + 1);"));
+}
+
 TEST(OutParameters, NeverWritten) {
   expect_at_mark(Id::kOutUnwritten,
                  kernel("uint a;\nput(a);\nresults.Store(0, a);", "void put(out uint @v) {}"));
@@ -141,6 +146,7 @@ TEST(StrictDoesNot, RefuseWhatDxcTakes) {
       kernel("t = u;\nresults.Store(0, t.Load(0, int2(7, -8)).x + u[uint2(0, 0)].x + a + b);\n"
              "results.Store(0, dot(float4(1, 2, 3, 4), float4(1, 1, 1, 1)) * (1 << 2));\n"
              "[unroll] for (uint i = 0; i < 3; ++i) results.Store(0, i);\n"
+             "uint undefined; results.Store(0, (undefined & 0) | (1u << 33));\n"
              "E e; results.Store(0, e.get()); P p; p.a = 1; results.Store(0, p.a + p.b);\n"
              "while (true) { if (results.Load(0) == 1) break; }\n"
              "for (;;) { if (results.Load(0) == 1) return; }",

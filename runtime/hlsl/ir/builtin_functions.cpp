@@ -269,6 +269,8 @@ constexpr Family kUnsupported[] = {
     {"EvaluateAttributeSnapped", "places between pixel centres", true},
     {"GetRenderTargetSample", "pixel shaders", false},
     {"AllocateRayQuery", "the name of an instruction; declare a RayQuery", true},
+    {"DispatchMesh", "mesh shaders", true},
+    {"SetMeshOutputCounts", "mesh shaders", true},
     {"printf", "printf", true},
     {"errorf", "errorf", true},
     {"abort", "abort", true},

@@ -7,6 +7,7 @@
 // EXPECT u32 16 9
 // EXPECT u32 20 6
 // EXPECT u32 24 13
+// EXPECT u32 28 9
 struct Words {
   uint4 first;
   uint4 second;
@@ -25,4 +26,6 @@ void main() {
   results.Store(20, words.second.z);
   RWByteAddressBuffer same = ResourceDescriptorHeap[3];
   same.Store(24, 13u);
+  ByteAddressBuffer chosen = z == 0 ? ResourceDescriptorHeap[1] : ResourceDescriptorHeap[2];
+  results.Store(28, chosen.Load(36));
 }

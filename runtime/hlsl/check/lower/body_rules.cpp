@@ -24,8 +24,6 @@ constexpr Feature kFeatures[] = {
     {"SamplerDescriptorHeap", true, 6},
     {"RayQuery", true, 5},
     {"GeometryIndex", true, 5},
-    {"QuadAny", true, 7},
-    {"QuadAll", true, 7},
     {"dot2add", true, 4},
     {"dot4add_", false, 4},
     {"pack_", false, 6},
@@ -40,10 +38,23 @@ constexpr Feature kFeatures[] = {
     {"InterlockedExchange64", true, 6},
     {"InterlockedCompareExchange64", true, 6},
     {"InterlockedCompareStore64", true, 6},
-    {"InterlockedExchangeFloat", true, 6},
-    {"InterlockedCompareStoreFloatBitwise", true, 6},
-    {"InterlockedCompareExchangeFloatBitwise", true, 6},
 };
+
+bool stores(ir::StmtKind kind) {
+  return kind == ir::StmtKind::kStore || kind == ir::StmtKind::kStoreElement ||
+         kind == ir::StmtKind::kTypedStore;
+}
+
+// The variable that the value is a part of, unchanged but for its type.
+const ir::Variable* part_of(const ir::Expr* value) {
+  while (value && value->kind != ir::ExprKind::kVariable) {
+    const bool is_part =
+        value->kind == ir::ExprKind::kField || value->kind == ir::ExprKind::kElement ||
+        value->kind == ir::ExprKind::kSwizzle || value->kind == ir::ExprKind::kConvert;
+    value = is_part && !value->operands.empty() ? value->operands[0] : nullptr;
+  }
+  return value ? value->variable : nullptr;
+}
 
 bool ends_loop(const ir::Block& block, bool is_inner) {
   return std::any_of(block.begin(), block.end(), [&](const ir::Stmt* statement) {
@@ -83,6 +94,7 @@ void BodyRules::note_without_value(const VariableInfo& variable, SourceLocation 
 void BodyRules::check_variables(const FunctionInfo& function) {
   std::set<const ir::Variable*> written;
   std::set<const ir::Variable*> read;
+  std::set<const ir::Variable*> stored;
   const auto reads = [&](const ir::Expr* expr) {
     ir::visit_expr(expr, [&](const ir::Expr& one) {
       if (one.kind == ir::ExprKind::kVariable) read.insert(one.variable);
@@ -98,6 +110,7 @@ void BodyRules::check_variables(const FunctionInfo& function) {
           });
         }
         for (const ir::Expr* expr : {statement.value, statement.compare}) reads(expr);
+        if (stores(statement.kind)) stored.insert(part_of(statement.value));
         for (const ir::Expr* expr : statement.operands) reads(expr);
         for (size_t i = 0; i < statement.arguments.size(); ++i) {
           // A method that reads no field may have any object.
@@ -110,7 +123,8 @@ void BodyRules::check_variables(const FunctionInfo& function) {
   if (const auto found = noted_.find(&function); found != noted_.end()) {
     for (const Noted& one : found->second) {
       if (read.contains(one.variable) && !written.contains(one.variable)) {
-        report(CheckId::kUninitialised, one.location, {std::string(one.name)});
+        report(stored.contains(one.variable) ? CheckId::kUndefinedStored : CheckId::kUninitialised,
+               one.location, {std::string(one.name)});
       }
     }
   }
@@ -150,21 +164,12 @@ void BodyRules::check_model(std::string_view name, SourceLocation location) {
   }
 }
 
-void BodyRules::check_constants(ir::BinaryOp op, const ir::Expr* left, const ir::Expr* right,
-                                SourceLocation location) {
+void BodyRules::check_divisor(ir::BinaryOp op, const ir::Expr* right, SourceLocation location) {
   const bool divides = op == ir::BinaryOp::kDivide || op == ir::BinaryOp::kModulo;
-  const bool shifts = op == ir::BinaryOp::kShiftLeft || op == ir::BinaryOp::kShiftRight;
-  if ((!divides && !shifts) || is_floating(right->type->scalar)) return;
+  if (!divides || is_floating(right->type->scalar)) return;
   const auto bits = evaluate(right);
-  if (!bits) return;
-  if (divides && std::find(bits->begin(), bits->end(), 0u) != bits->end()) {
+  if (bits && std::find(bits->begin(), bits->end(), 0u) != bits->end()) {
     report(CheckId::kConstantDivision, location);
-  }
-  const uint32_t size = scalar_bytes(right->type->scalar, ScalarStorage::kBuffer) * 8;
-  const bool is_too_far =
-      std::any_of(bits->begin(), bits->end(), [&](uint64_t count) { return count >= size; });
-  if (shifts && is_too_far && evaluate(left)) {
-    report(CheckId::kConstantShift, location, {std::to_string(size)});
   }
 }
 

@@ -25,9 +25,8 @@ class BodyRules : LowerPart {
   void check_unroll(const ir::Stmt& loop, SourceLocation location);
   // Reports a built-in name that the target's shader model does not have.
   void check_model(std::string_view name, SourceLocation location);
-  // Reports integers divided by a constant zero, and constants shifted by all their bits.
-  void check_constants(ir::BinaryOp op, const ir::Expr* left, const ir::Expr* right,
-                       SourceLocation location);
+  // Reports integers divided by a constant zero.
+  void check_divisor(ir::BinaryOp op, const ir::Expr* right, SourceLocation location);
 
  private:
   struct Noted {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/mangle.h"
 #include "runtime/hlsl/check/names/signatures.h"
@@ -170,6 +171,14 @@ Value Calls::call_functions(const std::vector<FunctionInfo*>& candidates, const 
 
 Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value> arguments,
                   SourceLocation location) {
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (!RayQueries::is_indexed(arguments[i])) continue;
+    return lower_.ray_queries.for_each_of(arguments[i], [&](const Value& one) {
+      std::vector<Value> chosen = arguments;
+      chosen[i] = one;
+      return call(function, object, std::move(chosen), location);
+    });
+  }
   const bool unused = body_.result_unused;
   body_.result_unused = false;
   const size_t provided = arguments.size();
@@ -335,8 +344,12 @@ FunctionInfo* Calls::bind_unbounded_arrays(FunctionInfo* function,
       bindings.push_back(arguments[i].type->canonical);
       continue;
     }
-    if (arguments[i].kind != ValueKind::kBindings) {
-      lower_.places.load(arguments[i]);
+    const Value& array = arguments[i];
+    const auto first = array.kind == ValueKind::kBindings ? evaluate(array.offset) : std::nullopt;
+    if (!first || (*first)[0] != 0) {
+      report(CheckId::kUnsupported, array.location,
+             {"an array of resources that is not a whole global one, for '" +
+              std::string(function->parameters[i].name) + "'"});
       return nullptr;
     }
     bindings.push_back(arguments[i].binding);

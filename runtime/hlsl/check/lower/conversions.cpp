@@ -11,12 +11,25 @@
 namespace kaamos::hlsl {
 namespace {
 
-// A vector of scalars of one kind for each scalar that the type holds; false if it holds others.
-bool flat_scalars(const Type* type, std::vector<Scalar>& scalars) {
-  uint64_t count = 1;
-  for (; type->is_array(); type = type->element) count *= type->count;
-  if (!type->is_numeric() || count * type->components() > 4096) return false;
-  scalars.assign(count * type->components(), plain_scalar(type->scalar));
+constexpr size_t kMaxScalars = 1u << 15;
+
+// Adds the kind of each scalar that the type holds; false if it holds anything else, or too much.
+bool add_scalars(const Type* type, std::vector<Scalar>& scalars) {
+  if (type->is_array()) {
+    for (uint32_t i = 0; i < type->count; ++i) {
+      if (!add_scalars(type->element, scalars)) return false;
+    }
+    return true;
+  }
+  if (type->is_struct()) {
+    const StructInfo& structure = *type->structure;
+    if (structure.base && !add_scalars(structure.base->type, scalars)) return false;
+    return std::all_of(
+        structure.fields.begin(), structure.fields.end(),
+        [&](const FieldInfo& field) { return !field.unit && add_scalars(field.type, scalars); });
+  }
+  if (!type->is_numeric() || scalars.size() > kMaxScalars) return false;
+  scalars.insert(scalars.end(), type->components(), plain_scalar(type->scalar));
   return true;
 }
 
@@ -36,11 +49,21 @@ bool Conversions::convertible_numeric(const Type* from, const Type* to, bool) {
   return is_line ? given >= wanted : given == wanted;
 }
 
-bool Conversions::same_scalars(const Type* from, const Type* to) {
-  if (!from->is_array() || !to->is_array()) return false;
+// Before HLSL 2021 also of structs.
+bool Conversions::is_base_of(const Type* base, const Type* type) {
+  const StructInfo* structure = type->structure;
+  while (structure && structure != base->structure) structure = structure->base;
+  return structure != nullptr;
+}
+
+bool Conversions::same_scalars(const Type* from, const Type* to) const {
+  const bool are_arrays = from->is_array() && to->is_array();
+  const bool are_structs =
+      names_.options().hlsl_version < 2021 && from->is_struct() && to->is_struct();
+  if (!are_arrays && !are_structs) return false;
   std::vector<Scalar> given;
   std::vector<Scalar> wanted;
-  return flat_scalars(from, given) && flat_scalars(to, wanted) && given == wanted;
+  return add_scalars(from, given) && add_scalars(to, wanted) && given == wanted;
 }
 
 ConversionRank Conversions::rank(const Type* from, const Type* to) {
@@ -71,13 +94,13 @@ ConversionRank Conversions::rank(const Type* from, const Type* to) {
     if (from->is_numeric() && to->is_numeric()) result.cost = scalar_cost(from->scalar, to->scalar);
     return result;
   }
-  if (same_scalars(from, to)) {
+  if (from->is_array() && same_scalars(from, to)) {
     result.possible = true;
     return result;
   }
   // `float a[]`: the array decides the size.
   if (from->is_array() && to->is_array() && (to->count == 0) != (from->count == 0) &&
-      !contains_resource(to->element)) {
+      (to->count == 0 || !contains_resource(to->element))) {
     result.possible = from->element->ir == to->element->ir;
     return result;
   }
@@ -91,6 +114,11 @@ ConversionRank Conversions::rank(const Type* from, const Type* to) {
         return result;
       }
     }
+  }
+  if (from->is_struct() && same_scalars(from, to)) {
+    result.possible = true;
+    result.cost = 1;
+    return result;
   }
   if (from->is_resource() && to->is_resource()) {
     result.possible = from->ir == to->ir;
@@ -224,7 +252,8 @@ const ir::Expr* Conversions::convert(const Value& value, const Type* to, SourceL
   };
   if (same_type(from, to)) return lower_.places.load(value);
   if (from->is_array() && to->is_array() && from->ir == to->ir) return lower_.places.load(value);
-  if (same_scalars(from, to)) {
+  const bool is_derived = from->is_struct() && to->is_struct() && is_base_of(to, from);
+  if (!is_derived && same_scalars(from, to)) {
     const ir::Expr* expr = lower_.places.load(value);
     return expr ? build_from_pieces(to, {Piece{expr, from}}, location, false) : nullptr;
   }
@@ -315,6 +344,7 @@ void Conversions::split(const Piece& piece, std::vector<Piece>& queue) {
 
 const ir::Expr* Conversions::take(const Type* type, std::vector<Piece>& queue, bool& failed,
                                   SourceLocation location) {
+  if (type->is_struct() && flat_component_count(type) == 0) return build_.zero(type->ir);
   if (failed || queue.empty()) {
     failed = true;
     return nullptr;

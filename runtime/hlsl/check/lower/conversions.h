@@ -21,7 +21,8 @@ class Conversions : LowerPart {
 
   ConversionRank rank(const Value& value, const Type* to);
   // `float[6]` and `float[2][3]`: as many scalars of one type in another shape.
-  static bool same_scalars(const Type* from, const Type* to);
+  bool same_scalars(const Type* from, const Type* to) const;
+  static bool is_base_of(const Type* base, const Type* type);
   ConversionRank rank(const Type* from, const Type* to);
   // An explicit conversion also allows what only a cast may do.
   const ir::Expr* convert(const Value& value, const Type* to, SourceLocation location,

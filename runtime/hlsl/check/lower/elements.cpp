@@ -92,6 +92,10 @@ Value Elements::element_of(const Value& base, const Value& index, SourceLocation
     return result;
   }
   if (base.kind == ValueKind::kSplit) {
+    const Type* element = type;
+    while (element->is_array()) element = element->element;
+    const bool is_computed = base.offset || at_index->kind != ir::ExprKind::kLiteral;
+    if (element->is_query() && is_computed) return lower_.ray_queries.element_of(base, at_index);
     if (at_index->kind == ir::ExprKind::kLiteral) {
       return lower_.expressions.split_value(base.split->parts[at_index->literal[0]], location);
     }

@@ -248,7 +248,9 @@ Value Expressions::lower_name(const NameExpr* expr) {
   if (name.is_simple()) {
     const std::string_view identifier = name.last().identifier;
     const bool is_sampler = identifier == "SamplerDescriptorHeap";
-    if (is_sampler || identifier == "ResourceDescriptorHeap") {
+    const bool is_heap = (is_sampler || identifier == "ResourceDescriptorHeap") &&
+                         !names_.resolve_name(name, body_.scope, true);
+    if (is_heap) {
       lower_.body_rules.check_model(identifier, expr->location);
       Value value;
       value.kind = ValueKind::kHeap;

@@ -32,7 +32,10 @@ void Locals::lower_local(const VariableDecl* decl) {
   info->name = decl->name;
   info->type = types_.error();
   info->is_const = is_const_type(decl->type);
-  const bool valid = names_.check_variable_type(type, decl->location, decl->name);
+  const Type* innermost = type;
+  while (innermost->is_array()) innermost = innermost->element;
+  const bool is_query_array = type->is_array() && innermost->is_query();
+  const bool valid = is_query_array || names_.check_variable_type(type, decl->location, decl->name);
   if (const Symbol* before = names_.find_taken(body_.scope, decl->name)) {
     // [HLSL 2018: the variables of a loop belong to the scope around it]
     const bool hides = before->kind == SymbolKind::kVariable && before->variable->is_loop_variable;
@@ -43,6 +46,11 @@ void Locals::lower_local(const VariableDecl* decl) {
   }
   if (decl->modifiers & kModGroupshared) {
     report(CheckId::kLocalGroupshared, decl->location, {std::string(decl->name)});
+    names_.add_variable(body_.scope, decl->name, decl->location, info);
+    return;
+  }
+  if (is_query_array) {
+    lower_.ray_queries.lower_local_array(decl, type, info);
     names_.add_variable(body_.scope, decl->name, decl->location, info);
     return;
   }

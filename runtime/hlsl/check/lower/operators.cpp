@@ -276,7 +276,7 @@ Value Operators::binary_value(BinaryOp op, const Value& left, const Value& right
   const ir::Expr* a = operand(left);
   const ir::Expr* b = operand(right);
   if (!a || !b) return error_value();
-  lower_.body_rules.check_constants(ir_operator(op), a, b, location);
+  lower_.body_rules.check_divisor(ir_operator(op), b, location);
   const ir::Expr* result = build_.binary(ir_operator(op), a, b);
   if (is_comparison(op)) type = types_.with_scalar(type, Scalar::kBool);
   if (is_literal(type->scalar) && result->kind != ir::ExprKind::kLiteral &&

@@ -49,6 +49,92 @@ void RayQueries::lower_local_query(const VariableDecl* decl, const Type* type, V
   body_.emit(node);
 }
 
+void RayQueries::lower_local_array(const VariableDecl* decl, const Type* type, VariableInfo* info) {
+  constexpr uint64_t kMostQueries = 64;
+  const uint64_t count = flat_component_count(type);
+  if (decl->initializer || (decl->modifiers & kModStatic) || type->count == 0 ||
+      count > kMostQueries) {
+    report(CheckId::kRayQueryPlace, decl->location,
+           {to_string(type), "an array that is static, initialised or of more than 64"});
+    return;
+  }
+  const std::function<SplitPart(const Type*)> make = [&](const Type* part) {
+    SplitPart result{.type = part};
+    for (uint32_t i = 0; part->is_array() && i < part->count; ++i) {
+      result.parts.push_back(make(part->element));
+    }
+    if (part->is_array()) return result;
+    lower_.body_rules.check_model("RayQuery", decl->location);
+    VariableInfo* one = names_.make_variable();
+    one->name = decl->name;
+    one->type = part;
+    one->variable = build_.variable(std::string(decl->name), part->ir, ir::Storage::kLocal);
+    ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
+    node->variable = one->variable;
+    body_.emit(node);
+    result.variable = one;
+    return result;
+  };
+  info->type = type;
+  info->kind = VariableKind::kSplit;
+  info->split = make(type);
+}
+
+bool RayQueries::is_indexed(const Value& value) {
+  return value.kind == ValueKind::kSplit && value.offset && value.type && value.type->is_query();
+}
+
+Value RayQueries::element_of(const Value& array, const ir::Expr* index) {
+  Value result = array;
+  result.type = array.type->element;
+  uint32_t inner = 1;
+  for (const Type* part = result.type; part->is_array(); part = part->element) inner *= part->count;
+  const ir::Expr* before = array.offset ? array.offset : build_.uint32(0);
+  result.offset = build_.add_scaled(before, build_.convert(index, Scalar::kUint32), inner);
+  return result;
+}
+
+Value RayQueries::for_each_of(const Value& value, const std::function<Value(const Value&)>& use) {
+  std::vector<VariableInfo*> queries;
+  const std::function<void(const SplitPart&)> collect = [&](const SplitPart& part) {
+    if (part.variable) queries.push_back(part.variable);
+    for (const SplitPart& one : part.parts) collect(one);
+  };
+  collect(*value.split);
+  ir::Stmt* node = build_.stmt(ir::StmtKind::kSwitch);
+  node->value = build_.convert(value.offset, Scalar::kInt32);
+  ir::Block* outer = body_.block;
+  const ir::Variable* result = nullptr;
+  const Type* type = types_.void_type();
+  for (size_t i = 0; i < queries.size(); ++i) {
+    ir::SwitchCase one;
+    one.labels.push_back(static_cast<int64_t>(i));
+    one.is_default = i + 1 == queries.size();
+    body_.block = &one.body;
+    const Value part = lower_.places.place(queries[i]->variable, queries[i]->type, false);
+    const Value outcome = use(part);
+    if (outcome.failed()) {
+      body_.block = outer;
+      return error_value();
+    }
+    if (!outcome.type->is_void() && !body_.result_unused) {
+      if (!result) {
+        body_.block = outer;
+        type = outcome.type;
+        result = body_.empty_temporary(type->ir);
+        body_.block = &one.body;
+      }
+      body_.assign(result, lower_.places.load(outcome));
+    }
+    body_.emit(build_.stmt(ir::StmtKind::kBreak));
+    body_.block = outer;
+    node->cases.push_back(std::move(one));
+  }
+  body_.call_result = nullptr;
+  body_.emit(node);
+  return result ? rvalue(build_.read(result), type) : rvalue(build_.int32(0), types_.void_type());
+}
+
 // `b = a;` before any other use of b, where b is declared: b becomes a second name for a's object.
 bool RayQueries::rename_query(const AssignExpr* expr, const Value& value) {
   const auto* name = as<NameExpr>(expr->target);
@@ -84,6 +170,12 @@ Value RayQueries::trace_ray_inline(ir::Stmt* statement, const Type* query,
 
 Value RayQueries::call_query_method(const Value& object, const NamePart& part,
                                     std::vector<Value>& arguments, SourceLocation location) {
+  if (is_indexed(object)) {
+    return for_each_of(object, [&](const Value& one) {
+      std::vector<Value> copies = arguments;
+      return call_query_method(one, part, copies, location);
+    });
+  }
   const std::string name(part.identifier);
   const ir::Expr* query = query_object(object, object.type);
   if (!query) return error_value();

@@ -183,6 +183,17 @@ Value ShortCircuits::lower_conditional(const ConditionalExpr* expr) {
   if (!condition.type || !condition.type->is_numeric() || condition.type->is_scalar()) {
     const ir::Expr* chosen = lower_.conversions.as_condition(condition, expr->condition->location);
     if (!chosen) return error_value();
+    const auto is_element = [](const Value& value) {
+      return value.kind == ValueKind::kHeap && value.offset;
+    };
+    if (is_element(arms[0]) && is_element(arms[1]) &&
+        arms[0].is_sampler_heap == arms[1].is_sampler_heap) {
+      // The element is chosen by its index.
+      Value element = arms[0];
+      for (Value& arm : arms) arm = rvalue(arm.offset, types_.scalar(Scalar::kUint32));
+      element.offset = choose(expr, chosen, arms, blocks).expr;
+      return element.offset ? element : error_value();
+    }
     return choose(expr, chosen, arms, blocks);
   }
   // A vector condition selects per component and evaluates both sides.

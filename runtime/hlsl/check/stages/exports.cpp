@@ -15,10 +15,13 @@ std::vector<std::string> Exports::export_names(const FunctionInfo* function) {
   if (program_.options->exports.empty()) return {std::string(function->name)};
   std::vector<std::string> names;
   for (const ExportRequest& request : program_.options->exports) {
-    const bool is_meant =
-        request.function == function->name || request.function == function->qualified ||
-        (!function->signature_failed && !function->is_template &&
-         (request.function == mangle(*function) || "\01" + request.function == mangle(*function)));
+    std::string_view wanted = request.function;
+    // DXC and reflection print the mangled name's first byte as `\01`.
+    if (wanted.starts_with("\\01?")) wanted.remove_prefix(3);
+    if (wanted.starts_with("\01?")) wanted.remove_prefix(1);
+    const bool is_meant = wanted == function->name || wanted == function->qualified ||
+                          (!function->signature_failed && !function->is_template &&
+                           "\01" + std::string(wanted) == mangle(*function));
     if (is_meant) names.insert(names.end(), request.names.begin(), request.names.end());
   }
   return names;
