@@ -546,6 +546,8 @@ inline constexpr ErrorId kEmptySwitch{2527};  ///< the switch has no case
 inline constexpr ErrorId kEndlessLoop{2528};  ///< nothing ends this loop
 inline constexpr ErrorId kUnrollCount{2529};  ///< [unroll] cannot tell how often the loop runs
 inline constexpr ErrorId kReturnsThis{2530};  ///< DXC cannot return 'this' as a whole
+inline constexpr ErrorId kNeverReturns{2531};  ///< '{0}' has no return; it returns zero
+inline constexpr ErrorId kUnrollArgument{2532};  ///< the count of [unroll] must not be negative
 inline constexpr ErrorId kRegisterClass{2540};  ///< register '{0}' cannot be used for '{2}'; a '{1}' register is needed
 inline constexpr ErrorId kTwoRegisters{2541};  ///< '{0}' already has a register
 inline constexpr ErrorId kRegisterRange{2542};  ///< the registers of '{0}' extend past 4294967295
@@ -589,6 +591,9 @@ inline constexpr ErrorId kUndefinedStored{2589};  ///< variable '{0}' is stored,
 inline constexpr ErrorId kSubobjectCount{2590};  ///< '{0}' takes {1} arguments; {2} given
 inline constexpr ErrorId kSubobjectString{2591};  ///< argument {0} of '{1}' must be a string
 inline constexpr ErrorId kSubobjectRange{2592};  ///< the value {0} is out of range
+inline constexpr ErrorId kRootSignatureStage{2593};  ///< DXC does not allow [RootSignature] on a {0} shader
+inline constexpr ErrorId kAttributeTwice{2594};  ///< [{0}] is written twice; the first one counts
+inline constexpr ErrorId kExportedResource{2596};  ///< DXC does not export '{0}', because a parameter or its result holds resources
 inline constexpr ErrorId kUnknownTarget{2600};  ///< unknown target '{0}'; the targets are lib_6_3 to lib_6_8, lib_6_x, cs_6_0 to cs_6_8, and, to check only, vs_6_0 to vs_6_8 and ps_6_0 to ps_6_8
 inline constexpr ErrorId kExportSyntax{2601};  ///< '{0}' is not a list of exports; write "A;B1,B2=C"
 inline constexpr ErrorId kPayloadTarget{2610};  ///< -enable-payload-qualifiers needs lib_6_6 or higher; the target is {0}

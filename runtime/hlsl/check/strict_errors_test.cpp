@@ -92,6 +92,23 @@ const std::vector<StrictCase>& strict_cases() {
        kernel("results.Store(0, @f(1u));",
               "uint f(uint a) { return 1; }\ntemplate <typename T> T f(T a) { return 2; }")},
       {"VectorCondition", Id::kVectorLogic, kernel("float2 a = 1;\na = a > 1 @? a : 2;")},
+      {"NeverReturns", Id::kNeverReturns,
+       kernel("results.Store(0, f());", "uint f() { uint a = 1; a += 2; @}")},
+      {"UnrollByInput", Id::kUnrollCount,
+       "float4 main(uint n : N) : SV_Target {\nfloat x = 0;\n"
+       "[@unroll] for (uint i = 0; i < n; i++) x++;\nreturn x; }",
+       "ps_6_6"},
+      {"UnrollLessThanNever", Id::kUnrollArgument,
+       kernel("[unroll(@-1)] for (uint i = 0; i < 3; ++i) results.Store(0, i);")},
+      {"RootSignatureOfRays", Id::kRootSignatureStage,
+       "[@RootSignature(\"\")]\n[shader(\"raygeneration\")] void main() {}"},
+      {"WaveSizeTwice", Id::kAttributeTwice,
+       "[WaveSize(4)] [@WaveSize(8)]\n[numthreads(1, 1, 1)] void main() {}", "cs_6_6"},
+      {"ExportedResource", Id::kExportedResource,
+       "export uint @f(Buffer<uint> b) { return b[0]; }"},
+      {"LongAtomicOfOlderModel", Id::kNeedsModel,
+       kernel("uint64_t one = 1;\n@InterlockedAdd(b[0], one);", "RWStructuredBuffer<uint64_t> b;"),
+       "lib_6_5"},
       {"SnormTexels", Id::kNormType, kernel("", "Buffer<snorm @int> b;")},
   };
   return all;
@@ -128,6 +145,16 @@ TEST(StrictOnly, ChecksBodiesThatNothingReaches) {
           kernel(""),
       options);
   EXPECT_NE(whole.module, nullptr) << whole.messages();
+}
+
+// What a constant condition leaves out may have any index.
+TEST(Indices, OutOfRangeInDeadBranches) {
+  const std::string declared =
+      "uint a[3] = {1, 2, 3};\nresults.Store(0, kCount > 3 ? a[3] : a[0]);\n"
+      "if (kCount > 4) { results.Store(4, a[4]); } else { results.Store(4, a[1]); }";
+  const Compilation compilation(kernel(declared, "static const uint kCount = 3;"));
+  EXPECT_NE(compilation.module, nullptr) << compilation.messages();
+  expect_at_mark(Id::kIndexRange, kernel("uint a[3] = {1, 2, 3};\nif (true) a[@3] = 1;"));
 }
 
 TEST(Variables, ReadAndNeverWritten) {

@@ -37,6 +37,9 @@ const ir::Expr* Atomics::operand(const AtomicRule& rule, const Value& argument, 
 Value Atomics::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
                            bool is_method, std::span<Value> arguments, SourceLocation location) {
   size_t index = 0;
+  if (scalar_bytes(type->scalar, ScalarStorage::kBuffer) == 8) {
+    lower_.body_rules.check_model("a 64-bit atomic operation", location);
+  }
   statement->atomic = rule.op;
   const bool is_float = is_floating(type->scalar);
   const ir::Type* memory_type = is_float ? types_.scalar(Scalar::kUint32)->ir : type->ir;

@@ -69,6 +69,7 @@ BodyScope::BodyScope(Lowerer& lowerer, FunctionInfo* function, ir::Block* block,
       this_(body_.this_variable),
       loops_(body_.loop_depth),
       switches_(body_.switch_depth),
+      dead_(body_.dead_depth),
       unused_(body_.result_unused),
       location_(build_.location),
       view_(names_.view()) {
@@ -77,7 +78,7 @@ BodyScope::BodyScope(Lowerer& lowerer, FunctionInfo* function, ir::Block* block,
   body_.block = block;
   body_.scope = scope;
   body_.this_variable = nullptr;
-  body_.loop_depth = body_.switch_depth = 0;
+  body_.loop_depth = body_.switch_depth = body_.dead_depth = 0;
   body_.result_unused = false;
 }
 
@@ -88,6 +89,7 @@ BodyScope::~BodyScope() {
   body_.this_variable = this_;
   body_.loop_depth = loops_;
   body_.switch_depth = switches_;
+  body_.dead_depth = dead_;
   body_.result_unused = unused_;
   build_.location = location_;
   names_.set_view(view_);

@@ -32,6 +32,7 @@ struct Body {
   uint64_t effects = 0;  // statements so far that are no declarations
   int loop_depth = 0;
   int switch_depth = 0;
+  int dead_depth = 0;  // branches around that a constant condition never takes
   bool result_unused = false;
   // The variable that receives the last kCall's result, until a variable of the source replaces it.
   ir::Variable* call_result = nullptr;
@@ -61,6 +62,7 @@ class BodyScope {
   const ir::Variable* this_;
   int loops_;
   int switches_;
+  int dead_;
   bool unused_;
   ir::Location location_;
   Names::View view_;

@@ -7,6 +7,7 @@
 
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
+#include "runtime/hlsl/check/names/attributes.h"
 #include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
@@ -29,6 +30,7 @@ constexpr Feature kFeatures[] = {
     {"pack_", false, 6},
     {"unpack_", false, 6},
     {"SampleCmpLevel", true, 7},
+    {"a 64-bit atomic operation", true, 6},
     {"InterlockedAdd64", true, 6},
     {"InterlockedAnd64", true, 6},
     {"InterlockedOr64", true, 6},
@@ -147,10 +149,20 @@ void BodyRules::check_unroll(const ir::Stmt& loop, SourceLocation location) {
   if (!loop.value || !loop.prelude.empty() || loop.value->kind != ir::ExprKind::kBinary) return;
   bool loads = false;
   ir::visit_expr(loop.value, [&](const ir::Expr& one) {
-    loads = loads || one.kind == ir::ExprKind::kLoad || one.kind == ir::ExprKind::kLoadElement ||
-            one.kind == ir::ExprKind::kTypedLoad;
+    const bool is_input = one.kind == ir::ExprKind::kVariable &&
+                          one.variable->storage == ir::Storage::kParameter && is_entry_point();
+    loads = loads || is_input || one.kind == ir::ExprKind::kLoad ||
+            one.kind == ir::ExprKind::kLoadElement || one.kind == ir::ExprKind::kTypedLoad;
   });
   if (loads) report(CheckId::kUnrollCount, location);
+}
+
+bool BodyRules::is_entry_point() const {
+  const FunctionInfo* function = body_.function;
+  if (!function || function->owner) return false;
+  const CheckOptions& options = names_.options();
+  return options.target.starts_with("lib_") ? find_attribute(*function, "shader") != nullptr
+                                            : function->name == options.entry_point;
 }
 
 void BodyRules::check_model(std::string_view name, SourceLocation location) {
@@ -162,6 +174,18 @@ void BodyRules::check_model(std::string_view name, SourceLocation location) {
     report(CheckId::kNeedsModel, location,
            {std::string(name), "6." + std::to_string(one.minor), target});
   }
+}
+
+bool BodyRules::has_return(const ir::Block& block) {
+  bool result = false;
+  ir::visit(
+      block, [](const ir::Expr&) {},
+      [&](const ir::Stmt& statement) {
+        result = result || statement.kind == ir::StmtKind::kReturn ||
+                 statement.kind == ir::StmtKind::kIgnoreHit ||
+                 statement.kind == ir::StmtKind::kAcceptHitAndEndSearch;
+      });
+  return result;
 }
 
 void BodyRules::check_divisor(ir::BinaryOp op, const ir::Expr* right, SourceLocation location) {

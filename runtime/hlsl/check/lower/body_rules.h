@@ -25,10 +25,13 @@ class BodyRules : LowerPart {
   void check_unroll(const ir::Stmt& loop, SourceLocation location);
   // Reports a built-in name that the target's shader model does not have.
   void check_model(std::string_view name, SourceLocation location);
+  static bool has_return(const ir::Block& block);
   // Reports integers divided by a constant zero.
   void check_divisor(ir::BinaryOp op, const ir::Expr* right, SourceLocation location);
 
  private:
+  bool is_entry_point() const;
+
   struct Noted {
     const ir::Variable* variable;
     std::string_view name;

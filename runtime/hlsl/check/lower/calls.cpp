@@ -460,7 +460,8 @@ void Calls::lower_function(FunctionInfo* function, SourceLocation use) {
     }
     lower_.statements.lower_block(function->definition->body->statements);
     if (!function->result->is_void() && !lower_.statements.ends(body)) {
-      report(CheckId::kMissingReturn, function->definition->body->end, {function->qualified});
+      report(BodyRules::has_return(body) ? CheckId::kMissingReturn : CheckId::kNeverReturns,
+             function->definition->body->end, {function->qualified});
       at(function->definition->body->end);
       ir::Stmt* end = build_.stmt(ir::StmtKind::kReturn);
       end->value = build_.zero(function->result->ir);

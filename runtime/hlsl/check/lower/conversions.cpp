@@ -33,6 +33,10 @@ bool add_scalars(const Type* type, std::vector<Scalar>& scalars) {
   return true;
 }
 
+bool is_anonymous(const Type* type) {
+  return type->structure->decl && type->structure->decl->name.empty();
+}
+
 }  // namespace
 
 // A matrix of one row or column is like a vector, which can be longer than its target; any other
@@ -49,7 +53,7 @@ bool Conversions::convertible_numeric(const Type* from, const Type* to, bool) {
   return is_line ? given >= wanted : given == wanted;
 }
 
-// Before HLSL 2021 also of structs.
+// Before HLSL 2021 also of structs, and later to those that a cast cannot name.
 bool Conversions::is_base_of(const Type* base, const Type* type) {
   const StructInfo* structure = type->structure;
   while (structure && structure != base->structure) structure = structure->base;
@@ -58,8 +62,8 @@ bool Conversions::is_base_of(const Type* base, const Type* type) {
 
 bool Conversions::same_scalars(const Type* from, const Type* to) const {
   const bool are_arrays = from->is_array() && to->is_array();
-  const bool are_structs =
-      names_.options().hlsl_version < 2021 && from->is_struct() && to->is_struct();
+  const bool are_structs = from->is_struct() && to->is_struct() &&
+                           (names_.options().hlsl_version < 2021 || is_anonymous(to));
   if (!are_arrays && !are_structs) return false;
   std::vector<Scalar> given;
   std::vector<Scalar> wanted;

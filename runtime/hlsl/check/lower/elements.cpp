@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/lower/elements.h"
 
+#include <algorithm>
+
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/layout.h"
@@ -78,7 +80,9 @@ Value Elements::element_of(const Value& base, const Value& index, SourceLocation
   const ir::Expr* at_index = index_value(index, location);
   if (!at_index) return error_value();
   if (const auto bits = evaluate(at_index)) {
-    const int64_t number = static_cast<int64_t>((*bits)[0]);
+    int64_t number = static_cast<int64_t>((*bits)[0]);
+    // What never runs may have any index. [DXC]
+    if (body_.dead_depth > 0 && limit != 0) number = std::clamp<int64_t>(number, 0, limit - 1);
     if (number < 0 || (limit != 0 && number >= limit)) {
       report(CheckId::kIndexRange, location, {std::to_string(number), std::to_string(limit)});
       return error_value();

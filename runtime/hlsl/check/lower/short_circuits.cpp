@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 
 namespace kaamos::hlsl {
@@ -172,9 +173,15 @@ Value ShortCircuits::lower_conditional(const ConditionalExpr* expr) {
   ir::Block blocks[2];
   Value arms[2];
   const Expr* sources[2] = {expr->if_true, expr->if_false};
+  const bool is_scalar =
+      !condition.failed() && condition.kind == ValueKind::kExpr && condition.type->is_scalar();
+  const auto known = is_scalar ? evaluate(condition.expr) : std::nullopt;
   for (int i = 0; i < 2; ++i) {
+    const bool is_dead = known && ((*known)[0] != 0) == (i == 1);
+    if (is_dead) ++body_.dead_depth;
     body_.block = &blocks[i];
     arms[i] = lower_.expressions.lower(sources[i]);
+    if (is_dead) --body_.dead_depth;
   }
   body_.block = outer;
   body_.result_unused = unused;

@@ -226,8 +226,13 @@ void Statements::lower_if(const IfStmt* statement) {
   at(statement->location);
   ir::Stmt* node = build_.stmt(ir::StmtKind::kIf);
   node->value = value ? value : build_.boolean(false);
+  const auto known = evaluate(node->value);
+  const int dead = body_.dead_depth;
+  if (known && !(*known)[0]) ++body_.dead_depth;
   lower_body(statement->then_branch, node->body);
+  body_.dead_depth = dead + (known && (*known)[0] ? 1 : 0);
   if (statement->else_branch) lower_body(statement->else_branch, node->orelse);
+  body_.dead_depth = dead;
   body_.emit(node);
 }
 
@@ -296,6 +301,9 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
     lower_.body_rules.check_loop(*node, statement.location);
   }
   const Attribute* unroll = find_attribute(statement.attributes, "unroll");
+  const auto* count =
+      unroll && !unroll->arguments.empty() ? as<UnaryExpr>(unroll->arguments[0]) : nullptr;
+  if (count && count->op == UnaryOp::kMinus) report(CheckId::kUnrollArgument, count->location);
   if (unroll && unroll->arguments.empty()) {
     lower_.body_rules.check_unroll(*node, unroll->location);
   }

@@ -42,6 +42,11 @@ bool ComputeStage::read_thread_group(FunctionInfo* function, ir::EntryPoint& ent
 // [WaveSize(lanes)] or [WaveSize(least, most, preferred)].
 bool ComputeStage::read_wave_size(FunctionInfo* function, ir::EntryPoint& entry) {
   const Attribute* attribute = find_attribute(*function, "WaveSize");
+  for (const Attribute& other : function->definition->attributes) {
+    if (attribute && &other != attribute && same_word(other.name, "WaveSize")) {
+      report(CheckId::kAttributeTwice, other.location, {"WaveSize"});
+    }
+  }
   if (!attribute) return true;
   const size_t count = attribute->arguments.size();
   const uint32_t needs = count == 1 ? 6 : 8;

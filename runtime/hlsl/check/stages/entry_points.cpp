@@ -133,6 +133,9 @@ void EntryPoints::check_entry_point(FunctionInfo* function, uint32_t stage,
     const auto* text =
         attribute->arguments.size() == 1 ? as<StringLiteralExpr>(attribute->arguments[0]) : nullptr;
     if (text) entry.root_signature = std::string(text->value);
+    if (stage != ir::kStageCompute && !entry.is_graphics()) {
+      report(CheckId::kRootSignatureStage, attribute->location, {std::string(stage_name(stage))});
+    }
     if (!text) {
       report(CheckId::kRootSignatureAttribute, attribute->location,
              {attribute->arguments.size() == 1
@@ -207,6 +210,13 @@ bool EntryPoints::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& e
 void EntryPoints::add_library_functions() {
   for (const Exported& exported : exports_.exported_functions(0)) {
     FunctionInfo* const function = exported.function;
+    const bool has_resources =
+        contains_resource(function->result) ||
+        std::any_of(function->parameters.begin(), function->parameters.end(),
+                    [](const ParameterInfo& one) { return contains_resource(one.type); });
+    if (has_resources && program_.options->target != "lib_6_x") {
+      report(CheckId::kExportedResource, function->definition->location, {function->qualified});
+    }
     lower_.calls.lower_function(function, function->definition->location);
     if (!function->ir) continue;
     bench_.module.library_functions.push_back(
