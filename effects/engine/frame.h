@@ -81,8 +81,8 @@ enum FrameTexture : std::uint32_t {
   kNormal,         ///< R16G16_SNORM: geometric normal, octahedral, towards the camera
   kShadingNormal,  ///< R16G16_SNORM: as kNormal, with normal maps
   kBaseColor,      ///< R8G8B8A8_UNORM: EncodeColor of encoding.hlsli
-  kEmissive,       ///< R16G16B16A16_FLOAT: radiance
-  kMaterial,       ///< R8G8B8A8_UNORM: roughness, metallic, 1 where it is unlit, 0
+  kEmissive,       ///< R16G16B16A16_FLOAT: radiance; w: EncodeDielectric of encoding.hlsli
+  kMaterial,       ///< R8G8B8A8_UNORM: roughness, metallic, EncodeDielectric; z is 1: unlit
   kIds,            ///< R32G32_UINT: instance + 1, primitive; 0: a miss
   kPosition,       ///< R32G32B32A32_FLOAT: relative to the camera; w: offset of ray origins
   kRadiance,       ///< R32G32B32A32_FLOAT: what the camera sees

@@ -75,16 +75,18 @@ std::vector<bool> glass_meshes(const Scene& scene) {
   return glass;
 }
 
-// The vertices of a mesh as they lie in memory: with colours only where it has some.
+// The vertices of a mesh as they lie in memory: with more only where it has more.
 rtapi::Result<Buffer> upload_vertices(const Device& device, const Mesh& mesh) {
   const std::string name = mesh.name + " vertices";
-  if (mesh.colors.empty())
+  if (!mesh.has_more())
     return CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), name);
   std::vector<std::byte> bytes(mesh.vertices.size() * kColoredVertexStride);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     std::byte* to = bytes.data() + i * kColoredVertexStride;
     std::memcpy(to, &mesh.vertices[i], sizeof(Vertex));
-    std::memcpy(to + sizeof(Vertex), &mesh.colors[i], sizeof(VertexColor));
+    const Mesh::More more = mesh.more(i);
+    static_assert(sizeof more == kColoredVertexStride - sizeof(Vertex));
+    std::memcpy(to + sizeof(Vertex), &more, sizeof more);
   }
   return CreateUploadBuffer(device, std::span<const std::byte>(bytes), name);
 }
@@ -101,7 +103,7 @@ rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t m
   for (std::uint32_t i = 0; i < mesh.geometries.size(); ++i) {
     const Geometry& geometry = mesh.geometries[i];
     GpuGeometry gpu;
-    if (!mesh.colors.empty()) {
+    if (mesh.has_more()) {
       gpu.constants.vertex_stride = kColoredVertexStride;
       gpu.constants.color_offset = sizeof(Vertex);
     }
@@ -230,6 +232,9 @@ void make_unlit(const Scene& scene, MaterialConstants& m) {
   m.sampler[kEmissiveTexture] = m.sampler[kBaseColorTexture];
   m.uv_matrix[kEmissiveTexture] = m.uv_matrix[kBaseColorTexture];
   m.uv_offset[kEmissiveTexture] = m.uv_offset[kBaseColorTexture];
+  m.second_uv =
+      (m.second_uv >> kBaseColorTexture & 1u) * (1u << kBaseColorTexture | 1u << kEmissiveTexture);
+  m.image[kSpecularTexture] = m.image[kSpecularColorTexture] = kNoTexture;
 }
 
 std::vector<MaterialConstants> material_constants(const Scene& scene) {

@@ -68,12 +68,31 @@ std::uint32_t most_scene_draws(const Scene& scene) {
   return static_cast<std::uint32_t>(count);
 }
 
+namespace {
+
+// Adds where morph targets with weights of 0 to 1 can move the vertices.
+void add_morphed(const Mesh& mesh, Bounds& box) {
+  for (std::size_t i = 0; i < mesh.vertices.size() && mesh.morph_targets > 0; ++i) {
+    glm::dvec3 low(mesh.vertices[i].position), high = low;
+    for (std::size_t t = 0; t < mesh.morph_targets; ++t) {
+      const glm::dvec3 move(mesh.morph[i * mesh.morph_targets + t].position);
+      low += glm::min(move, glm::dvec3(0.0));
+      high += glm::max(move, glm::dvec3(0.0));
+    }
+    box.add(low);
+    box.add(high);
+  }
+}
+
+}  // namespace
+
 std::vector<Bounds> instance_boxes(const Scene& scene) {
   std::vector<Bounds> out;
   for (const Instance& instance : scene.instances) {
     Bounds box;
     const auto add = [&](std::uint32_t mesh) {
-      const Bounds own = scene.meshes[mesh].bounds();
+      Bounds own = scene.meshes[mesh].bounds();
+      add_morphed(scene.meshes[mesh], own);
       if (own.empty()) return;
       const glm::dvec3 more = scene.meshes[mesh].skin.empty() ? glm::dvec3(0.0) : own.size();
       box.add(own.min - more);

@@ -58,7 +58,8 @@ std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask = kMa
 std::uint32_t most_scene_draws(const Scene& scene);
 
 /// By instance, around its meshes of all levels of detail, in object space. What a skeleton moves
-/// may leave the box of its bind pose: it counts as three times as large.
+/// may leave the box of its bind pose: it counts as three times as large. Morph targets weigh 0
+/// to 1.
 std::vector<Bounds> instance_boxes(const Scene& scene);
 /// Around what a draw draws, relative to the camera; `object` is its instance's box.
 Bounds draw_box(const SceneDraw& draw, const Bounds& object);

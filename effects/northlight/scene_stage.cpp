@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "effects/northlight/scene_stage.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "effects/assets/common/errors.h"
@@ -14,7 +15,10 @@ rtapi::Status SceneStage::create() {
   const Scene& scene = context_.scene;
   const Camera& camera = scene.cameras.front();
   context_.moment.camera = camera;
-  if (settings.moving || !scene.skins.empty()) {
+  const bool has_morph =
+      std::any_of(scene.instances.begin(), scene.instances.end(),
+                  [](const Instance& instance) { return instance.motion.morph != kNoIndex; });
+  if (settings.moving || !scene.skins.empty() || has_morph) {
     auto manager = StructureManager::create(context_.device, context_.runner.queue(), scene);
     if (!manager) return manager.error();
     structures_ = std::move(*manager);

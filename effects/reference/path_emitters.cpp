@@ -25,16 +25,23 @@ glm::dvec3 mean_color(const TextureImage& image) {
 double brightness(const Scene& scene, const MaterialConstants& material) {
   glm::dvec3 color(material.emissive);
   const std::int32_t image = material.image[kEmissiveTexture];
+  // A sampled point has one pair of texture coordinates. Rays still meet what is not sampled.
+  const auto second = [&](std::uint32_t slot) { return (material.second_uv >> slot & 1u) != 0; };
+  if (material.image[kBaseColorTexture] != kNoTexture && image != kNoTexture &&
+      second(kBaseColorTexture) != second(kEmissiveTexture)) {
+    return 0.0;
+  }
   if (luminance(color) > 0 && image != kNoTexture) color *= mean_color(scene.images[image]);
   return luminance(color);
 }
 
 bool is_sampled(const Instance& instance, const InstanceState& state) {
-  return state.joints.empty() && (instance.mask & (kMaskEmissiveProxy | kMaskTransparent)) == 0;
+  return !state.is_deformed() && (instance.mask & (kMaskEmissiveProxy | kMaskTransparent)) == 0;
 }
 
-void add_triangles(const Mesh& mesh, const Geometry& geometry, const glm::dmat4& transform,
-                   const glm::dvec3& origin, std::vector<PathEmitter>& out) {
+void add_triangles(const Mesh& mesh, const Geometry& geometry, bool second_uv,
+                   const glm::dmat4& transform, const glm::dvec3& origin,
+                   std::vector<PathEmitter>& out) {
   for (std::uint32_t i = 0; i < geometry.index_count / 3; ++i) {
     glm::dvec3 p[3];
     glm::vec2 uv[3];
@@ -42,7 +49,9 @@ void add_triangles(const Mesh& mesh, const Geometry& geometry, const glm::dmat4&
     for (std::uint32_t c = 0; c < 3; ++c) {
       const Vertex& vertex = mesh.corner(geometry, i, c);
       p[c] = glm::dvec3(transform * glm::dvec4(vertex.position, 1.0)) - origin;
-      uv[c] = vertex.uv;
+      uv[c] = second_uv && !mesh.second_uv.empty()
+                  ? mesh.second_uv[geometry.first_vertex + mesh.index(geometry, 3 * i + c)]
+                  : vertex.uv;
       if (!mesh.colors.empty())
         alpha[c] = mesh.colors[geometry.first_vertex + mesh.index(geometry, 3 * i + c)].a;
     }
@@ -98,7 +107,11 @@ PathEmitters find_emitters(const Scene& scene, std::span<const InstanceState> st
     const Mesh& mesh = scene.meshes[mesh_id];
     for (const Geometry& geometry : mesh.geometries) {
       if (!(glow[geometry.material] > 0)) continue;
-      add_triangles(mesh, geometry, states[i].transform, origin, out.triangles);
+      const MaterialConstants& constants = scene.materials[geometry.material].constants;
+      const std::uint32_t slot =
+          constants.image[kEmissiveTexture] != kNoTexture ? kEmissiveTexture : kBaseColorTexture;
+      add_triangles(mesh, geometry, (constants.second_uv >> slot & 1u) != 0, states[i].transform,
+                    origin, out.triangles);
     }
   }
   double total = 0;

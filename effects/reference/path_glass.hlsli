@@ -44,8 +44,9 @@ GlassStart WalkThroughGlass(PathSampler sampler, CameraRay ray, float solid_dist
     if (pane.distance < 0.0 || (solid_distance >= 0.0 && pane.distance >= solid_distance)) break;
     // A ray on the edge of two triangles may hit both, at the same distance but for rounding.
     t_min = pane.distance * 1.000002;
-    const float3 f0 = 0.04 + (pane.base_color - 0.04) * pane.metallic;
-    const float3 fresnel = PathFresnel(f0, saturate(dot(start.view, pane.shading_normal)));
+    const float3 f0 = pane.dielectric_f0 + (pane.base_color - pane.dielectric_f0) * pane.metallic;
+    const float f90 = pane.dielectric_f90 + (1.0 - pane.dielectric_f90) * pane.metallic;
+    const float3 fresnel = PathFresnel(f0, f90, saturate(dot(start.view, pane.shading_normal)));
     const float mirror_chance = pane.is_unlit != 0 ? 0.0 : saturate(Brightness(fresnel));
     const float2 u = PathRandom(sampler, kPairPane + layer);
     start.layer = layer;

@@ -24,12 +24,16 @@ struct PathHit {
   uint is_glass_ray;
   uint is_camera_ray;     // textures are filtered over the pixel
   uint is_unlit;          // the surface emits, and reflects nothing
+  float3 dielectric_f0;   // as in Surface
+  float dielectric_f90;
 };
 
 PathHit NoHit() {
   PathHit hit;
   hit.position = hit.normal = hit.shading_normal = hit.base_color = hit.emissive = float3(0, 0, 0);
   hit.offset = hit.roughness = hit.metallic = hit.emitter_density = hit.opacity = 0.0;
+  hit.dielectric_f0 = float3(0, 0, 0);
+  hit.dielectric_f90 = 0.0;
   hit.distance = -1.0;
   hit.is_glass_ray = hit.is_camera_ray = hit.is_unlit = 0;
   return hit;
@@ -50,7 +54,8 @@ bool IsSeenGlass(float2 barycentrics) {
     const float3 p2 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.z);
     if (dot(ObjectRayDirection(), cross(p1 - p0, p2 - p0)) > 0.0) return false;
   }
-  const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+  const float2 uv = LoadUvOf(vertices, hit_constants, corners, barycentrics,
+                             UsesSecondUv(material, kBaseColorTexture));
   float alpha =
       material.base_color.a * SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
   if (hit_constants.color_offset != 0) {
@@ -82,6 +87,8 @@ void PathTracerClosestHit(inout PathHit payload, in BuiltInTriangleIntersectionA
   payload.base_color = surface.base_color;
   payload.roughness = surface.roughness;
   payload.metallic = surface.metallic;
+  payload.dielectric_f0 = surface.dielectric_f0;
+  payload.dielectric_f90 = surface.dielectric_f90;
   payload.emissive = surface.emissive;
   payload.opacity = surface.opacity;
   payload.is_unlit = surface.is_unlit ? 1 : 0;

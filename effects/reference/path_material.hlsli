@@ -61,6 +61,7 @@ struct PathBsdf {
   float3 view;             // towards where the path came from, in these axes
   Lobes albedo;            // directional: what each lobe reflects of even light
   float3 f0;               // reflectance at normal incidence
+  float f90;               // and at grazing incidence
   float alpha;             // GGX
   bool is_mirror;          // the specular lobe is a single direction
   float specular_chance;   // of sampling the specular lobe
@@ -72,8 +73,8 @@ float GrazingPart(float cosine) {
   return m * m * m * m * m;
 }
 
-float3 PathFresnel(float3 f0, float cosine) {
-  return f0 + (float3(1, 1, 1) - f0) * GrazingPart(cosine);
+float3 PathFresnel(float3 f0, float f90, float cosine) {
+  return f0 + (f90 - f0) * GrazingPart(cosine);
 }
 
 // Directional albedo of the specular lobe is f0 * x + y, by roughness and cosine to the view.
@@ -102,20 +103,22 @@ float Brightness(float3 color) { return dot(color, float3(0.2126f, 0.7152f, 0.07
 
 // `view`: towards where the path came from, in world space.
 PathBsdf MakePathBsdf(StructuredBuffer<float2> table, float3 base_color, float metallic,
-                      float roughness, float3 shading_normal, float3 view) {
+                      float roughness, float3 dielectric_f0, float dielectric_f90,
+                      float3 shading_normal, float3 view) {
   PathBsdf bsdf;
   bsdf.axes = MakePathAxes(shading_normal);
   bsdf.view = IntoAxes(bsdf.axes, view);
   bsdf.view.z = max(bsdf.view.z, 1e-6f);
-  bsdf.f0 = 0.04f + (base_color - 0.04f) * metallic;
+  bsdf.f0 = dielectric_f0 + (base_color - dielectric_f0) * metallic;
+  bsdf.f90 = dielectric_f90 + (1.0f - dielectric_f90) * metallic;
   bsdf.is_mirror = roughness <= kPathMirrorRoughness;
   bsdf.alpha = roughness * roughness;
   const float2 parts = SpecularParts(table, roughness, bsdf.view.z);
-  bsdf.albedo.specular = bsdf.f0 * parts.x + parts.y;
+  bsdf.albedo.specular = bsdf.f0 * parts.x + bsdf.f90 * parts.y;
   bsdf.albedo.diffuse = (1.0f - metallic) * base_color * (1.0f - bsdf.albedo.specular);
   const float share = Brightness(bsdf.albedo.specular);
   const float other = Brightness(bsdf.albedo.diffuse);
-  // A black diffuse lobe is never sampled; a specular one is never black.
+  // A black diffuse lobe is never sampled; a specular one always is.
   bsdf.specular_chance = other > 0.0f ? clamp(share / (share + other), 0.1f, 0.9f) : 1.0f;
   return bsdf;
 }
@@ -153,7 +156,7 @@ PathValue PathEvaluateLocal(PathBsdf bsdf, float3 light) {
   const float lambda_light = SmithLambda(bsdf.alpha, light);
   const float facets = FacetDensity(bsdf.alpha, h) / (4.0f * bsdf.view.z);
   value.lobes.specular =
-      PathFresnel(bsdf.f0, dot(bsdf.view, h)) * (facets / (1.0f + lambda_view + lambda_light));
+      PathFresnel(bsdf.f0, bsdf.f90, dot(bsdf.view, h)) * (facets / (1.0f + lambda_view + lambda_light));
   value.density += bsdf.specular_chance * facets / (1.0f + lambda_view);
   return value;
 }
@@ -196,7 +199,7 @@ PathDirection PathSampleDirection(PathBsdf bsdf, float2 u, float choice) {
   const bool is_specular = choice < bsdf.specular_chance;
   if (is_specular && bsdf.is_mirror) {
     light = float3(-bsdf.view.x, -bsdf.view.y, bsdf.view.z);
-    sampled.weight.specular = PathFresnel(bsdf.f0, bsdf.view.z) / bsdf.specular_chance;
+    sampled.weight.specular = PathFresnel(bsdf.f0, bsdf.f90, bsdf.view.z) / bsdf.specular_chance;
     sampled.is_valid = true;
   } else {
     if (is_specular) {

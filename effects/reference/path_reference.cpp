@@ -52,6 +52,7 @@ void add_light(Checksum& checksum, const Light& light) {
 void add_scene(Checksum& checksum, const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     checksum.add_values(mesh.vertices);
+    checksum.add_values(mesh.second_uv);
     checksum.add_values(mesh.indices);
     for (const Geometry& geometry : mesh.geometries) {
       checksum.add_value(geometry.index_offset_bytes);

@@ -37,7 +37,7 @@ float3 SlantedView() {
 PathBsdf TestBsdf() {
   const float3 base = float3(1, 1, 1) * constants.base;
   return MakePathBsdf(specular_albedo, base, constants.metallic, constants.roughness,
-                      float3(0, 0, 1), SlantedView());
+                      float3(0.04, 0.04, 0.04), 1.0, float3(0, 0, 1), SlantedView());
 }
 
 [shader("compute")]

@@ -28,7 +28,7 @@ RayPassDesc path_tracer_pass(rtapi::ShaderLibrary library) {
   desc.miss[kRayTypeVisibility] = "PathShadowMiss";
   desc.hit[kRayTypeSurface] = {"PathTracerAnyHit", "PathTracerClosestHit"};
   desc.hit[kRayTypeVisibility].any_hit = "PathShadowAnyHit";
-  desc.payload_bytes = 96;
+  desc.payload_bytes = 112;
   return desc;
 }
 

@@ -89,7 +89,7 @@ struct Vertex {
 Vertex MakeVertex(PathHit hit, float3 view) {
   Vertex vertex;
   vertex.bsdf = MakePathBsdf(specular_albedo, hit.base_color, hit.metallic, hit.roughness,
-                             hit.shading_normal, view);
+                             hit.dielectric_f0, hit.dielectric_f90, hit.shading_normal, view);
   vertex.position = hit.position;
   vertex.normal = hit.normal;
   vertex.offset = hit.offset;

@@ -29,12 +29,21 @@ bool IsOpenAt(float2 barycentrics) {
   float vertex_alpha = 1.0;
   if (HasTexture(material, kBaseColorTexture) || hit_constants.color_offset != 0) {
     const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
-    uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+    uv = LoadUvOf(vertices, hit_constants, corners, barycentrics,
+                  UsesSecondUv(material, kBaseColorTexture));
     if (hit_constants.color_offset != 0) {
       vertex_alpha = LoadColor(vertices, hit_constants, corners, barycentrics).w;
     }
   }
   return IsOpenAtUv(material, uv, vertex_alpha);
+}
+
+// Texture coordinates of a vertex that IsOpenAtUv takes, for vertex shaders of draws. `first`: its
+// first ones.
+float2 HoleUv(ByteAddressBuffer vertices_of, HitConstants layout, uint vertex, float2 first) {
+  if (layout.color_offset == 0) return first;
+  if (!UsesSecondUv(materials[layout.material_id], kBaseColorTexture)) return first;
+  return LoadVertexFloat2(vertices_of, layout.vertex_stride, UvOffset(layout, true), vertex);
 }
 
 // Opacity of a vertex, for vertex shaders of draws.

@@ -14,6 +14,7 @@ static const float kMirrorRoughness = 0.03f;
 struct Brdf {
   float3 diffuse;   // albedo of the diffuse part, were there no specular part
   float3 f0;        // reflectance at normal incidence
+  float f90;        // and of light that grazes the surface
   float roughness;  // at least kMirrorRoughness
   float alpha;      // GGX: roughness squared
 };
@@ -25,20 +26,39 @@ uint ReflectionMask(float roughness) {
   return IsMirror(roughness) ? kMaskSolid : kMaskWithoutLamps;
 }
 
-Brdf MakeBrdf(float3 base_color, float metallic, float roughness) {
+// `dielectric_f0` and `dielectric_f90`: reflectance where it is no metal.
+Brdf MakeBrdf(float3 base_color, float metallic, float roughness, float3 dielectric_f0,
+              float dielectric_f90) {
   Brdf result;
   result.diffuse = base_color * (1.0f - metallic);
-  result.f0 = lerp(float3(0.04f, 0.04f, 0.04f), base_color, metallic);
+  result.f0 = lerp(dielectric_f0, base_color, metallic);
+  result.f90 = lerp(dielectric_f90, 1.0f, metallic);
   result.roughness = clamp(roughness, kMirrorRoughness, 1.0f);
   result.alpha = result.roughness * result.roughness;
   return result;
 }
 
+// With the reflectance of glass.
+Brdf MakeBrdf(float3 base_color, float metallic, float roughness) {
+  return MakeBrdf(base_color, metallic, roughness, float3(0.04f, 0.04f, 0.04f), 1.0f);
+}
+
+// That of a pixel of the G-buffer. [encoding.hlsli: EncodeDielectric]
+Brdf PixelBrdf(uint2 pixel) {
+  const float4 material = g_material[pixel];
+  float3 f0 = float3(0.04f, 0.04f, 0.04f);
+  float f90 = 1.0f;
+  if (!IsPlainDielectric(material)) {
+    DecodeDielectric(material, IsTinted(material) ? g_emissive[pixel].w : kNoTint, f0, f90);
+  }
+  return MakeBrdf(DecodeColor(g_base_color[pixel].rgb), material.y, material.x, f0, f90);
+}
+
 // [Schlick 1994]
-float3 FresnelSchlick(float3 f0, float cosine) {
+float3 FresnelSchlick(float3 f0, float f90, float cosine) {
   const float m = saturate(1.0f - cosine);
   const float m2 = m * m;
-  return f0 + (float3(1.0f, 1.0f, 1.0f) - f0) * (m2 * m2 * m);
+  return f0 + (float3(f90, f90, f90) - f0) * (m2 * m2 * m);
 }
 
 // From the sine of the half vector's angle, not from 1 - cosine squared, of which rounding leaves
@@ -60,7 +80,7 @@ float GgxShadowing(float alpha, float cosine) {
 
 // Reflectance of the specular part under uniform light, without multiple scattering: interpolated
 // from effects/assets/common/specular_albedo.h's table. `roughness` is 0 to 1.
-float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
+float3 SpecularAlbedo(float3 f0, float f90, float roughness, float cosine_view) {
   const float2 at = float2(sqrt(saturate(cosine_view)) * float(kSpecularAlbedoCosines - 1),
                            saturate(roughness) * float(kSpecularAlbedoRoughnesses - 1));
   const uint2 corner = min(uint2(at), uint2(kSpecularAlbedoCosines, kSpecularAlbedoRoughnesses) - 2);
@@ -72,7 +92,7 @@ float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
       lerp(specular_albedo_table[first + kSpecularAlbedoCosines],
            specular_albedo_table[first + kSpecularAlbedoCosines + 1], part.x);
   const float2 split = lerp(smoother, rougher, part.y);
-  return f0 * split.x + split.y;
+  return f0 * split.x + f90 * split.y;
 }
 
 // Returns what a reflection is divided by before a filter, and multiplied by afterwards: the
@@ -97,7 +117,7 @@ BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
   view.direction = direction;
   view.cosine = max(dot(normal, direction), 1e-4f);
   view.shadowing = GgxShadowing(brdf.alpha, view.cosine);
-  view.specular = SpecularAlbedo(brdf.f0, brdf.roughness, view.cosine);
+  view.specular = SpecularAlbedo(brdf.f0, brdf.f90, brdf.roughness, view.cosine);
   view.diffuse = brdf.diffuse * (float3(1.0f, 1.0f, 1.0f) - view.specular);
   return view;
 }
@@ -109,7 +129,7 @@ float3 EvaluateBrdf(Brdf brdf, BrdfView view, float3 light) {
   const float n_l = dot(view.normal, light);
   if (!(n_l > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
   const float3 half_vector = normalize(view.direction + light);
-  const float3 fresnel = FresnelSchlick(brdf.f0, dot(view.direction, half_vector));
+  const float3 fresnel = FresnelSchlick(brdf.f0, brdf.f90, dot(view.direction, half_vector));
   const float both = n_l * view.shadowing + view.cosine * GgxShadowing(brdf.alpha, n_l);
   const float specular =
       GgxDensity(brdf.alpha, view.normal, half_vector) / (2.0f * both);
@@ -141,7 +161,7 @@ float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float c
   if (!(cosine_light > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
   const float view = GgxShadowing(brdf.alpha, cosine_view);
   const float light = GgxShadowing(brdf.alpha, cosine_light);
-  return FresnelSchlick(brdf.f0, cosine_half_view) *
+  return FresnelSchlick(brdf.f0, brdf.f90, cosine_half_view) *
          (cosine_light * (view + cosine_view) / (cosine_light * view + cosine_view * light));
 }
 

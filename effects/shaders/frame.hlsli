@@ -96,8 +96,8 @@ RWTexture2D<float> g_view_z : register(u1);      // metres along the camera's ax
 RWTexture2D<float2> g_normal : register(u2);     // geometric normal, octahedral, towards the camera
 RWTexture2D<float2> g_shading_normal : register(u3);
 RWTexture2D<float4> g_base_color : register(u4);  // EncodeColor
-RWTexture2D<float4> g_emissive : register(u5);
-RWTexture2D<float4> g_material : register(u6);    // roughness, metallic, 1: unlit, 0
+RWTexture2D<float4> g_emissive : register(u5);    // w: tint of EncodeDielectric
+RWTexture2D<float4> g_material : register(u6);    // roughness, metallic, EncodeDielectric; z is 1: unlit
 RWTexture2D<uint2> g_ids : register(u7);          // instance + 1, primitive; 0: a miss
 // Position relative to the camera, and how far along the geometric normal a ray must start so that
 // it does not hit its own surface.

@@ -12,7 +12,8 @@ struct HitConstants {
   uint uv_offset;
   uint index_size_bytes;  // 2 or 4
   uint material_id;
-  uint color_offset;      // bytes from the start of a vertex; 0: all vertices are white
+  uint color_offset;      // bytes from the start of a vertex, second texture coordinates follow;
+                          // 0: all vertices are white, and the second coordinates are the first
   uint geometry_id;
 };
 
@@ -63,6 +64,19 @@ float2 LoadUv(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_verti
       LoadVertexFloat2(vertices, hit.vertex_stride, hit.uv_offset, triangle_vertices.y),
       LoadVertexFloat2(vertices, hit.vertex_stride, hit.uv_offset, triangle_vertices.z),
       barycentrics);
+}
+
+// From the start of a vertex to its first or second texture coordinates.
+uint UvOffset(HitConstants hit, bool second) {
+  return second && hit.color_offset != 0u ? hit.color_offset + 8u : hit.uv_offset;
+}
+
+// As LoadUv: the first or the second.
+float2 LoadUvOf(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_vertices,
+                float2 barycentrics, bool second) {
+  HitConstants layout = hit;
+  layout.uv_offset = UvOffset(hit, second);
+  return LoadUv(vertices, layout, triangle_vertices, barycentrics);
 }
 
 // Only where `hit.color_offset` is not 0.

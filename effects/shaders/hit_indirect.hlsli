@@ -18,8 +18,7 @@ float3 IndirectAtMatteHit(MatteSurface surface, float3 jitter) {
 float3 IndirectAtHit(Surface surface, float3 jitter, float3 view) {
   if (surface.is_unlit) return float3(0, 0, 0);
   const BrdfView brdf_view =
-      MakeBrdfView(MakeBrdf(surface.base_color, surface.metallic, surface.roughness),
-                   surface.shading_normal, view);
+      MakeBrdfView(SurfaceBrdf(surface), surface.shading_normal, view);
   const float3 mirrored = reflect(-view, surface.shading_normal);
   return brdf_view.diffuse * VolumeIrradianceAt(surface.position, jitter, surface.normal) +
          brdf_view.specular *

@@ -7,7 +7,7 @@
 #define KAAMOS_HIT_SHADING_HLSLI
 
 #include "hit_lighting.hlsli"
-#include "surface.hlsli"
+#include "surface_brdf.hlsli"
 #include "visibility.hlsli"
 
 // These say whether hits are lit by the sun, and how its shadows are found.
@@ -47,7 +47,7 @@ float3 ShadeMatteHit(MatteSurface surface, uint sun_at_hits) {
 // Radiance towards `direction`, where the ray came from, without indirect light.
 float3 ShadeHit(Surface surface, float3 direction, uint sun_at_hits) {
   if (surface.is_unlit) return surface.emissive;
-  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
+  const Brdf brdf = SurfaceBrdf(surface);
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 radiance = surface.emissive;
   radiance += LocalLights(brdf, view, surface.position, surface.normal);

@@ -9,6 +9,8 @@ static const uint kBaseColorTexture = 0u;
 static const uint kMetallicRoughnessTexture = 1u;
 static const uint kNormalTexture = 2u;
 static const uint kEmissiveTexture = 3u;
+static const uint kSpecularTexture = 4u;
+static const uint kSpecularColorTexture = 5u;
 
 static const uint kMaterialMask = 1u;
 static const uint kMaterialBlend = 2u;
@@ -18,7 +20,7 @@ static const uint kMaterialUnlit = 16u;  // emits its base colour times the vert
 
 static const int kNoTexture = -1;
 
-// 192 bytes. Colours are linear.
+// 288 bytes. Colours are linear.
 struct MaterialConstants {
   float4 base_color;
   float3 emissive;
@@ -27,18 +29,27 @@ struct MaterialConstants {
   float alpha_cutoff;
   float normal_scale;
   uint flags;
-  int image[4];        // into the texture array, or kNoTexture
-  uint sampler_id[4];  // into the sampler array
-  float4 uv_matrix[4];
-  float2 uv_offset[4];
-  float one_texel_level[4];  // level of detail at which a texture is one texel
+  float3 specular_color;
+  float specular;
+  float dielectric_f0;
+  uint second_uv;      // bit per slot: read with the second texture coordinates
+  int image[6];        // into the texture array, or kNoTexture
+  uint sampler_id[6];  // into the sampler array
+  float4 uv_matrix[6];
+  float2 uv_offset[6];
+  float one_texel_level[6];  // level of detail at which a texture is one texel
 };
 
 bool HasTexture(MaterialConstants material, uint slot) { return material.image[slot] >= 0; }
 
 bool HasAnyTexture(MaterialConstants material) {
-  return max(max(material.image[0], material.image[1]),
-             max(material.image[2], material.image[3])) >= 0;
+  return max(max(max(material.image[0], material.image[1]),
+                 max(material.image[2], material.image[3])),
+             max(material.image[4], material.image[5])) >= 0;
+}
+
+bool UsesSecondUv(MaterialConstants material, uint slot) {
+  return (material.second_uv & (1u << slot)) != 0u;
 }
 
 // Texture coordinates of a slot. [KHR_texture_transform]

@@ -18,6 +18,8 @@ struct Surface {
   float3 emissive;
   float roughness;
   float metallic;
+  float3 dielectric_f0;  // reflectance of what is no metal: of light that comes straight at it
+  float dielectric_f90;  // and of light that grazes it
   bool back_face;  // the ray hit the back of the triangle
   bool is_unlit;   // emits its base colour and reflects nothing [KHR_materials_unlit]
 };
@@ -103,32 +105,56 @@ HitPoint LoadHitPoint(ByteAddressBuffer vertices, ByteAddressBuffer indices, Tri
   return found;
 }
 
-// The place where textures are read at a hit, and the level of detail.
+// The places where textures are read at a hit, and their levels of detail.
 struct HitTexel {
   float2 uv;
   float level;
+  float2 second_uv;  // as uv, where the material reads no texture with it
+  float second_level;
 };
+
+// The same for one pair of texture coordinates.
+void LoadTexelOf(ByteAddressBuffer vertices, TriangleHit hit, HitPoint found, float cone_width,
+                 bool second, out float2 uv, out float level) {
+  const HitConstants layout = hit.layout;
+  const uint offset = UvOffset(layout, second);
+  const float2 uv0 = LoadVertexFloat2(vertices, layout.vertex_stride, offset, found.corners.x);
+  const float2 uv1 = LoadVertexFloat2(vertices, layout.vertex_stride, offset, found.corners.y);
+  const float2 uv2 = LoadVertexFloat2(vertices, layout.vertex_stride, offset, found.corners.z);
+  uv = Interpolate(uv0, uv1, uv2, hit.barycentrics);
+  level = kFinestLevel;
+  if (cone_width > 0.0) {
+    level = RayConeLevel(found.p0, found.p1, found.p2, uv0, uv1, uv2,
+                         (float3x3)hit.object_to_world,
+                         abs(dot(hit.direction, found.spawn.normal)), cone_width);
+  }
+}
 
 // `cone_width` is the width of the ray's cone at the hit in metres; 0 reads level 0. [Northlight
 // deck: texture LOD]
 HitTexel LoadHitTexel(ByteAddressBuffer vertices, TriangleHit hit, HitPoint found,
-                      float cone_width) {
-  const HitConstants layout = hit.layout;
-  const float2 uv0 =
-      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, found.corners.x);
-  const float2 uv1 =
-      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, found.corners.y);
-  const float2 uv2 =
-      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, found.corners.z);
+                      MaterialConstants material, float cone_width) {
   HitTexel texel;
-  texel.uv = Interpolate(uv0, uv1, uv2, hit.barycentrics);
-  texel.level = kFinestLevel;
-  if (cone_width > 0.0) {
-    texel.level = RayConeLevel(found.p0, found.p1, found.p2, uv0, uv1, uv2,
-                               (float3x3)hit.object_to_world,
-                               abs(dot(hit.direction, found.spawn.normal)), cone_width);
+  LoadTexelOf(vertices, hit, found, cone_width, false, texel.uv, texel.level);
+  texel.second_uv = texel.uv;
+  texel.second_level = texel.level;
+  if (material.second_uv != 0) {
+    LoadTexelOf(vertices, hit, found, cone_width, true, texel.second_uv, texel.second_level);
   }
   return texel;
+}
+
+HitTexel NoTexel() {
+  HitTexel texel;
+  texel.uv = texel.second_uv = float2(0, 0);
+  texel.level = texel.second_level = kFinestLevel;
+  return texel;
+}
+
+float4 SampleMaterial(MaterialConstants material, uint slot, HitTexel texel) {
+  const bool second = UsesSecondUv(material, slot);
+  return SampleMaterial(material, slot, second ? texel.second_uv : texel.uv,
+                        second ? texel.second_level : texel.level);
 }
 
 // `cone_width`: as in LoadHitTexel.
@@ -142,10 +168,8 @@ Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, Trian
   surface.normal = found.side * found.spawn.normal;
   surface.back_face = found.side < 0.0;
   surface.is_unlit = (material.flags & kMaterialUnlit) != 0;
-  HitTexel texel;
-  texel.uv = float2(0, 0);
-  texel.level = kFinestLevel;
-  if (HasAnyTexture(material)) texel = LoadHitTexel(vertices, hit, found, cone_width);
+  HitTexel texel = NoTexel();
+  if (HasAnyTexture(material)) texel = LoadHitTexel(vertices, hit, found, material, cone_width);
 
   float3 shading_normal = NormalToWorld(
       LoadNormal(vertices, hit.layout, found.corners, hit.barycentrics), hit.world_to_object);
@@ -153,7 +177,7 @@ Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, Trian
     const float4 tangent = LoadTangent(vertices, hit.layout, found.corners, hit.barycentrics);
     const float3 world_tangent = normalize(mul((float3x3)hit.object_to_world, tangent.xyz));
     shading_normal =
-        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, texel.uv, texel.level).xyz,
+        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, texel).xyz,
                            material.normal_scale, shading_normal, world_tangent, tangent.w);
   }
   shading_normal *= dot(shading_normal, found.spawn.normal) * found.side >= 0.0 ? 1.0 : -1.0;
@@ -161,20 +185,27 @@ Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, Trian
   surface.shading_normal = dot(shading_normal, hit.direction) < 0.0 ? shading_normal : surface.normal;
 
   float4 base_color =
-      material.base_color * SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level);
+      material.base_color * SampleMaterial(material, kBaseColorTexture, texel);
   float3 emissive =
-      material.emissive * SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb;
+      material.emissive * SampleMaterial(material, kEmissiveTexture, texel).rgb;
   if (hit.layout.color_offset != 0) {
     const float4 color = LoadColor(vertices, hit.layout, found.corners, hit.barycentrics);
     base_color *= color;
     if (surface.is_unlit) emissive *= color.rgb;
   }
-  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, texel.uv, texel.level);
+  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, texel);
   surface.base_color = Contain(base_color.rgb, 1.0);
   surface.opacity = base_color.a;
   surface.emissive = Contain(emissive, kLargestRadiance);
   surface.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
   surface.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);
+  // [KHR_materials_specular]
+  surface.dielectric_f90 =
+      Contain(material.specular * SampleMaterial(material, kSpecularTexture, texel).a, 1.0);
+  const float3 specular_color =
+      material.specular_color * SampleMaterial(material, kSpecularColorTexture, texel).rgb;
+  surface.dielectric_f0 =
+      surface.dielectric_f90 * Contain(material.dielectric_f0 * specular_color, 1.0);
   return surface;
 }
 
@@ -204,9 +235,9 @@ MatteSurface LoadMatteSurface(float2 barycentrics, float cone_width) {
   surface.base_color = material.base_color.rgb;
   surface.emissive = material.emissive;
   if (HasTexture(material, kBaseColorTexture) || HasTexture(material, kEmissiveTexture)) {
-    const HitTexel texel = LoadHitTexel(vertices, hit, found, cone_width);
-    surface.base_color *= SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level).rgb;
-    surface.emissive *= SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb;
+    const HitTexel texel = LoadHitTexel(vertices, hit, found, material, cone_width);
+    surface.base_color *= SampleMaterial(material, kBaseColorTexture, texel).rgb;
+    surface.emissive *= SampleMaterial(material, kEmissiveTexture, texel).rgb;
   }
   if (hit.layout.color_offset != 0) {
     const float3 color = LoadColor(vertices, hit.layout, found.corners, hit.barycentrics).rgb;

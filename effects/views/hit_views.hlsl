@@ -30,7 +30,8 @@ void ViewAnyHit(inout ViewPayload payload, in BuiltInTriangleIntersectionAttribu
 void HitUv(inout ViewPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const TriangleHit triangle_hit = RayHit(hit.barycentrics);
   const HitPoint found = LoadHitPoint(vertices, indices, triangle_hit);
-  payload.value = float3(LoadHitTexel(vertices, triangle_hit, found, 0.0).uv, 0.0);
+  payload.value = float3(LoadHitTexel(vertices, triangle_hit, found,
+                                      materials[triangle_hit.layout.material_id], 0.0).uv, 0.0);
   payload.distance = RayTCurrent();
 }
 

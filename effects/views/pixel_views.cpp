@@ -96,9 +96,9 @@ void add_box(const Scene& scene, std::size_t index, const InstanceState& state,
       state.mesh == kNoIndex ? scene.instances[index].mesh : static_cast<std::uint32_t>(state.mesh);
   const Mesh& mesh = scene.meshes[mesh_index];
   Bounds box = mesh.bounds();
-  if (!state.joints.empty()) {
+  if (state.is_deformed()) {
     Mesh posed;
-    posed.vertices = skin_vertices(mesh, state.joints);
+    posed.vertices = deform_vertices(mesh, state);
     box = posed.bounds();
   }
   for (int i = 0; i < 8; ++i) {

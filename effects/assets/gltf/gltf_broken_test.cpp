@@ -67,6 +67,28 @@ TEST(GltfBroken, SaysWhatAndWhere) {
   expect_error(load(file.bytes()), "shows no triangles");
 }
 
+TEST(GltfBroken, WhatTheParserWouldRefuseInItsOwnWords) {
+  QuadFile file;
+  file.views =
+      R"({"buffer":0,"byteLength":48,"byteStride":13},{"buffer":0,"byteOffset":48,"byteLength":6})";
+  expect_error(load(file.bytes()),
+               "bufferView 0: byteStride is 13, multiples of 4 from 4 to 252 are allowed");
+  file = {};
+  file.more = R"(,"images":[{"bufferView":9,"mimeType":"image/png"}])";
+  expect_error(load(file.bytes()), "image 0: names bufferView 9 of 2");
+  file.more = R"(,"images":[{"uri":"data:image/png;base64,`"}])";
+  expect_error(load(file.bytes()), "image 0: its data URI holds no base64");
+  file.more = R"(,"samplers":[7])";
+  expect_error(load(file.bytes()), "sampler 0: is not an object");
+  file.more = R"(,"materials":[{},null])";
+  expect_error(load(file.bytes()), "material 1: is not an object");
+  file.more = R"(,"materials":[{"pbrMetallicRoughness":3}])";
+  expect_error(load(file.bytes()), "material 0: pbrMetallicRoughness is not an object");
+  file = {};
+  file.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":0})";
+  expect_error(load(file.bytes()), "made of triangles; points and lines are not drawn");
+}
+
 TEST(GltfBroken, ImagesOutsideTheirBufferOrDamaged) {
   std::vector<std::uint8_t> bytes =
       textured(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");

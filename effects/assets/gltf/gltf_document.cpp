@@ -56,6 +56,14 @@ constexpr std::array kScene = {Member{"nodes", Kind::kWholes}};
 constexpr std::array kImage = {Member{"uri", Kind::kText}, Member{"bufferView", Kind::kWhole},
                                Member{"mimeType", Kind::kText}};
 constexpr std::array kTexture = {Member{"source", Kind::kWhole}, Member{"sampler", Kind::kWhole}};
+constexpr std::array kTextureSampler = {
+    Member{"magFilter", Kind::kWhole}, Member{"minFilter", Kind::kWhole},
+    Member{"wrapS", Kind::kWhole}, Member{"wrapT", Kind::kWhole}};
+constexpr std::array kMaterial = {
+    Member{"pbrMetallicRoughness", Kind::kObject}, Member{"normalTexture", Kind::kObject},
+    Member{"occlusionTexture", Kind::kObject},     Member{"emissiveTexture", Kind::kObject},
+    Member{"emissiveFactor", Kind::kList},         Member{"alphaMode", Kind::kText},
+    Member{"alphaCutoff", Kind::kNumber}};
 constexpr std::array kCamera = {Member{"type", Kind::kText, true}};
 constexpr std::array kPerspective = {Member{"yfov", Kind::kNumber, true},
                                      Member{"znear", Kind::kNumber, true}};
@@ -130,6 +138,9 @@ class Checker {
   Status animation(Json& animation, const std::string& where);
   Status lights();
   Status image(Json& image, const std::string& where);
+  Status view(const Json& view, const std::string& where) const;
+  Status names(const Json& object, const char* member, const char* list, const char* noun,
+               const std::string& where) const;
   bool has_view(const Json& id) const;
 
   Json& root_;
@@ -335,17 +346,45 @@ Status Checker::buffer(Json& buffer, std::size_t id, const std::string& where) {
   return {};
 }
 
+// Checks that a member, if it is there, names one of a list of the file.
+Status Checker::names(const Json& object, const char* member, const char* list, const char* noun,
+                      const std::string& where) const {
+  const Json* id = find(object, member);
+  if (!id) return {};
+  const Json* all = find(root_, list);
+  const std::size_t count = all && all->is_array() ? all->size() : 0;
+  const auto place = id->get<std::int64_t>();
+  if (place >= 0 && static_cast<std::size_t>(place) < count) return {};
+  return fail(where, std::string("names ") + noun + " " + std::to_string(place) + " of " +
+                         std::to_string(count));
+}
+
+Status Checker::view(const Json& view, const std::string& where) const {
+  if (const Json* stride = find(view, "byteStride")) {
+    const auto bytes = stride->get<std::int64_t>();
+    if (bytes < 0 || bytes > 252 || bytes % 4 != 0)
+      return fail(where, "byteStride is " + std::to_string(bytes) +
+                             ", multiples of 4 from 4 to 252 are allowed");
+  }
+  return names(view, "buffer", "buffers", "buffer", where);
+}
+
 // Any media type will do: the first bytes of a picture say what it is.
 Status Checker::image(Json& image, const std::string& where) {
   if (!find(image, "uri") && !find(image, "bufferView"))
     return fail(where, "has neither uri nor bufferView, one is required");
+  if (const Status status = names(image, "bufferView", "bufferViews", "bufferView", where);
+      !status.ok())
+    return status;
   const std::string address = text(image, "uri");
-  if (!address.starts_with("data:") || address.starts_with(kImagePrefix) ||
-      address.starts_with("data:image/jpeg;base64,"))
-    return {};
+  if (!address.starts_with("data:")) return {};
   const std::size_t comma = address.find(";base64,");
   if (comma == std::string::npos)
     return fail(where, "its data URI is not base64, which is the only kind that is read");
+  if (decoded_size(std::string_view(address).substr(comma + 8)) == 0)
+    return fail(where, "its data URI holds no base64");
+  if (address.starts_with(kImagePrefix) || address.starts_with("data:image/jpeg;base64,"))
+    return {};
   image["uri"] = std::string(kImagePrefix) + address.substr(comma + 8);
   changed = true;
   return {};
@@ -442,7 +481,10 @@ Status Checker::run(std::vector<std::string>& warnings) {
                   [&](Json& item, std::size_t id, const std::string& where) {
                     return buffer(item, id, where);
                   });
-  if (status.ok()) status = each("bufferViews", "bufferView", kBufferView, nothing);
+  if (status.ok())
+    status =
+        each("bufferViews", "bufferView", kBufferView,
+             [&](Json& item, std::size_t, const std::string& where) { return view(item, where); });
   if (status.ok())
     status = each(
         "accessors", "accessor", kAccessor,
@@ -466,6 +508,8 @@ Status Checker::run(std::vector<std::string>& warnings) {
         each("images", "image", kImage,
              [&](Json& item, std::size_t, const std::string& where) { return image(item, where); });
   if (status.ok()) status = each("textures", "texture", kTexture, nothing);
+  if (status.ok()) status = each("samplers", "sampler", kTextureSampler, nothing);
+  if (status.ok()) status = each("materials", "material", kMaterial, nothing);
   if (status.ok())
     status = each(
         "cameras", "camera", kCamera,

@@ -194,13 +194,72 @@ TEST(GltfMorph, TargetsMoveVerticesAtRest) {
   expect_error(load(file.bytes()), "morph target 0, POSITION: has 1 elements, POSITION has 4");
 }
 
-TEST(GltfMorph, AnAnimationOfWeightsIsNamed) {
+/// A quad whose two targets move it up and to the right, by keys at 0, 1 and 3 s.
+File morphing(const std::string& interpolation, const std::vector<float>& weights) {
   File file;
-  const std::string times = file.add(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+  const std::string up =
+      file.add(std::vector<float>{0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}, 5126, "VEC3", 3);
+  const std::string right =
+      file.add(std::vector<float>{2, 0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0}, 5126, "VEC3", 3);
+  const std::string times = file.add(std::vector<float>{0, 1, 3}, 5126, "SCALAR", 1);
+  const std::string values = file.add(weights, 5126, "SCALAR", 1);
+  file.primitive = R"(,"targets":[{"POSITION":)" + up + R"(},{"POSITION":)" + right + "}]";
+  file.mesh = R"(,"weights":[0.25,0])";
+  file.nodes = R"({"mesh":0},{"mesh":0,"translation":[0,0,5]})";
   file.more = R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}],)"
-              R"("samplers":[{"input":)" +
-              times + R"(,"output":)" + times + "}]}]";
-  expect_warning(load_animated(file.bytes()), "moves morph weights, which stay at rest");
+              R"("samplers":[{"interpolation":")" +
+              interpolation + R"(","input":)" + times + R"(,"output":)" + values + "}]}]";
+  return file;
+}
+
+/// Where the first corner of instance 0 stands.
+glm::vec3 corner_at(const Scene& scene, double seconds) {
+  const Scene posed = posed_scene(scene, seconds);
+  return posed.meshes.at(posed.instances.at(0).mesh).vertices.at(0).position;
+}
+
+TEST(GltfMorph, WeightsAreAnimatedByAllInterpolations) {
+  const std::vector<float> keys = {0, 0, 1, 0, 1, 1};
+  const auto linear = load_animated(morphing("LINEAR", keys).bytes());
+  EXPECT_TRUE(linear.value().warnings.empty());
+  const Scene scene = scene_of(linear);
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.instances[0].motion.morph, 0);
+  EXPECT_EQ(scene.instances[1].motion.morph, kNoIndex) << "no channel moves it";
+  EXPECT_EQ(scene.meshes.at(scene.instances[1].mesh).bounds().min.y, 0.25) << "it stays at rest";
+  EXPECT_EQ(corner_at(scene, 0.5), glm::vec3(0, 0.5f, 0));
+  EXPECT_EQ(corner_at(scene, 2), glm::vec3(1, 1, 0));
+  EXPECT_EQ(scene_bounds(scene).max.y, 1.25);
+  const Scene stepped = scene_of(load_animated(morphing("STEP", keys).bytes()));
+  EXPECT_EQ(corner_at(stepped, 0.9), glm::vec3(0, 0, 0));
+  EXPECT_EQ(corner_at(stepped, 1.0), glm::vec3(0, 1, 0));
+  // In-tangents, values, out-tangents of both targets, by key. At the middle of a second: half of
+  // each value, an eighth of the out-tangent, minus an eighth of the next in-tangent.
+  const Scene cubic = scene_of(load_animated(
+      morphing("CUBICSPLINE", {0, 0, 0, 0, 4, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0, 0}).bytes()));
+  EXPECT_NEAR(corner_at(cubic, 0.5).y, 0.5 + 4.0 / 8 - 2.0 / 8, 1e-6);
+  EXPECT_NEAR(corner_at(cubic, 2).x, 2 * 0.5, 1e-6);
+  File backwards = morphing("LINEAR", keys);
+  const std::string times = backwards.add(std::vector<float>{0, 2, 1}, 5126, "SCALAR", 1);
+  backwards.more.replace(backwards.more.find(R"("input":)") + 8, 1, times);
+  expect_error(load_animated(backwards.bytes()), "input: element 2 is a time that is not after");
+  expect_error(load_animated(morphing("LINEAR", {0, 0, 1, 0, 1}).bytes()),
+               "has 3 times and 5 weights, 2 per time are expected for the 2 morph targets");
+  EXPECT_EQ(scene_of(load(morphing("LINEAR", keys).bytes())).meshes.at(0).bounds().min.y, 0.25)
+      << "what does not move is at rest";
+}
+
+TEST(GltfMorph, FlatNormalsTurnWithTheirTriangles) {
+  File file = morphing("LINEAR", {0, 0, 1, 0, 1, 0});
+  // The right side goes 1 m back: the quad turns by 45 degrees about the y axis.
+  const std::string back =
+      file.add(std::vector<float>{0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, -1}, 5126, "VEC3", 3);
+  file.primitive = R"(,"targets":[{"POSITION":)" + back + R"(},{"POSITION":)" + back + "}]";
+  const Scene posed = posed_scene(scene_of(load_animated(file.bytes())), 1);
+  for (const Vertex& vertex : posed.meshes.at(posed.instances.at(0).mesh).vertices) {
+    EXPECT_NEAR(vertex.normal.x, std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(vertex.normal.z, std::sqrt(0.5), 1e-6);
+  }
 }
 
 /// A quad that 5 joints move: each weighs 0.2 and stands 5, 10, ... 25 m to the right.
@@ -223,6 +282,24 @@ File five_joints() {
   for (int joint = 1; joint <= 5; ++joint)
     file.nodes += R"(,{"translation":[)" + std::to_string(5 * joint) + ",0,0]}";
   return file;
+}
+
+TEST(GltfMorph, TargetsMoveASkinBeforeItsJoints) {
+  File file = five_joints();
+  const std::string up =
+      file.add(std::vector<float>{0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}, 5126, "VEC3", 3);
+  const std::string times = file.add(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+  file.primitive = R"(,"targets":[{"POSITION":)" + up + "}]";
+  file.more += R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}],)"
+               R"("samplers":[{"input":)" +
+               times + R"(,"output":)" + times + "}]}]";
+  const Scene scene = scene_of(load_animated(file.bytes()));
+  EXPECT_EQ(scene.instances.at(0).motion.morph, 0);
+  EXPECT_EQ(scene.instances.at(0).motion.skin, 0);
+  const Scene posed = posed_scene(scene, 0.75);
+  const Bounds box = posed.meshes.at(posed.instances.at(0).mesh).bounds();
+  EXPECT_NEAR(box.min.y, 0.75, 1e-6);
+  EXPECT_NEAR(box.min.x, 16.5 / 0.9, 1e-5);
 }
 
 TEST(GltfSkins, TheSecondSetOfJointsCounts) {
@@ -326,11 +403,11 @@ TEST(GltfUnlit, ShowsItsBaseColorAndComesBack) {
 TEST(GltfExtensions, ThoseThatAreNotReadAreNamed) {
   File file;
   file.primitive = R"(,"material":0)";
-  file.more = R"(,"extensionsUsed":["KHR_materials_transmission","ACME_sparkle"],)"
+  file.more = R"(,"extensionsUsed":["KHR_materials_sheen","ACME_sparkle"],)"
               R"("materials":[{"extensions":{"KHR_materials_clearcoat":{},)"
               R"("KHR_materials_emissive_strength":{"emissiveStrength":2}}}])";
   const auto loaded = load(file.bytes());
-  expect_warning(loaded, "KHR_materials_transmission is not read: surfaces are as opaque as");
+  expect_warning(loaded, "KHR_materials_sheen is not read: cloth has no sheen");
   expect_warning(loaded, "ACME_sparkle is not read: what it describes is left out");
   expect_warning(loaded, "KHR_materials_clearcoat is not read");
   EXPECT_EQ(loaded.value().warnings.size(), 3u) << "one sentence each";
@@ -477,7 +554,7 @@ TEST(GltfNodes, OrthographicCamerasAreReadAndWritten) {
   expect_warning(with("-1"), "the ymag of its orthographic camera is not above 0");
 }
 
-TEST(GltfTextures, OtherTextureCoordinatesAreReadWhereAllTexturesUseThem) {
+TEST(GltfTextures, EachTextureHasItsOwnCoordinates) {
   const auto material = [](const std::string& normal) {
     return R"({"normalTexture":{"index":0)" + normal +
            R"(},"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}})";
@@ -488,8 +565,109 @@ TEST(GltfTextures, OtherTextureCoordinatesAreReadWhereAllTexturesUseThem) {
   EXPECT_NE(scene.materials.at(0).constants.image[kBaseColorTexture], kNoTexture);
   EXPECT_NE(scene.materials.at(0).constants.image[kNormalTexture], kNoTexture);
   const auto mixed = load(textured(material("")));
-  expect_warning(mixed, "uses TEXCOORD_0, and the material's others TEXCOORD_1");
-  EXPECT_EQ(scene_of(mixed).materials.at(0).constants.image[kNormalTexture], kNoTexture);
+  EXPECT_TRUE(mixed.value().warnings.empty());
+  const MaterialConstants& constants = scene_of(mixed).materials.at(0).constants;
+  EXPECT_NE(constants.image[kNormalTexture], kNoTexture);
+  EXPECT_EQ(constants.second_uv, 1u << kBaseColorTexture) << "tangents are the normal texture's";
+  const auto third =
+      load(textured(R"({"normalTexture":{"index":0},"emissiveTexture":{"index":0,"texCoord":2},)"
+                    R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}})"));
+  expect_warning(third, "uses TEXCOORD_2, and the material's others TEXCOORD_0 and TEXCOORD_1");
+}
+
+TEST(GltfTextures, FilesKeepTheSecondCoordinates) {
+  Scene scene = scene_of(
+      load(textured(R"({"normalTexture":{"index":0},"pbrMetallicRoughness":{"baseColorTexture":)"
+                    R"({"index":0,"texCoord":1}}})")));
+  Mesh& mesh = scene.meshes.at(0);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    mesh.second_uv.emplace_back(0.25f * static_cast<float>(i), 1.0f);
+  const auto written = encode_glb(scene);
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  const Scene again = scene_of(load(written.value()));
+  EXPECT_EQ(again.meshes.at(0).second_uv, mesh.second_uv);
+  EXPECT_EQ(again.materials.at(0).constants.second_uv, 1u << kBaseColorTexture);
+  Scene split = scene;
+  ASSERT_EQ(split_into_pieces(split, 1), 1u);
+  EXPECT_EQ(split.meshes.at(0).second_uv.size(), 3u);
+}
+
+TEST(GltfMaterials, ReflectanceIsReadAndWritten) {
+  const Scene scene = scene_of(load(textured(
+      R"({"extensions":{"KHR_materials_ior":{"ior":1.33},"KHR_materials_specular":)"
+      R"({"specularFactor":0.5,"specularColorFactor":[1,2,0.5],"specularTexture":{"index":0},)"
+      R"("specularColorTexture":{"index":0,"texCoord":1,"extensions":)"
+      R"({"KHR_texture_transform":{"offset":[0.5,0.25]}}}}}})")));
+  const MaterialConstants& c = scene.materials.at(0).constants;
+  EXPECT_NEAR(c.dielectric_f0, 0.33 * 0.33 / (2.33 * 2.33), 1e-8);
+  EXPECT_EQ(c.specular, 0.5f);
+  EXPECT_EQ(c.specular_color, glm::vec3(1, 2, 0.5f));
+  ASSERT_NE(c.image[kSpecularTexture], kNoTexture);
+  ASSERT_NE(c.image[kSpecularColorTexture], kNoTexture);
+  EXPECT_TRUE(scene.images[static_cast<std::size_t>(c.image[kSpecularColorTexture])].srgb);
+  EXPECT_FALSE(scene.images[static_cast<std::size_t>(c.image[kSpecularTexture])].srgb);
+  EXPECT_EQ(c.uv_offset[kSpecularColorTexture], glm::vec2(0.5f, 0.25f));
+  EXPECT_EQ(c.second_uv, 1u << kSpecularColorTexture);
+  const auto written = encode_glb(scene);
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  const auto back = load(written.value());
+  EXPECT_TRUE(back.value().warnings.empty());
+  const MaterialConstants& again = scene_of(back).materials.at(0).constants;
+  EXPECT_EQ(again.dielectric_f0, c.dielectric_f0);
+  EXPECT_EQ(again.specular, c.specular);
+  EXPECT_EQ(again.specular_color, c.specular_color);
+  EXPECT_EQ(again.uv_offset, c.uv_offset);
+  EXPECT_EQ(again.second_uv, c.second_uv);
+}
+
+TEST(GltfMaterials, GlossinessBecomesRoughness) {
+  const auto with = [](const std::string& texture) {
+    return load(textured(
+        R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.5,0.25,1,1],)"
+        R"("specularFactor":[0.1,0.2,0.3],"glossinessFactor":0.75)" +
+            texture + "}}}",
+        R"(,"extensionsRequired":["KHR_materials_pbrSpecularGlossiness"])"));
+  };
+  const auto plain = with("");
+  EXPECT_TRUE(plain.value().warnings.empty());
+  const MaterialConstants& c = scene_of(plain).materials.at(0).constants;
+  EXPECT_EQ(c.base_color, glm::vec4(0.5f, 0.25f, 1, 1));
+  EXPECT_EQ(c.metallic, 0.0f);
+  EXPECT_EQ(c.roughness, 0.25f);
+  EXPECT_EQ(c.dielectric_f0 * c.specular * c.specular_color, glm::vec3(0.1f, 0.2f, 0.3f));
+  // Alpha 255 and 0: 1 - 0.75 and 1.
+  const Scene scene = scene_of(with(R"(,"specularGlossinessTexture":{"index":0})"));
+  const MaterialConstants& textured_ones = scene.materials.at(0).constants;
+  EXPECT_EQ(textured_ones.roughness, 1.0f);
+  ASSERT_NE(textured_ones.image[kMetallicRoughnessTexture], kNoTexture);
+  ASSERT_NE(textured_ones.image[kSpecularColorTexture], kNoTexture);
+  const TextureImage& rough =
+      scene.images[static_cast<std::size_t>(textured_ones.image[kMetallicRoughnessTexture])];
+  EXPECT_EQ(int{rough.mips[0][1]}, 64);
+  EXPECT_EQ(int{rough.mips[0][5]}, 255);
+}
+
+TEST(GltfMaterials, LightPassesThroughThinGlass) {
+  const auto with = [](const std::string& color, const std::string& transmission) {
+    return load(textured(R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0,)"
+                         R"("baseColorFactor":)" +
+                         color + R"(},"extensions":{"KHR_materials_transmission":{)" +
+                         transmission + "}}}"));
+  };
+  const auto clear = with("[1,1,1,1]", R"("transmissionFactor":0.75)");
+  EXPECT_TRUE(clear.value().warnings.empty());
+  const Scene scene = scene_of(clear);
+  EXPECT_EQ(scene.materials.at(0).constants.base_color.a, 0.25f);
+  EXPECT_EQ(int{scene.instances.at(0).mask}, int{kMaskTransparent});
+  EXPECT_GT(scene_of(with("[1,1,1,1]", R"("transmissionFactor":1)"))
+                .materials.at(0)
+                .constants.base_color.a,
+            0.0f);
+  expect_warning(with("[1,0.5,0.5,1]", R"("transmissionFactor":1)"), "glass colours what it");
+  const auto textured_glass = with("[1,1,1,1]", R"("transmissionFactor":1,)"
+                                                R"("transmissionTexture":{"index":0})");
+  expect_warning(textured_glass, "KHR_materials_transmission: its texture is not read");
+  EXPECT_EQ(int{scene_of(textured_glass).instances.at(0).mask}, int{kMaskOpaque});
 }
 
 TEST(GltfBlend, ATextureThatIsNotCutOutMakesGlass) {

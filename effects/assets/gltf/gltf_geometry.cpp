@@ -73,19 +73,47 @@ void duplicate(std::vector<T>& values, const std::vector<std::uint32_t>& indices
   values = std::move(out);
 }
 
+/// Triangles without normals get that of their plane, and moves of it that turn it into the plane's
+/// normal where one target has all the weight.
+void move_flat_normals(GltfPiece& piece) {
+  const std::size_t targets = piece.morph_targets;
+  const auto corner = [&](std::size_t vertex, std::size_t target) {
+    return piece.vertices[vertex].position + piece.morph[vertex * targets + target].position;
+  };
+  for (std::size_t first = 0; first + 2 < piece.vertices.size(); first += 3) {
+    for (std::size_t t = 0; t < targets; ++t) {
+      const glm::vec3 a = corner(first, t);
+      glm::vec3 normal = glm::cross(corner(first + 1, t) - a, corner(first + 2, t) - a);
+      if (!make_unit(normal)) continue;
+      for (std::size_t i = first; i < first + 3; ++i)
+        piece.morph[i * targets + t].normal = normal - piece.vertices[i].normal;
+    }
+  }
+}
+
 void finish(const Scene& scene, GltfPiece& piece, Mesh& mesh) {
   if (!piece.has_normals) {
+    std::vector<MorphMove> moves;
+    for (const std::uint32_t i : piece.indices) {
+      const auto from = piece.morph.begin() + static_cast<std::ptrdiff_t>(i * piece.morph_targets);
+      moves.insert(moves.end(), from, from + piece.morph_targets);
+    }
+    piece.morph = std::move(moves);
     duplicate(piece.skin, piece.indices);
     duplicate(piece.colors, piece.indices);
+    duplicate(piece.second_uv, piece.indices);
     make_flat_normals(piece.vertices, piece.indices);
+    move_flat_normals(piece);
     piece.has_tangents = false;
   }
   if (!piece.has_tangents) make_tangents(piece.vertices, piece.indices);
   const bool alpha_tested =
       (scene.materials[piece.material].constants.flags & kMaterialAlphaTested) != 0;
+  mesh.morph.insert(mesh.morph.end(), piece.morph.begin(), piece.morph.end());
   mesh.skin.insert(mesh.skin.end(), piece.skin.begin(), piece.skin.end());
   mesh.add_geometry(piece.vertices, piece.indices, piece.material, alpha_tested);
   mesh.add_colors(piece.colors);
+  mesh.add_second_uv(piece.second_uv);
 }
 
 bool is_triangles(int mode) {
@@ -93,18 +121,20 @@ bool is_triangles(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// `joints`: of the pose to stand in; none: the bind pose.
+/// `joints`: of the pose to stand in; none: the bind pose. `morph_targets`: to keep.
 Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, std::span<const double> weights,
-                       const std::vector<glm::dmat4>* joints) {
+                       const std::vector<glm::dmat4>* joints, std::uint32_t morph_targets = 0) {
   const tinygltf::Mesh& from = reader.model.meshes[id];
   const std::string mesh_where = gltf_part("mesh", id, from.name);
   Mesh mesh;
+  mesh.morph_targets = morph_targets;
   mesh.name = from.name.empty() ? "mesh " + std::to_string(id) : from.name;
   for (std::size_t i = 0; i < from.primitives.size(); ++i) {
     const tinygltf::Primitive& primitive = from.primitives[i];
     const std::string where = mesh_where + ", primitive " + std::to_string(i);
     if (!is_triangles(primitive.mode)) {
       reader.warn_once(where + ": is made of points or lines and is left out");
+      reader.has_points_or_lines = true;
       continue;
     }
     if (gltf_attribute(primitive, "POSITION") < 0) {
@@ -112,6 +142,7 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, std::span<const doubl
       continue;
     }
     GltfPiece piece;
+    piece.morph_targets = morph_targets;
     Status status = read_material_id(reader, primitive, where, piece);
     if (status.ok()) status = read_gltf_vertices(reader, primitive, weights, where, piece);
     if (status.ok()) status = read_triangles(reader, primitive, where, piece);
@@ -140,6 +171,18 @@ Status read_gltf_meshes(GltfReader& reader) {
 
 Result<Mesh> read_morphed_mesh(GltfReader& reader, int mesh, std::span<const double> weights) {
   return read_mesh(reader, static_cast<std::size_t>(mesh), weights, nullptr);
+}
+
+std::uint32_t count_morph_targets(const tinygltf::Mesh& mesh) {
+  std::size_t most = 0;
+  for (const tinygltf::Primitive& primitive : mesh.primitives)
+    most = std::max(most, primitive.targets.size());
+  return static_cast<std::uint32_t>(most);
+}
+
+Result<Mesh> read_morphable_mesh(GltfReader& reader, int mesh, std::span<const double> weights) {
+  const auto id = static_cast<std::size_t>(mesh);
+  return read_mesh(reader, id, weights, nullptr, count_morph_targets(reader.model.meshes[id]));
 }
 
 Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, std::span<const double> weights,

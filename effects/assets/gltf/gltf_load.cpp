@@ -127,12 +127,15 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
   if (status.ok()) status = read_gltf_animations(reader);
   if (!status.ok()) return status.error();
   if (loaded.scene.instances.empty())
-    return make_error(ErrorId::kGltf,
-                      reader.singular.empty()
-                          ? "shows no triangles: no node of its scene has a mesh made of triangles"
-                          : "shows no triangles: " + reader.singular +
-                                ": its transform is singular (a scale of 0, or a matrix whose "
-                                "determinant is 0)");
+    return make_error(
+        ErrorId::kGltf,
+        reader.singular.empty()
+            ? std::string("shows no triangles: no node of its scene has a mesh made "
+                          "of triangles") +
+                  (reader.has_points_or_lines ? "; points and lines are not drawn" : "")
+            : "shows no triangles: " + reader.singular +
+                  ": its transform is singular (a scale of 0, or a matrix whose "
+                  "determinant is 0)");
   if (!model.animations.empty() && !options.animated)
     loaded.warnings.push_back("animations are left out");
   if (const std::size_t joined = join_levels_by_name(loaded.scene); joined > 0)

@@ -20,6 +20,8 @@ namespace {
 /// Largest side of a picture. Current GPUs take as much, and it bounds what a broken header can
 /// request.
 constexpr int kMaxImageSide = 16384;
+/// Glass that is rougher would blur what is behind it.
+constexpr float kSmoothGlass = 0.1f;
 
 Wrap wrap_of(int mode) {
   if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
@@ -87,6 +89,56 @@ void texture_transform(const tinygltf::ExtensionMap& extensions, std::uint32_t s
       glm::vec2(number(member(t, "offset", 0, 0.0), 0), number(member(t, "offset", 1, 0.0), 0));
 }
 
+/// A texture that an extension of a material names; index -1: none.
+tinygltf::TextureInfo texture_of(const tinygltf::Material& material, const char* extension,
+                                 const char* name) {
+  tinygltf::TextureInfo out;
+  const auto found = material.extensions.find(extension);
+  if (found == material.extensions.end() || !found->second.Has(name)) return out;
+  const tinygltf::Value& info = found->second.Get(name);
+  if (!info.IsObject()) return out;
+  out.index = static_cast<int>(member(info, "index", 0, -1.0));
+  out.texCoord = static_cast<int>(member(info, "texCoord", 0, 0.0));
+  if (info.Has("extensions") && info.Get("extensions").IsObject()) {
+    const tinygltf::Value& extensions = info.Get("extensions");
+    for (const std::string& key : extensions.Keys()) out.extensions[key] = extensions.Get(key);
+  }
+  return out;
+}
+
+/// [KHR_materials_ior, KHR_materials_specular]
+void read_reflectance(const tinygltf::Material& from, MaterialConstants& to) {
+  if (const auto ior = from.extensions.find("KHR_materials_ior");
+      ior != from.extensions.end() && ior->second.IsObject()) {
+    const double n = member(ior->second, "ior", 0, 1.5);
+    // 0 stands for endlessly large, as converted specular-glossiness materials have it.
+    const double root = n == 0.0 ? 1.0 : (n - 1.0) / (n + 1.0);
+    if (n == 0.0 || n >= 1.0) to.dielectric_f0 = number(root * root, 0.04f);
+  }
+  const auto specular = from.extensions.find("KHR_materials_specular");
+  if (specular == from.extensions.end() || !specular->second.IsObject()) return;
+  to.specular = factor(member(specular->second, "specularFactor", 0, 1.0), 1.0f);
+  for (int i = 0; i < 3; ++i)
+    to.specular_color[i] = std::max(0.0f, number(member(specular->second, "specularColorFactor",
+                                                        static_cast<std::size_t>(i), 1.0),
+                                                 1.0f));
+}
+
+constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+/// No metal, of the specular colour's reflectance. [KHR_materials_pbrSpecularGlossiness]
+void read_glossiness(const tinygltf::Value& from, MaterialConstants& to) {
+  for (int i = 0; i < 4; ++i)
+    to.base_color[i] =
+        factor(member(from, "diffuseFactor", static_cast<std::size_t>(i), 1.0), 1.0f);
+  for (int i = 0; i < 3; ++i)
+    to.specular_color[i] =
+        factor(member(from, "specularFactor", static_cast<std::size_t>(i), 1.0), 1.0f);
+  to.metallic = 0.0f;
+  to.roughness = 1.0f - factor(member(from, "glossinessFactor", 0, 1.0), 1.0f);
+  to.specular = to.dielectric_f0 = 1.0f;
+}
+
 /// The kind of a picture that is neither PNG nor JPEG, by its first bytes; empty: unknown.
 std::string picture_kind(std::span<const std::uint8_t> bytes) {
   const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
@@ -117,10 +169,14 @@ class MaterialReader {
     std::uint32_t sampler;  // in Scene::samplers
   };
   static int tex_coord_of(const TextureUse& use);
-  static int uv_set_of(std::span<const TextureUse> uses);
+  static GltfReader::UvSets uv_sets_of(std::span<const TextureUse> uses);
   Status material(const tinygltf::Material& from, std::size_t id);
-  Status texture(const TextureUse& use, int uv_set, const std::string& where,
+  Status texture(const TextureUse& use, const GltfReader::UvSets& sets, const std::string& where,
                  MaterialConstants& to);
+  void transmission(const tinygltf::Material& from, const std::string& where,
+                    MaterialConstants& to);
+  Status glossiness(const tinygltf::Material& from, const std::string& where,
+                    MaterialConstants& to);
   Result<std::optional<ImageUse>> image_of(int texture, bool srgb, const std::string& where);
   Status slide(const tinygltf::Node& node, std::size_t id);
   Result<std::int32_t> image(int source, bool srgb, const std::string& where);
@@ -131,6 +187,7 @@ class MaterialReader {
   GltfReader& reader_;
   const tinygltf::Model& model_;
   std::map<std::pair<int, bool>, std::int32_t> image_ids_;
+  std::map<std::pair<int, float>, std::int32_t> roughness_ids_;  // by source and glossiness
   std::map<std::int32_t, float> cutoffs_;
 };
 
@@ -194,24 +251,38 @@ int MaterialReader::tex_coord_of(const TextureUse& use) {
   return static_cast<int>(member(found->second, "texCoord", 0, use.tex_coord));
 }
 
-/// The texture coordinates of the first texture, because a vertex has one set.
-int MaterialReader::uv_set_of(std::span<const TextureUse> uses) {
+/// The first two sets that the textures use, because a vertex has two.
+GltfReader::UvSets MaterialReader::uv_sets_of(std::span<const TextureUse> uses) {
+  std::optional<int> first;
+  // Tangents are those of the coordinates of the normal texture.
   for (const TextureUse& use : uses)
-    if (use.texture >= 0) return std::max(0, tex_coord_of(use));
-  return 0;
+    if (use.slot == kNormalTexture && use.texture >= 0) first = std::max(0, tex_coord_of(use));
+  GltfReader::UvSets sets;
+  for (const TextureUse& use : uses) {
+    if (use.texture < 0) continue;
+    const int set = std::max(0, tex_coord_of(use));
+    if (!first) first = set;
+    if (set != *first && sets.second < 0) sets.second = set;
+  }
+  sets.first = first.value_or(0);
+  return sets;
 }
 
-Status MaterialReader::texture(const TextureUse& use, int uv_set, const std::string& where,
-                               MaterialConstants& to) {
+Status MaterialReader::texture(const TextureUse& use, const GltfReader::UvSets& sets,
+                               const std::string& where, MaterialConstants& to) {
   if (use.texture < 0) return {};
-  if (const int tex_coord = tex_coord_of(use); tex_coord != uv_set) {
+  const int set = std::max(0, tex_coord_of(use));
+  if (set != sets.first && set != sets.second) {
     reader_.warn(where + ", texture " + std::to_string(use.texture) + ": uses TEXCOORD_" +
-                 std::to_string(tex_coord) + ", and the material's others TEXCOORD_" +
-                 std::to_string(uv_set) + "; a vertex has one set, so the texture is left out");
+                 std::to_string(set) + ", and the material's others TEXCOORD_" +
+                 std::to_string(sets.first) + " and TEXCOORD_" + std::to_string(sets.second) +
+                 "; a vertex has two sets, so the texture is left out");
     return {};
   }
+  if (set != sets.first) to.second_uv |= 1u << use.slot;
   const TextureSlot slot = use.slot;
-  const bool srgb = slot == kBaseColorTexture || slot == kEmissiveTexture;
+  const bool srgb =
+      slot == kBaseColorTexture || slot == kEmissiveTexture || slot == kSpecularColorTexture;
   const Result<std::optional<ImageUse>> from = image_of(use.texture, srgb, where);
   if (!from.ok()) return from.error();
   if (!from.value()) return {};
@@ -283,6 +354,72 @@ Status MaterialReader::alpha(const tinygltf::Material& from, const std::string& 
   return {};
 }
 
+/// What light passes through becomes thin glass that covers the rest. Glass here shows what is
+/// behind it in its own colours, so that a coloured pane covers as much as its brightest component
+/// does not let through. [KHR_materials_transmission]
+void MaterialReader::transmission(const tinygltf::Material& from, const std::string& where,
+                                  MaterialConstants& to) {
+  const auto found = from.extensions.find("KHR_materials_transmission");
+  if (found == from.extensions.end() || !found->second.IsObject()) return;
+  const float share =
+      (1.0f - to.metallic) * factor(member(found->second, "transmissionFactor", 0, 0.0), 0.0f);
+  if (!(share > 0.0f)) return;
+  if (texture_of(from, "KHR_materials_transmission", "transmissionTexture").index >= 0) {
+    reader_.warn(where +
+                 ", KHR_materials_transmission: its texture is not read, and the surface is as "
+                 "opaque as alphaMode says");
+    return;
+  }
+  if (to.flags & kMaterialAlphaTested) {
+    reader_.warn(where +
+                 ", KHR_materials_transmission: the surface has holes, and is opaque beside them");
+    return;
+  }
+  const float tint = std::max({to.base_color.r, to.base_color.g, to.base_color.b});
+  const float opacity = (to.flags & kMaterialBlend) ? to.base_color.a : 1.0f;
+  // What covers nothing would be no glass.
+  to.base_color.a = std::max(1.0f / 64.0f, opacity * (1.0f - share * tint));
+  to.flags |= kMaterialBlend;
+  if (to.base_color.r != tint || to.base_color.g != tint || to.base_color.b != tint ||
+      to.image[kBaseColorTexture] != kNoTexture)
+    reader_.warn_once(
+        "KHR_materials_transmission: glass colours what it reflects, not what shines through it");
+  if (to.roughness > kSmoothGlass)
+    reader_.warn_once("KHR_materials_transmission: rough glass is as clear as smooth glass");
+}
+
+/// Makes roughness of the glossiness that the specular picture has as alpha.
+Status MaterialReader::glossiness(const tinygltf::Material& from, const std::string& where,
+                                  MaterialConstants& to) {
+  const tinygltf::TextureInfo info = texture_of(from, kGlossiness, "specularGlossinessTexture");
+  if (info.index < 0 || to.image[kSpecularColorTexture] == kNoTexture) return {};
+  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(info.index)];
+  const float glossiness = 1.0f - to.roughness;
+  const auto [found, is_new] = roughness_ids_.try_emplace({texture.source, glossiness}, 0);
+  if (is_new) {
+    Result<TextureImage> picture = decode(texture.source, where);
+    if (!picture.ok()) return picture.error();
+    picture.value().name += " (roughness)";
+    picture.value().srgb = false;
+    std::vector<std::uint8_t>& texels = picture.value().mips[0];
+    for (std::size_t i = 0; i + 3 < texels.size(); i += 4) {
+      const auto rough = static_cast<std::uint8_t>(
+          std::lround(255.0f - glossiness * static_cast<float>(texels[i + 3])));
+      texels[i] = texels[i + 1] = texels[i + 2] = rough;
+      texels[i + 3] = 255;
+    }
+    found->second = static_cast<std::int32_t>(reader_.scene.images.size());
+    reader_.scene.images.push_back(std::move(picture.value()));
+  }
+  to.roughness = 1.0f;
+  to.image[kMetallicRoughnessTexture] = found->second;
+  to.sampler[kMetallicRoughnessTexture] = to.sampler[kSpecularColorTexture];
+  to.uv_matrix[kMetallicRoughnessTexture] = to.uv_matrix[kSpecularColorTexture];
+  to.uv_offset[kMetallicRoughnessTexture] = to.uv_offset[kSpecularColorTexture];
+  if (to.second_uv >> kSpecularColorTexture & 1u) to.second_uv |= 1u << kMetallicRoughnessTexture;
+  return {};
+}
+
 Status MaterialReader::material(const tinygltf::Material& from, std::size_t id) {
   const std::string where = gltf_part("material", id, from.name);
   Material out;
@@ -302,30 +439,44 @@ Status MaterialReader::material(const tinygltf::Material& from, std::size_t id) 
   to.roughness = factor(pbr.roughnessFactor, 1.0f);
   to.normal_scale = number(from.normalTexture.scale, 1.0f);
   if (from.doubleSided) to.flags |= kMaterialDoubleSided;
+  read_reflectance(from, to);
+  const auto glossy = from.extensions.find(kGlossiness);
+  const bool is_glossy = glossy != from.extensions.end() && glossy->second.IsObject();
+  if (is_glossy) read_glossiness(glossy->second, to);
   if (from.extensions.contains("KHR_materials_unlit")) {
     to.flags |= kMaterialUnlit;
     to.emissive = glm::vec3(0.0f);
   }
+  // Textures of extensions, as tinygltf has those of glTF itself.
+  const tinygltf::TextureInfo none;
+  const tinygltf::TextureInfo color =
+      is_glossy ? texture_of(from, kGlossiness, "diffuseTexture") : pbr.baseColorTexture;
+  const tinygltf::TextureInfo rough = is_glossy ? none : pbr.metallicRoughnessTexture;
+  const tinygltf::TextureInfo specular =
+      is_glossy ? none : texture_of(from, "KHR_materials_specular", "specularTexture");
+  const tinygltf::TextureInfo specular_color =
+      is_glossy ? texture_of(from, kGlossiness, "specularGlossinessTexture")
+                : texture_of(from, "KHR_materials_specular", "specularColorTexture");
+  const auto use = [](TextureSlot slot, const auto& info) {
+    return TextureUse{slot, info.index, info.texCoord, info.extensions};
+  };
   const TextureUse uses[] = {
-      {kBaseColorTexture, pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord,
-       pbr.baseColorTexture.extensions},
-      {kMetallicRoughnessTexture, pbr.metallicRoughnessTexture.index,
-       pbr.metallicRoughnessTexture.texCoord, pbr.metallicRoughnessTexture.extensions},
-      {kNormalTexture, from.normalTexture.index, from.normalTexture.texCoord,
-       from.normalTexture.extensions},
-      {kEmissiveTexture, from.emissiveTexture.index, from.emissiveTexture.texCoord,
-       from.emissiveTexture.extensions}};
-  const int uv_set = uv_set_of(uses);
-  for (const TextureUse& use : uses) {
+      use(kBaseColorTexture, color),           use(kMetallicRoughnessTexture, rough),
+      use(kNormalTexture, from.normalTexture), use(kEmissiveTexture, from.emissiveTexture),
+      use(kSpecularTexture, specular),         use(kSpecularColorTexture, specular_color)};
+  const GltfReader::UvSets sets = uv_sets_of(uses);
+  for (const TextureUse& one : uses) {
     // An unlit material has a base colour, and nothing else of it counts.
-    if ((to.flags & kMaterialUnlit) && use.slot != kBaseColorTexture) continue;
-    const Status status = texture(use, uv_set, where, to);
+    if ((to.flags & kMaterialUnlit) && one.slot != kBaseColorTexture) continue;
+    const Status status = texture(one, sets, where, to);
     if (!status.ok()) return status;
   }
-  reader_.uv_sets.push_back(uv_set);
+  reader_.uv_sets.push_back(sets);
   if (from.occlusionTexture.index >= 0 && !(to.flags & kMaterialUnlit))
     reader_.warn_once("occlusion textures are not read: occlusion is computed");
-  const Status status = alpha(from, where, to);
+  Status status = is_glossy ? glossiness(from, where, to) : Status();
+  if (status.ok()) status = alpha(from, where, to);
+  if (status.ok() && !(to.flags & kMaterialUnlit)) transmission(from, where, to);
   if (status.ok()) reader_.scene.materials.push_back(std::move(out));
   return status;
 }

@@ -27,13 +27,14 @@ class NodeReader {
   Status contents(std::size_t id);
   Status mesh(const tinygltf::Node& node, std::size_t id, const std::string& where,
               const glm::dmat4& world);
-  Result<int> mesh_of(const tinygltf::Node& node);
+  Result<int> mesh_of(const tinygltf::Node& node, std::size_t id);
   std::span<const double> weights_of(const tinygltf::Node& node) const;
   Status instance(const tinygltf::Node& node, std::size_t id, const std::string& where,
                   const glm::dmat4& world, const GltfCopy& copy, std::uint32_t mesh);
-  Status skinned(const tinygltf::Node& node, const std::string& where, std::uint32_t mesh);
-  Status animated_skin(const tinygltf::Node& node, const std::string& where, std::uint32_t mesh,
-                       const std::vector<glm::dmat4>& inverse_binds);
+  Status skinned(const tinygltf::Node& node, std::size_t id, const std::string& where,
+                 std::uint32_t mesh);
+  Status animated_skin(const tinygltf::Node& node, std::size_t id, const std::string& where,
+                       std::uint32_t mesh, const std::vector<glm::dmat4>& inverse_binds);
   Status inverse_binds(const tinygltf::Skin& skin, const std::string& where,
                        std::vector<glm::dmat4>& out) const;
   void keep_nodes();
@@ -48,7 +49,9 @@ class NodeReader {
   std::vector<glm::dmat4> world_;
   std::vector<bool> visited_;
   std::vector<std::size_t> order_;
-  std::vector<bool> moves_;  // set if `animated`: the first animation moves the node or a parent
+  std::vector<bool> moves_;   // set if `animated`: the first animation moves the node or a parent
+  std::vector<bool> morphs_;  // likewise: it moves the morph weights of the node
+  std::map<std::pair<int, std::vector<double>>, int> morphable_;  // in Scene::meshes
   std::vector<std::int32_t> skin_ids_;
   std::map<std::pair<int, std::vector<double>>, int> morphed_;  // in Scene::meshes
 };
@@ -187,13 +190,23 @@ std::span<const double> NodeReader::weights_of(const tinygltf::Node& node) const
 
 /// The mesh of a node in Scene::meshes, or -1 if it has no triangles. A node with morph weights of
 /// its own gets a mesh of its own.
-Result<int> NodeReader::mesh_of(const tinygltf::Node& node) {
+Result<int> NodeReader::mesh_of(const tinygltf::Node& node, std::size_t node_id) {
   const auto place = static_cast<std::size_t>(node.mesh);
   const int id = reader_.mesh_ids[place];
   const tinygltf::Mesh& from = model_.meshes[place];
-  const bool has_targets =
-      std::any_of(from.primitives.begin(), from.primitives.end(),
-                  [](const tinygltf::Primitive& p) { return !p.targets.empty(); });
+  const bool has_targets = count_morph_targets(from) > 0;
+  if (id >= 0 && has_targets && reader_.animated && morphs_[node_id]) {
+    const std::span<const double> weights = weights_of(node);
+    const auto [found, is_new] = morphable_.try_emplace(
+        {node.mesh, std::vector<double>(weights.begin(), weights.end())}, id);
+    if (!is_new) return found->second;
+    Result<Mesh> mesh = read_morphable_mesh(reader_, node.mesh, weights);
+    if (!mesh.ok()) return mesh.error();
+    mesh.value().name += " (morphs)";
+    found->second = static_cast<int>(reader_.scene.meshes.size());
+    reader_.scene.meshes.push_back(std::move(mesh.value()));
+    return found->second;
+  }
   if (id < 0 || !has_targets || node.weights.empty() || node.weights == from.weights) return id;
   const auto [found, is_new] = morphed_.try_emplace({node.mesh, node.weights}, id);
   if (!is_new) return found->second;
@@ -209,7 +222,7 @@ Status NodeReader::mesh(const tinygltf::Node& node, std::size_t node_id, const s
                         const glm::dmat4& world) {
   if (!in_range(node.mesh, model_.meshes.size()))
     return id_error(where, "mesh", node.mesh, model_.meshes.size());
-  const Result<int> mesh = mesh_of(node);
+  const Result<int> mesh = mesh_of(node, node_id);
   if (!mesh.ok()) return mesh.error();
   if (mesh.value() < 0) return {};
   const auto id = static_cast<std::uint32_t>(mesh.value());
@@ -219,7 +232,7 @@ Status NodeReader::mesh(const tinygltf::Node& node, std::size_t node_id, const s
     if (!copies.value().empty())
       reader_.warn(where +
                    ": EXT_mesh_gpu_instancing of a skinned mesh is left out; it stands once");
-    return skinned(node, where, id);
+    return skinned(node, node_id, where, id);
   }
   const std::string name = node.name.empty() ? where : node.name;
   if (copies.value().empty()) return instance(node, node_id, where, world, {name}, id);
@@ -258,8 +271,16 @@ Status NodeReader::instance(const tinygltf::Node& node, std::size_t node_id,
       reader_.scene.nodes.push_back(std::move(below));
     }
   }
-  const Status levels = read_gltf_levels(reader_, node, where, instance);
-  if (!levels.ok()) return levels;
+  if (reader_.scene.meshes[mesh].morph_targets > 0) {
+    instance.motion.morph = reader_.node_ids[node_id];
+    instance.motion.animation = 0;
+    instance.build_class = BuildClass::kHero;
+    if (node.extensions.contains("MSFT_lod"))
+      reader_.warn(where + ", MSFT_lod: its morph weights move; its levels of detail are left out");
+  } else {
+    const Status levels = read_gltf_levels(reader_, node, where, instance);
+    if (!levels.ok()) return levels;
+  }
   reader_.scene.instances.push_back(std::move(instance));
   return {};
 }
@@ -294,10 +315,12 @@ Status NodeReader::inverse_binds(const tinygltf::Skin& skin, const std::string& 
 void NodeReader::keep_nodes() {
   reader_.node_ids.assign(model_.nodes.size(), kNoIndex);
   moves_.assign(model_.nodes.size(), false);
+  morphs_.assign(model_.nodes.size(), false);
   if (!model_.animations.empty()) {
     for (const tinygltf::AnimationChannel& channel : model_.animations.front().channels) {
-      if (in_range(channel.target_node, moves_.size()))
-        moves_[static_cast<std::size_t>(channel.target_node)] = true;
+      if (!in_range(channel.target_node, moves_.size())) continue;
+      auto& moves = channel.target_path == "weights" ? morphs_ : moves_;
+      moves[static_cast<std::size_t>(channel.target_node)] = true;
     }
   }
   for (std::size_t i = 0; i < order_.size(); ++i)
@@ -307,6 +330,13 @@ void NodeReader::keep_nodes() {
     const tinygltf::Node& from = model_.nodes[id];
     Node& to = reader_.scene.nodes[static_cast<std::size_t>(reader_.node_ids[id])];
     to.name = from.name.empty() ? where(id) : from.name;
+    if (in_range(from.mesh, model_.meshes.size())) {
+      const auto& mesh = model_.meshes[static_cast<std::size_t>(from.mesh)];
+      const std::span<const double> weights = weights_of(from);
+      to.weights.assign(count_morph_targets(mesh), 0.0f);
+      for (std::size_t t = 0; t < std::min(weights.size(), to.weights.size()); ++t)
+        to.weights[t] = static_cast<float>(weights[t]);
+    }
     if (!from.matrix.empty()) {
       // local_transform has checked it already.
       if (local_transform(from, to.name, to.matrix.emplace(1.0)).ok()) moves_[id] = false;
@@ -335,8 +365,9 @@ void NodeReader::keep_nodes() {
 }
 
 // The instance keeps its skin, and the mesh stays in its bind pose.
-Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& where,
-                                 std::uint32_t mesh, const std::vector<glm::dmat4>& binds) {
+Status NodeReader::animated_skin(const tinygltf::Node& node, std::size_t node_id,
+                                 const std::string& where, std::uint32_t mesh,
+                                 const std::vector<glm::dmat4>& binds) {
   const tinygltf::Skin& from = model_.skins[static_cast<std::size_t>(node.skin)];
   Scene& scene = reader_.scene;
   std::int32_t& id = skin_ids_[static_cast<std::size_t>(node.skin)];
@@ -361,6 +392,7 @@ Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& 
   instance.mesh = mesh;
   instance.mask = mask_of(scene, scene.meshes[instance.mesh]);
   instance.motion.skin = id;
+  if (scene.meshes[mesh].morph_targets > 0) instance.motion.morph = reader_.node_ids[node_id];
   if (!model_.animations.empty()) instance.motion.animation = 0;
   instance.build_class = BuildClass::kHero;
   for (const SkinVertex& v : scene.meshes[instance.mesh].skin) {
@@ -375,8 +407,8 @@ Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& 
   return {};
 }
 
-Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where,
-                           std::uint32_t mesh) {
+Status NodeReader::skinned(const tinygltf::Node& node, std::size_t node_id,
+                           const std::string& where, std::uint32_t mesh) {
   if (!in_range(node.skin, model_.skins.size()))
     return id_error(where, "skin", node.skin, model_.skins.size());
   const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(node.skin)];
@@ -386,7 +418,7 @@ Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where,
   if (reader_.animated) {
     const Mesh& bind = reader_.scene.meshes[mesh];
     if (!joints.empty() && bind.skin.size() == bind.vertices.size())
-      return animated_skin(node, where, mesh, joints);
+      return animated_skin(node, node_id, where, mesh, joints);
     reader_.warn(where +
                  ": its mesh has primitives without joints and weights; it stays in the "
                  "pose of the file");

@@ -15,12 +15,16 @@ namespace kaamos::effects {
 /// The triangles of one primitive, before they become a geometry.
 struct GltfPiece {
   std::vector<Vertex> vertices;
-  std::vector<SkinVertex> skin;     // empty, or one per vertex
-  std::vector<VertexColor> colors;  // empty, or one per vertex
+  std::vector<SkinVertex> skin;      // empty, or one per vertex
+  std::vector<VertexColor> colors;   // empty, or one per vertex
+  std::vector<glm::vec2> second_uv;  // empty, or one per vertex
   std::vector<std::uint32_t> indices;
+  std::vector<MorphMove> morph;  // morph_targets for each vertex
   std::uint32_t material = 0;
   bool has_normals = false;
   bool has_tangents = false;
+  /// Set before reading: targets to keep instead of applying them to positions and directions.
+  std::uint32_t morph_targets = 0;
 };
 
 /// The accessor of an attribute, or -1.
@@ -31,7 +35,8 @@ Status read_gltf_attribute(const GltfReader& reader, const tinygltf::Primitive& 
                            const std::string& name, std::uint32_t components, std::size_t count,
                            const std::string& where, std::vector<float>& values);
 
-/// Reads the vertices of a primitive, its morph targets applied with these weights.
+/// Reads the vertices of a primitive, its morph targets applied with these weights unless they are
+/// kept.
 Status read_gltf_vertices(GltfReader& reader, const tinygltf::Primitive& primitive,
                           std::span<const double> weights, const std::string& where,
                           GltfPiece& piece);

@@ -28,8 +28,13 @@ struct GltfReader {
   std::vector<std::string>& warnings;
   /// Per mesh of the file: its index in Scene::meshes, or -1 if it has no triangles.
   std::vector<int> mesh_ids = {};
-  /// Per material of the file: which TEXCOORD_n its textures are read with.
-  std::vector<int> uv_sets = {};
+  /// The TEXCOORD_n that the textures of a material are read with; second: -1, no texture is.
+  struct UvSets {
+    int first = 0;
+    int second = -1;
+  };
+  /// Per material of the file.
+  std::vector<UvSets> uv_sets = {};
   /// Keep what moves instead of the file's pose.
   bool animated = false;
   /// Per node of the file: its index in Scene::nodes, or kNoIndex if the scene does not have it.
@@ -45,6 +50,8 @@ struct GltfReader {
 
   /// The first node whose transform is singular, so that its mesh is left out.
   std::string singular = {};
+  /// A mesh has primitives that are no triangles, which are left out.
+  bool has_points_or_lines = false;
   /// The texts that warn_once has said.
   std::set<std::string> said = {};
 
@@ -74,6 +81,11 @@ Status read_gltf_animations(GltfReader& reader);
 
 /// Reads a mesh with morph weights that are not its own.
 Result<Mesh> read_morphed_mesh(GltfReader& reader, int mesh, std::span<const double> weights);
+/// Morph targets of a mesh of the file.
+std::uint32_t count_morph_targets(const tinygltf::Mesh& mesh);
+/// Reads a mesh with its morph targets, for weights that move. Texture coordinates and colours are
+/// those of the weights at rest.
+Result<Mesh> read_morphable_mesh(GltfReader& reader, int mesh, std::span<const double> weights);
 /// Reads a mesh in the pose that the file's joints have, in world space. `joints` are the nodes'
 /// object-to-world transforms times the inverse bind matrices.
 Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, std::span<const double> weights,

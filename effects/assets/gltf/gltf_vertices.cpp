@@ -68,6 +68,40 @@ Status read_colors(GltfReader& reader, const tinygltf::Primitive& primitive,
   return {};
 }
 
+/// Reads the moves of the targets that a piece keeps.
+Status read_moves(const GltfReader& reader, const tinygltf::Primitive& primitive,
+                  const std::string& where, GltfPiece& piece) {
+  const std::size_t count = piece.vertices.size();
+  piece.morph.resize(count * piece.morph_targets);
+  struct Part {
+    const char* name;
+    glm::vec3 MorphMove::*member;
+  };
+  for (std::size_t t = 0; t < std::min<std::size_t>(piece.morph_targets, primitive.targets.size());
+       ++t) {
+    for (const Part& part :
+         {Part{"POSITION", &MorphMove::position}, Part{"NORMAL", &MorphMove::normal},
+          Part{"TANGENT", &MorphMove::tangent}}) {
+      const auto found = primitive.targets[t].find(part.name);
+      if (found == primitive.targets[t].end()) continue;
+      const std::string name = "morph target " + std::to_string(t) + ", " + part.name;
+      const Result<std::vector<float>> read =
+          read_floats(reader.model, found->second, 3, where + ", " + name);
+      if (!read.ok()) return read.error();
+      const std::vector<float>& v = read.value();
+      if (v.size() != 3 * count) return count_error(where, name, v.size() / 3, count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 move(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
+        if (!std::isfinite(move.x + move.y + move.z))
+          return make_error(ErrorId::kGltf, where + ", " + name + ": element " + std::to_string(i) +
+                                                " is not finite");
+        piece.morph[i * piece.morph_targets + t].*part.member = move;
+      }
+    }
+  }
+  return {};
+}
+
 bool is_read(const std::string& name) {
   static const char* const kNames[] = {"POSITION", "NORMAL", "TANGENT", "COLOR_0"};
   if (std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames)) return true;
@@ -118,22 +152,29 @@ Status read_gltf_vertices(GltfReader& reader, const tinygltf::Primitive& primiti
   if (!read.ok()) return read.error();
   std::vector<float> p = std::move(read.value());
   const std::size_t count = p.size() / 3;
-  const int uv_set = piece.material < reader.uv_sets.size() ? reader.uv_sets[piece.material] : 0;
-  const std::string uv_name = "TEXCOORD_" + std::to_string(uv_set);
-  std::vector<float> normals, tangents, uvs;
+  const GltfReader::UvSets sets = piece.material < reader.uv_sets.size()
+                                      ? reader.uv_sets[piece.material]
+                                      : GltfReader::UvSets();
+  std::vector<float> normals, tangents, uvs, second_uvs;
   const auto attribute = [&](const std::string& name, std::uint32_t components, std::uint32_t moved,
                              std::vector<float>& values) -> Status {
     Status status = read_gltf_attribute(reader, primitive, name, components, count, where, values);
-    if (status.ok())
+    const bool is_kept = piece.morph_targets > 0 && moved == 3;
+    if (status.ok() && !is_kept)
       status = add_targets(reader, primitive, weights, name, moved, components, where, values);
     return status;
   };
-  Status status = add_targets(reader, primitive, weights, "POSITION", 3, 3, where, p);
+  Status status;
+  if (piece.morph_targets == 0)
+    status = add_targets(reader, primitive, weights, "POSITION", 3, 3, where, p);
   if (status.ok()) status = attribute("NORMAL", 3, 3, normals);
   if (status.ok()) status = attribute("TANGENT", 4, 3, tangents);
-  if (status.ok()) status = attribute(uv_name, 2, 2, uvs);
+  if (status.ok()) status = attribute("TEXCOORD_" + std::to_string(sets.first), 2, 2, uvs);
+  if (status.ok() && sets.second >= 0)
+    status = attribute("TEXCOORD_" + std::to_string(sets.second), 2, 2, second_uvs);
   if (!status.ok()) return status;
   piece.vertices.resize(count);
+  if (!second_uvs.empty()) piece.second_uv.resize(count);
   piece.has_normals = !normals.empty();
   piece.has_tangents = piece.has_normals && !tangents.empty();
   for (std::size_t v = 0; v < count; ++v) {
@@ -154,7 +195,11 @@ Status read_gltf_vertices(GltfReader& reader, const tinygltf::Primitive& primiti
     }
     if (!uvs.empty() && std::isfinite(uvs[2 * v]) && std::isfinite(uvs[2 * v + 1]))
       vertex.uv = glm::vec2(uvs[2 * v], uvs[2 * v + 1]);
+    if (!second_uvs.empty() && std::isfinite(second_uvs[2 * v] + second_uvs[2 * v + 1]))
+      piece.second_uv[v] = glm::vec2(second_uvs[2 * v], second_uvs[2 * v + 1]);
   }
+  if (piece.morph_targets > 0) status = read_moves(reader, primitive, where, piece);
+  if (!status.ok()) return status;
   return read_colors(reader, primitive, weights, where, piece);
 }
 

@@ -58,6 +58,8 @@ class Writer {
   int texture_of(int source, int sampler);
   template <class Info>
   void set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot);
+  tinygltf::Value texture_value(const MaterialConstants& constants, std::uint32_t slot);
+  void add_reflectance(const MaterialConstants& from, tinygltf::Material& to);
   void add_levels(int node, const Instance& instance);
   tinygltf::Node& add_node(const std::string& name, const glm::dmat4& transform);
   void add_instance(const Instance& instance);
@@ -129,6 +131,13 @@ void Writer::add_mesh(const Mesh& mesh) {
         add_accessor(vertex_view, kTangentOffset, kFloat, TINYGLTF_TYPE_VEC4, g.vertex_count);
     primitive.attributes["TEXCOORD_0"] =
         add_accessor(vertex_view, kUvOffset, kFloat, TINYGLTF_TYPE_VEC2, g.vertex_count);
+    if (!mesh.second_uv.empty()) {
+      const int uv_view =
+          add_view(mesh.second_uv.data() + g.first_vertex, g.vertex_count * sizeof(glm::vec2),
+                   TINYGLTF_TARGET_ARRAY_BUFFER, sizeof(glm::vec2));
+      primitive.attributes["TEXCOORD_1"] =
+          add_accessor(uv_view, 0, kFloat, TINYGLTF_TYPE_VEC2, g.vertex_count);
+    }
     if (!mesh.colors.empty()) {
       const int color_view =
           add_view(mesh.colors.data() + g.first_vertex, g.vertex_count * sizeof(VertexColor),
@@ -184,6 +193,7 @@ template <class Info>
 void Writer::set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot) {
   if (constants.image[slot] == kNoTexture) return;
   info.index = texture_of(constants.image[slot], static_cast<int>(constants.sampler[slot]));
+  info.texCoord = static_cast<int>(constants.second_uv >> slot & 1u);
   const glm::vec4& m = constants.uv_matrix[slot];
   const glm::vec2& offset = constants.uv_offset[slot];
   if (m == glm::vec4(1, 0, 0, 1) && offset == glm::vec2(0.0f)) return;
@@ -195,6 +205,43 @@ void Writer::set_texture(Info& info, const MaterialConstants& constants, std::ui
   transform["scale"] = pair(m.x * c - m.z * s, m.y * s + m.w * c);
   use_extension("KHR_texture_transform");
   info.extensions["KHR_texture_transform"] = tinygltf::Value(transform);
+}
+
+/// A texture as a member of an extension.
+tinygltf::Value Writer::texture_value(const MaterialConstants& constants, std::uint32_t slot) {
+  tinygltf::TextureInfo info;
+  set_texture(info, constants, slot);
+  tinygltf::Value::Object out = {{"index", tinygltf::Value(info.index)},
+                                 {"texCoord", tinygltf::Value(info.texCoord)}};
+  if (!info.extensions.empty()) {
+    tinygltf::Value::Object extensions(info.extensions.begin(), info.extensions.end());
+    out["extensions"] = tinygltf::Value(extensions);
+  }
+  return tinygltf::Value(out);
+}
+
+void Writer::add_reflectance(const MaterialConstants& from, tinygltf::Material& to) {
+  if (from.dielectric_f0 != MaterialConstants().dielectric_f0) {
+    const double root = std::sqrt(static_cast<double>(from.dielectric_f0));
+    use_extension("KHR_materials_ior");
+    to.extensions["KHR_materials_ior"] = tinygltf::Value(
+        tinygltf::Value::Object{{"ior", number(root < 1.0 ? (1.0 + root) / (1.0 - root) : 0.0)}});
+  }
+  const bool has_texture = from.image[kSpecularTexture] != kNoTexture,
+             has_color_texture = from.image[kSpecularColorTexture] != kNoTexture;
+  if (from.specular == 1.0f && from.specular_color == glm::vec3(1.0f) && !has_texture &&
+      !has_color_texture)
+    return;
+  tinygltf::Value::Object specular = {
+      {"specularFactor", number(from.specular)},
+      {"specularColorFactor", tinygltf::Value(tinygltf::Value::Array{
+                                  number(from.specular_color.r), number(from.specular_color.g),
+                                  number(from.specular_color.b)})}};
+  if (has_texture) specular["specularTexture"] = texture_value(from, kSpecularTexture);
+  if (has_color_texture)
+    specular["specularColorTexture"] = texture_value(from, kSpecularColorTexture);
+  use_extension("KHR_materials_specular");
+  to.extensions["KHR_materials_specular"] = tinygltf::Value(specular);
 }
 
 void Writer::add_material(const Material& material) {
@@ -218,6 +265,7 @@ void Writer::add_material(const Material& material) {
     use_extension("KHR_materials_unlit");
     to.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
   }
+  add_reflectance(from, to);
   to.normalTexture.scale = from.normal_scale;
   to.doubleSided = (from.flags & kMaterialDoubleSided) != 0;
   to.alphaMode = (from.flags & kMaterialMask)    ? "MASK"

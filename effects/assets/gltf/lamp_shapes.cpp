@@ -29,6 +29,9 @@ Mesh mesh_of(const Mesh& mesh, const Geometry& geometry) {
                    indices, geometry.material, geometry.alpha_tested);
   if (!mesh.colors.empty())
     out.add_colors(std::span(mesh.colors).subspan(geometry.first_vertex, geometry.vertex_count));
+  if (!mesh.second_uv.empty())
+    out.add_second_uv(
+        std::span(mesh.second_uv).subspan(geometry.first_vertex, geometry.vertex_count));
   return out;
 }
 
@@ -69,7 +72,7 @@ class Separation {
   void take_from(Instance instance) {
     std::vector<std::size_t> lamps;
     if (instance.mask == kMaskOpaque && instance.levels.empty() &&
-        instance.motion.skin == kNoIndex) {
+        instance.motion.skin == kNoIndex && instance.motion.morph == kNoIndex) {
       lamps = lamps_of(instance);
     }
     count_ += lamps.size();

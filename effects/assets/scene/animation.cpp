@@ -59,11 +59,47 @@ glm::dmat4 local_transform(const Node& node) {
   return m;
 }
 
+/// [glTF 2.0: Appendix C]
+void apply_weights(const Channel& channel, double seconds, std::vector<float>& weights) {
+  const bool cubic = channel.interpolation == Interpolation::kCubicSpline;
+  const std::size_t count = weights.size(), per_key = cubic ? 3 : 1;
+  if (count == 0) return;
+  const auto value = [&](std::size_t key, std::size_t part, std::size_t i) {
+    return static_cast<double>(channel.weights[(per_key * key + part) * count + i]);
+  };
+  const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), seconds);
+  const bool before_first = after == channel.times.begin();
+  const std::size_t key =
+      before_first ? 0 : static_cast<std::size_t>(after - channel.times.begin()) - 1;
+  const bool holds =
+      before_first || after == channel.times.end() || channel.interpolation == Interpolation::kStep;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double here = value(key, cubic ? 1 : 0, i);
+    if (holds) {
+      weights[i] = static_cast<float>(here);
+      continue;
+    }
+    const double next = value(key + 1, cubic ? 1 : 0, i);
+    const double begin = channel.times[key];
+    const double step = channel.times[key + 1] - begin;
+    const double u = (seconds - begin) / step, u2 = u * u, u3 = u2 * u;
+    const double mixed =
+        cubic ? (2 * u3 - 3 * u2 + 1) * here + step * (u3 - 2 * u2 + u) * value(key, 2, i) +
+                    (3 * u2 - 2 * u3) * next + step * (u3 - u2) * value(key + 1, 0, i)
+              : glm::mix(here, next, u);
+    weights[i] = static_cast<float>(here == next && !cubic ? here : mixed);
+  }
+}
+
 void apply(const Animation& animation, double seconds, std::vector<Node>& nodes) {
   double t = seconds;
   if (animation.duration > 0) t -= animation.duration * std::floor(t / animation.duration);
   for (const Channel& channel : animation.channels) {
     Node& node = nodes[channel.node];
+    if (channel.path == ChannelPath::kWeights) {
+      apply_weights(channel, t, node.weights);
+      continue;
+    }
     const glm::dvec4 value = value_at(channel, t);
     switch (channel.path) {
       case ChannelPath::kTranslation:
@@ -76,6 +112,8 @@ void apply(const Animation& animation, double seconds, std::vector<Node>& nodes)
       }
       case ChannelPath::kScale:
         node.scale = glm::dvec3(value);
+        break;
+      case ChannelPath::kWeights:
         break;
     }
   }
@@ -90,13 +128,15 @@ std::vector<JointMatrix> joint_matrices(const Skin& skin, const std::vector<glm:
   return joints;
 }
 
-}  // namespace
-
-std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds) {
+std::vector<Node> nodes_at(const Scene& scene, std::int32_t animation, double seconds) {
   std::vector<Node> nodes = scene.nodes;
   if (animation != kNoIndex) {
     apply(scene.animations[static_cast<std::size_t>(animation)], seconds, nodes);
   }
+  return nodes;
+}
+
+std::vector<glm::dmat4> transforms_of(const std::vector<Node>& nodes) {
   std::vector<glm::dmat4> transforms;
   for (const Node& node : nodes) {
     const glm::dmat4 local = local_transform(node);
@@ -107,30 +147,31 @@ std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animatio
   return transforms;
 }
 
-std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds) {
-  std::map<std::pair<std::int32_t, double>, std::vector<glm::dmat4>> poses;
-  std::vector<InstanceState> states;
-  for (const Instance& instance : scene.instances) {
-    const Motion& motion = instance.motion;
-    InstanceState state;
-    state.transform = instance.transform;
-    if (motion.skin != kNoIndex || motion.node != kNoIndex) {
-      auto& nodes = poses[{motion.animation, motion.start}];
-      if (nodes.empty()) nodes = evaluate_nodes(scene, motion.animation, seconds + motion.start);
-      if (motion.node != kNoIndex) {
-        state.transform = instance.transform * nodes[static_cast<std::size_t>(motion.node)];
-      }
-      if (motion.skin != kNoIndex) {
-        state.joints = joint_matrices(scene.skins[static_cast<std::size_t>(motion.skin)], nodes);
-      }
+/// All nodes at one moment.
+struct Pose {
+  std::vector<Node> nodes;
+  std::vector<glm::dmat4> transforms;
+};
+
+/// Moves vertices by morph targets.
+void morph_vertices(const Mesh& mesh, std::span<const float> weights, std::vector<Vertex>& out) {
+  const std::size_t count = std::min<std::size_t>(weights.size(), mesh.morph_targets);
+  for (std::size_t i = 0; i < out.size() && count > 0; ++i) {
+    Vertex& v = out[i];
+    glm::vec3 normal = v.normal, tangent(v.tangent);
+    for (std::size_t t = 0; t < count; ++t) {
+      const MorphMove& move = mesh.morph[i * mesh.morph_targets + t];
+      v.position += weights[t] * move.position;
+      normal += weights[t] * move.normal;
+      tangent += weights[t] * move.tangent;
     }
-    states.push_back(std::move(state));
+    if (glm::dot(normal, normal) > 0) v.normal = glm::normalize(normal);
+    if (glm::dot(tangent, tangent) > 0) v.tangent = glm::vec4(glm::normalize(tangent), v.tangent.w);
   }
-  return states;
 }
 
-std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix> joints) {
-  std::vector<Vertex> out = mesh.vertices;
+void skin_in_place(const Mesh& mesh, std::span<const JointMatrix> joints,
+                   std::vector<Vertex>& out) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     const SkinVertex& skin = mesh.skin[i];
     JointMatrix m(0.0f);
@@ -148,6 +189,53 @@ std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix>
     if (glm::dot(n, n) > 0) v.normal = glm::normalize(n);
     if (glm::dot(t, t) > 0) v.tangent = glm::vec4(glm::normalize(t), side * v.tangent.w);
   }
+}
+
+}  // namespace
+
+std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds) {
+  return transforms_of(nodes_at(scene, animation, seconds));
+}
+
+std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds) {
+  std::map<std::pair<std::int32_t, double>, Pose> poses;
+  std::vector<InstanceState> states;
+  for (const Instance& instance : scene.instances) {
+    const Motion& motion = instance.motion;
+    InstanceState state;
+    state.transform = instance.transform;
+    if (motion.skin != kNoIndex || motion.node != kNoIndex || motion.morph != kNoIndex) {
+      Pose& pose = poses[{motion.animation, motion.start}];
+      if (pose.nodes.empty()) {
+        pose.nodes = nodes_at(scene, motion.animation, seconds + motion.start);
+        pose.transforms = transforms_of(pose.nodes);
+      }
+      const std::vector<glm::dmat4>& nodes = pose.transforms;
+      if (motion.morph != kNoIndex) {
+        state.weights = pose.nodes[static_cast<std::size_t>(motion.morph)].weights;
+      }
+      if (motion.node != kNoIndex) {
+        state.transform = instance.transform * nodes[static_cast<std::size_t>(motion.node)];
+      }
+      if (motion.skin != kNoIndex) {
+        state.joints = joint_matrices(scene.skins[static_cast<std::size_t>(motion.skin)], nodes);
+      }
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+std::vector<Vertex> deform_vertices(const Mesh& mesh, const InstanceState& state) {
+  std::vector<Vertex> out = mesh.vertices;
+  morph_vertices(mesh, state.weights, out);
+  if (!state.joints.empty()) skin_in_place(mesh, state.joints, out);
+  return out;
+}
+
+std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix> joints) {
+  std::vector<Vertex> out = mesh.vertices;
+  skin_in_place(mesh, joints, out);
   return out;
 }
 
@@ -158,13 +246,17 @@ Scene posed_scene(Scene scene, double seconds) {
     instance.transform = states[i].transform;
     instance.motion = {};
     instance.build_class = BuildClass::kStatic;
-    if (states[i].joints.empty()) continue;
+    if (!states[i].is_deformed()) continue;
     Mesh posed = scene.meshes[instance.mesh];
-    posed.vertices = skin_vertices(posed, states[i].joints);
+    posed.vertices = deform_vertices(posed, states[i]);
     instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
     scene.meshes.push_back(std::move(posed));
   }
-  for (Mesh& mesh : scene.meshes) mesh.skin.clear();
+  for (Mesh& mesh : scene.meshes) {
+    mesh.skin.clear();
+    mesh.morph.clear();
+    mesh.morph_targets = 0;
+  }
   scene.nodes.clear();
   scene.skins.clear();
   scene.animations.clear();

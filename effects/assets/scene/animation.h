@@ -34,6 +34,7 @@ struct Node {
   ///@}
   /// In place of the three above; such a node is not animated.
   std::optional<glm::dmat4> matrix;
+  std::vector<float> weights = {};  ///< of its mesh's morph targets
 };
 
 /// The skeleton of skinned meshes.
@@ -44,7 +45,7 @@ struct Skin {
 };
 
 /// The property of a node that a channel moves.
-enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale };
+enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale, kWeights };
 /// The way in which values between two times are found. [glTF 2.0: Animations]
 enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
 
@@ -57,6 +58,8 @@ struct Channel {
   /// One per time; rotations are x, y, z, w. With kCubicSpline three: in-tangent, value,
   /// out-tangent.
   std::vector<glm::vec4> values;
+  /// In place of `values` for kWeights: as many for each of those as the node has weights.
+  std::vector<float> weights = {};
 };
 
 /// Channels that play together, over and over.
@@ -73,6 +76,7 @@ struct Motion {
   double start = 0.0;                 ///< seconds, added to the scene's time
   /// The instance is fixed to this node: object to world = transform * node's.
   std::int32_t node = kNoIndex;
+  std::int32_t morph = kNoIndex;  ///< the node whose weights move its mesh, which has morph targets
   /// True if all members are equal: the same pose at every time.
   bool operator==(const Motion&) const = default;
 };
@@ -84,7 +88,11 @@ using JointMatrix = glm::mat3x4;
 struct InstanceState {
   glm::dmat4 transform{1.0};        ///< object to world
   std::vector<JointMatrix> joints;  ///< bind pose to object space; empty: not skinned
+  std::vector<float> weights = {};  ///< of morph targets; empty: none move it
   std::int32_t mesh = kNoIndex;     ///< the level of detail to show; none: the instance's mesh
+
+  /// True where the shape of its mesh moves.
+  bool is_deformed() const { return !joints.empty() || !weights.empty(); }
 };
 
 /// Node to scene transforms at `seconds`, which wraps at the animation's end.
@@ -93,8 +101,10 @@ std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animatio
 /// Skins]
 std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds);
 
-/// Computes on the host what the skinning shader does: blended matrices move positions, their
-/// cofactors turn normals.
+/// Computes on the host what the skinning shader does: morph targets move vertices first, then
+/// joints.
+std::vector<Vertex> deform_vertices(const Mesh& mesh, const InstanceState& state);
+/// The second half: blended matrices move positions, their cofactors turn normals.
 std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix> joints);
 
 /// A valid scene as it is at `seconds`, where nothing moves any more: skinned meshes are deformed,

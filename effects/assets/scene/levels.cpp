@@ -31,7 +31,7 @@ std::optional<LevelName> parse_level(const std::string& name) {
 
 bool can_be_level(const Instance& a, const Instance& b) {
   return a.transform == b.transform && a.motion == b.motion && a.motion.skin == kNoIndex &&
-         a.mask == b.mask && a.levels.empty() && b.levels.empty();
+         a.motion.morph == kNoIndex && a.mask == b.mask && a.levels.empty() && b.levels.empty();
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ enum TextureSlot : std::uint32_t {
   kMetallicRoughnessTexture,  ///< linear; G roughness, B metallic
   kNormalTexture,             ///< linear; tangent space, +Y up
   kEmissiveTexture,           ///< sRGB
+  kSpecularTexture,           ///< linear; alpha scales `specular`
+  kSpecularColorTexture,      ///< sRGB; scales `specular_color`
   kTextureSlotCount
 };
 
@@ -49,24 +51,35 @@ struct MaterialConstants {
   float alpha_cutoff = 0.5f;   ///< open where alpha < alpha_cutoff
   float normal_scale = 1.0f;   ///< scales x and y of the normal texture
   std::uint32_t flags = 0;     ///< MaterialFlags
+  /// What is no metal reflects dielectric_f0 times specular_color, at most 1, times `specular` of
+  /// light that comes straight at it, and `specular` of light that grazes it.
+  /// [KHR_materials_specular]
+  ///@{
+  glm::vec3 specular_color{1.0f};
+  float specular = 1.0f;        ///< 0..1
+  float dielectric_f0 = 0.04f;  ///< ((ior - 1) / (ior + 1))^2, 0..1 [KHR_materials_ior]
+  ///@}
+  std::uint32_t second_uv = 0;  ///< bit per TextureSlot: read with Mesh::second_uv
   /// Index into Scene::images per TextureSlot, or kNoTexture.
-  std::array<std::int32_t, kTextureSlotCount> image{kNoTexture, kNoTexture, kNoTexture, kNoTexture};
+  std::array<std::int32_t, kTextureSlotCount> image{kNoTexture, kNoTexture, kNoTexture,
+                                                    kNoTexture, kNoTexture, kNoTexture};
   /// Index into Scene::samplers per TextureSlot; 0 where there is no texture.
   std::array<std::uint32_t, kTextureSlotCount> sampler{};
   /// KHR_texture_transform per TextureSlot: u' = dot(m.xy, uv) + offset.x, v' = dot(m.zw, uv) +
   /// offset.y.
   std::array<glm::vec4, kTextureSlotCount> uv_matrix{glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1),
+                                                     glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1),
                                                      glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1)};
   std::array<glm::vec2, kTextureSlotCount> uv_offset{};  ///< see uv_matrix
   /// Level of detail at which the image is one texel, log2(width * height) / 2, per TextureSlot.
   /// upload_scene sets it.
   std::array<float, kTextureSlotCount> one_texel_level{};
 };
-static_assert(sizeof(MaterialConstants) == 192);
-static_assert(offsetof(MaterialConstants, image) == 48);
-static_assert(offsetof(MaterialConstants, uv_matrix) == 80);
-static_assert(offsetof(MaterialConstants, uv_offset) == 144);
-static_assert(offsetof(MaterialConstants, one_texel_level) == 176);
+static_assert(sizeof(MaterialConstants) == 288);
+static_assert(offsetof(MaterialConstants, image) == 72);
+static_assert(offsetof(MaterialConstants, uv_matrix) == 120);
+static_assert(offsetof(MaterialConstants, uv_offset) == 216);
+static_assert(offsetof(MaterialConstants, one_texel_level) == 264);
 
 /// A material with its name, which the GPU does not see.
 struct Material {

@@ -45,6 +45,19 @@ void Mesh::add_colors(std::span<const VertexColor> of_last) {
   colors.resize(vertices.size(), kWhite);
 }
 
+void Mesh::add_second_uv(std::span<const glm::vec2> of_last) {
+  if (of_last.empty() && second_uv.empty()) return;
+  for (std::size_t i = second_uv.size(); i < geometries.back().first_vertex; ++i)
+    second_uv.push_back(vertices[i].uv);
+  second_uv.insert(second_uv.end(), of_last.begin(), of_last.end());
+  for (std::size_t i = second_uv.size(); i < vertices.size(); ++i)
+    second_uv.push_back(vertices[i].uv);
+}
+
+Mesh::More Mesh::more(std::size_t i) const {
+  return {colors.empty() ? kWhite : colors[i], second_uv.empty() ? vertices[i].uv : second_uv[i]};
+}
+
 std::uint32_t Mesh::index(const Geometry& geometry, std::uint32_t i) const {
   std::uint32_t value = 0;
   std::memcpy(

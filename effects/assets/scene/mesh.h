@@ -39,8 +39,8 @@ using VertexColor = glm::u16vec4;
 /// The colour of a vertex that has none.
 inline constexpr VertexColor kWhite{65535, 65535, 65535, 65535};
 
-/// A vertex with a colour as it lies in memory on a device: a Vertex, its VertexColor, 8 bytes
-/// unused, because geometries begin at multiples of 16 bytes.
+/// A vertex with a colour or second texture coordinates as it lies in memory on a device: a Vertex,
+/// its VertexColor, its second texture coordinates. [Mesh::has_more]
 inline constexpr std::uint32_t kColoredVertexStride = 64;
 
 /// Root constants of a hit group's local root signature: how to read the two root SRVs of a
@@ -55,8 +55,10 @@ struct HitConstants {
   ///@}
   std::uint32_t index_size_bytes = 4;  ///< 2 or 4
   std::uint32_t material_id = 0;       ///< in Scene::materials
-  std::uint32_t color_offset = 0;      ///< bytes from the start of a vertex; 0: all are white
-  std::uint32_t geometry_id = 0;       ///< in Mesh::geometries
+  /// Bytes from the start of a vertex, second texture coordinates follow; 0: all are white, and the
+  /// second coordinates are the first.
+  std::uint32_t color_offset = 0;
+  std::uint32_t geometry_id = 0;  ///< in Mesh::geometries
 };
 static_assert(sizeof(HitConstants) == 32);
 
@@ -97,12 +99,24 @@ struct SkinVertex {
 };
 static_assert(sizeof(SkinVertex) == 24);
 
+/// The way by which a morph target of full weight moves a vertex. [glTF 2.0: Morph Targets]
+struct MorphMove {
+  glm::vec3 position{0.0f};  ///< metres
+  glm::vec3 normal{0.0f};    ///< added before the normal is scaled to unit length
+  glm::vec3 tangent{0.0f};   ///< likewise
+};
+static_assert(sizeof(MorphMove) == 36);
+
 /// Vertices and indices of several geometries: what becomes one bottom level.
 struct Mesh {
-  std::string name;                   ///< for people and messages
-  std::vector<Vertex> vertices;       ///< of all geometries
-  std::vector<SkinVertex> skin;       ///< one per vertex where the mesh is skinned, else empty
-  std::vector<VertexColor> colors;    ///< one per vertex, or empty: all are white
+  std::string name;                  ///< for people and messages
+  std::vector<Vertex> vertices;      ///< of all geometries
+  std::vector<SkinVertex> skin;      ///< one per vertex where the mesh is skinned, else empty
+  std::vector<VertexColor> colors;   ///< one per vertex, or empty: all are white
+  std::vector<glm::vec2> second_uv;  ///< one per vertex, or empty: `uv` [MaterialConstants]
+  /// Of a mesh whose weights are animated, else empty: morph_targets for each vertex, in turn.
+  std::vector<MorphMove> morph;
+  std::uint32_t morph_targets = 0;    ///< that the mesh has; its vertices are those without them
   std::vector<std::uint8_t> indices;  ///< 16- or 32-bit per geometry, little endian
   std::vector<Geometry> geometries;   ///< in the order of GeometryIndex
 
@@ -112,6 +126,16 @@ struct Mesh {
                     std::uint32_t material, bool alpha_tested);
   /// Gives the vertices of the geometry that was added last these colours; empty: white.
   void add_colors(std::span<const VertexColor> of_last);
+  /// The same of second texture coordinates; empty: those of the vertices.
+  void add_second_uv(std::span<const glm::vec2> of_last);
+  /// Vertices have colours or second texture coordinates, and are longer on a device.
+  bool has_more() const { return !colors.empty() || !second_uv.empty(); }
+  /// What follows vertex `i` there.
+  struct More {
+    VertexColor color = kWhite;
+    glm::vec2 second_uv{0.0f};
+  };
+  More more(std::size_t i) const;
   /// Index `i` of a geometry, relative to its first vertex.
   std::uint32_t index(const Geometry& geometry, std::uint32_t i) const;
   /// Corner 0..2 of a triangle of a geometry.

@@ -87,6 +87,7 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
     const Geometry& geometry = mesh.geometries[id];
     std::vector<Vertex> vertices;
     std::vector<VertexColor> colors;
+    std::vector<glm::vec2> second_uv;
     std::vector<std::uint32_t> indices;
     std::unordered_map<std::uint32_t, std::uint32_t> place;  // from a vertex of the mesh
     for (; i < part.size() && part[i].geometry == id; ++i) {
@@ -97,11 +98,14 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
         if (is_new) vertices.push_back(mesh.vertices[geometry.first_vertex + from]);
         if (is_new && !mesh.colors.empty())
           colors.push_back(mesh.colors[geometry.first_vertex + from]);
+        if (is_new && !mesh.second_uv.empty())
+          second_uv.push_back(mesh.second_uv[geometry.first_vertex + from]);
         indices.push_back(found->second);
       }
     }
     piece.add_geometry(vertices, indices, geometry.material, geometry.alpha_tested);
     piece.add_colors(colors);
+    piece.add_second_uv(second_uv);
   }
   return piece;
 }
@@ -110,7 +114,8 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
 std::vector<bool> whole_meshes(const Scene& scene) {
   std::vector<bool> whole(scene.meshes.size(), false);
   for (const Instance& instance : scene.instances) {
-    if (instance.motion.skin != kNoIndex) whole[instance.mesh] = true;
+    if (instance.motion.skin != kNoIndex || instance.motion.morph != kNoIndex)
+      whole[instance.mesh] = true;
     for (const Level& level : instance.levels) whole[level.mesh] = true;
   }
   return whole;

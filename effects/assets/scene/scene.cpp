@@ -85,9 +85,9 @@ Bounds scene_bounds(const Scene& scene) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Instance& instance = scene.instances[i];
     Bounds box = boxes[instance.mesh];
-    if (!states[i].joints.empty()) {
+    if (states[i].is_deformed()) {
       box = Bounds();
-      for (const Vertex& v : skin_vertices(scene.meshes[instance.mesh], states[i].joints))
+      for (const Vertex& v : deform_vertices(scene.meshes[instance.mesh], states[i]))
         box.add(glm::dvec3(v.position));
     }
     if (box.empty()) continue;
@@ -166,6 +166,12 @@ void Checker::mesh(const Mesh& mesh) {
   require(mesh.colors.empty() || mesh.colors.size() == mesh.vertices.size(), where,
           std::to_string(mesh.colors.size()) + " coloured vertices of " +
               std::to_string(mesh.vertices.size()));
+  require(mesh.second_uv.empty() || mesh.second_uv.size() == mesh.vertices.size(), where,
+          std::to_string(mesh.second_uv.size()) + " second texture coordinates of " +
+              std::to_string(mesh.vertices.size()));
+  require(mesh.morph.size() == mesh.vertices.size() * mesh.morph_targets, where,
+          std::to_string(mesh.morph.size()) + " moves of morph targets, " +
+              std::to_string(mesh.vertices.size() * mesh.morph_targets) + " expected");
   for (std::size_t i = 0; i < mesh.geometries.size(); ++i)
     geometry(mesh, mesh.geometries[i], where + ", geometry " + std::to_string(i));
 }
@@ -206,8 +212,9 @@ void Checker::instance(const Instance& instance) {
     shown = shown || level.mesh == instance.mesh;
   }
   require(shown, where, "its mesh is none of its levels of detail");
-  require(instance.levels.empty() || instance.motion.skin == kNoIndex, where,
-          "has levels of detail and a skin; one of them is allowed");
+  require(instance.levels.empty() ||
+              (instance.motion.skin == kNoIndex && instance.motion.morph == kNoIndex),
+          where, "has levels of detail and a skin or morph targets; one of them is allowed");
   require(finite(instance.transform), where, "transform is not finite");
   const glm::dmat4& m = instance.transform;
   require(m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0, where,
@@ -229,6 +236,15 @@ void Checker::motion(const Instance& instance, const std::string& where) {
           "animation " + of(m.animation, scene_.animations.size()));
   require(in_range(m.node, scene_.nodes.size()), where, "node " + of(m.node, scene_.nodes.size()));
   require(std::isfinite(m.start), where, "its animation's start is not finite");
+  require(in_range(m.morph, scene_.nodes.size()), where,
+          "node " + of(m.morph, scene_.nodes.size()));
+  if (first_.empty() && m.morph != kNoIndex) {
+    const std::size_t weights = scene_.nodes[static_cast<std::size_t>(m.morph)].weights.size();
+    const std::uint32_t targets = scene_.meshes[instance.mesh].morph_targets;
+    require(targets > 0 && weights == targets, where,
+            "its node has " + std::to_string(weights) + " weights, its mesh " +
+                std::to_string(targets) + " morph targets");
+  }
   if (!first_.empty() || m.skin == kNoIndex) return;
   const Mesh& mesh = scene_.meshes[instance.mesh];
   require(!mesh.skin.empty(), where, "has a skin, and its mesh has no joints and weights");
@@ -247,12 +263,17 @@ void Checker::animation(const Animation& animation) {
   for (const Channel& channel : animation.channels) {
     require(channel.node < scene_.nodes.size(), where,
             "node " + of(channel.node, scene_.nodes.size()));
-    const std::size_t per_key = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
-    require(!channel.times.empty() && channel.values.size() == per_key * channel.times.size(),
-            where,
+    std::size_t per_key = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
+    const bool is_morph = channel.path == ChannelPath::kWeights;
+    if (is_morph && channel.node < scene_.nodes.size())
+      per_key *= scene_.nodes[channel.node].weights.size();
+    const std::size_t values = is_morph ? channel.weights.size() : channel.values.size();
+    require(!channel.times.empty() && values == per_key * channel.times.size(), where,
             "a channel has " + std::to_string(channel.times.size()) + " times and " +
-                std::to_string(channel.values.size()) + " values, " + std::to_string(per_key) +
+                std::to_string(values) + " values, " + std::to_string(per_key) +
                 " per time expected");
+    for (const float weight : channel.weights)
+      require(std::isfinite(weight), where, "a value of a channel is not finite");
     for (std::size_t i = 0; i < channel.times.size(); ++i) {
       require(
           std::isfinite(channel.times[i]) && (i == 0 || channel.times[i] > channel.times[i - 1]),

@@ -87,8 +87,7 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
-  const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y,
-                             g_material[pixel].x);
+  const Brdf brdf = PixelBrdf(pixel);
   const BrdfView view = MakeBrdfView(brdf, normal, -SeenAlong(g_position[pixel].xyz));
   float3 sum = g_emissive[pixel].rgb;
   if ((compose.has & kHasSun) != 0) {

@@ -15,8 +15,8 @@ rtapi::Result<SkinningPass> SkinningPass::create(const Device& device) {
   const auto library = rtapi::LoadShaderLibrary(kaamos_shaders_skinning());
   if (!library) return library.error();
   RootSignatureDesc root;
-  root.Parameters.push_back(RootParameter::Constants32(3, 0));
-  for (std::uint32_t t = 0; t < 3; ++t) root.Parameters.push_back(RootParameter::Srv(t));
+  root.Parameters.push_back(RootParameter::Constants32(4, 0));
+  for (std::uint32_t t = 0; t < 5; ++t) root.Parameters.push_back(RootParameter::Srv(t));
   root.Parameters.push_back(RootParameter::Uav(0));
   const auto signature = device.CreateRootSignature(root);
   if (!signature) return signature.error();
@@ -36,17 +36,24 @@ rtapi::Result<SkinningPass> SkinningPass::create(const Device& device) {
 rtapi::Result<SkinnedMesh> SkinningPass::create_mesh(const Device& device, const Mesh& mesh,
                                                      GpuVirtualAddress bind_vertices,
                                                      GpuVirtualAddress skin,
-                                                     std::uint32_t joint_count) {
+                                                     std::uint32_t joint_count,
+                                                     GpuVirtualAddress morph) {
   SkinnedMesh out;
   out.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
-  out.has_colors = !mesh.colors.empty();
+  out.has_more = mesh.has_more();
   out.bind_vertices = bind_vertices;
   out.skin = skin;
   auto joints = CreateUploadBuffer(
-      device, std::vector<JointMatrix>(std::max(joint_count, 1u), JointMatrix(0.0f)),
+      device, std::vector<JointMatrix>(std::max(joint_count, 1u), JointMatrix(1.0f)),
       mesh.name + " joints");
   if (!joints) return joints.error();
   out.joints = *joints;
+  out.morph = morph;
+  out.morph_targets = morph == 0 ? 0 : mesh.morph_targets;
+  auto weights = CreateUploadBuffer(
+      device, std::vector<float>(std::max(out.morph_targets, 1u), 0.0f), mesh.name + " weights");
+  if (!weights) return weights.error();
+  out.weights = *weights;
   BufferDesc desc;
   desc.SizeInBytes = std::max<std::uint64_t>(mesh.vertices.size(), 1) * stride(mesh);
   desc.Flags = ResourceFlags::kAllowUnorderedAccess;
@@ -64,13 +71,16 @@ void SkinningPass::begin(CommandList& list) const {
 }
 
 void SkinningPass::dispatch(CommandList& list, const SkinnedMesh& mesh, bool keep_history) const {
-  const std::uint32_t constants[3] = {mesh.vertex_count, keep_history ? 1u : 0u,
-                                      mesh.has_colors ? 1u : 0u};
-  list.SetComputeRoot32BitConstants(0, 3, constants, 0);
+  const std::uint32_t constants[4] = {mesh.vertex_count, keep_history ? 1u : 0u,
+                                      mesh.has_more ? 1u : 0u, mesh.morph_targets};
+  list.SetComputeRoot32BitConstants(0, 4, constants, 0);
   list.SetComputeRootShaderResourceView(1, mesh.bind_vertices);
   list.SetComputeRootShaderResourceView(2, mesh.skin);
   list.SetComputeRootShaderResourceView(3, mesh.joints.GetGPUVirtualAddress());
-  list.SetComputeRootUnorderedAccessView(4, mesh.vertices.GetGPUVirtualAddress());
+  const GpuVirtualAddress weights = mesh.weights.GetGPUVirtualAddress();
+  list.SetComputeRootShaderResourceView(4, mesh.morph == 0 ? weights : mesh.morph);
+  list.SetComputeRootShaderResourceView(5, weights);
+  list.SetComputeRootUnorderedAccessView(6, mesh.vertices.GetGPUVirtualAddress());
   list.Dispatch((mesh.vertex_count + 63) / 64, 1, 1);
 }
 

@@ -50,6 +50,10 @@ bool any_alpha_tested(const Mesh& mesh) {
                      [](const Geometry& g) { return g.alpha_tested; });
 }
 
+bool is_deformed(const Instance& instance) {
+  return instance.motion.skin != kNoIndex || instance.motion.morph != kNoIndex;
+}
+
 std::size_t first_record(const Scene& scene, std::uint32_t mesh) {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < mesh; ++i) count += scene.meshes[i].geometries.size();
@@ -85,7 +89,7 @@ rtapi::Status StructureManager::build_static(const Device& device, CommandQueue&
                                              const Scene& scene) {
   std::vector<bool> wanted(scene.meshes.size(), false);
   for (const Instance& instance : scene.instances) {
-    if (instance.motion.skin == kNoIndex) wanted[instance.mesh] = true;
+    if (!is_deformed(instance)) wanted[instance.mesh] = true;
     for (const Level& level : instance.levels) wanted[level.mesh] = true;
   }
   gpu_.bottom_levels.resize(scene.meshes.size());
@@ -169,13 +173,14 @@ rtapi::Status StructureManager::compact(const Device& device, CommandQueue& queu
 
 rtapi::Status StructureManager::add_instances(const Device& device, const Scene& scene) {
   bind_skins_.resize(scene.meshes.size());
+  morphs_.resize(scene.meshes.size());
   for (std::uint32_t id = 0; id < scene.meshes.size(); ++id) {
     meshes_.push_back({first_record(scene, id), !any_alpha_tested(scene.meshes[id])});
   }
   for (const Instance& instance : scene.instances) {
     Placement placement;
     placement.transform = instance.transform;
-    if (instance.motion.skin != kNoIndex) {
+    if (is_deformed(instance)) {
       const auto body = add_body(device, scene, instance);
       if (!body) return body.error();
       placement.body = *body;
@@ -208,15 +213,27 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
   }
   const Mesh& mesh = scene.meshes[body.mesh];
   if (!bind_skins_[body.mesh]) {
-    auto skin = CreateUploadBuffer(device, mesh.skin, mesh.name + " joints and weights");
+    // What only morphs hangs on one joint that stands still.
+    auto skin = CreateUploadBuffer(
+        device, mesh.skin.empty() ? std::vector<SkinVertex>(mesh.vertices.size()) : mesh.skin,
+        mesh.name + " joints and weights");
     if (!skin) return skin.error();
     bind_skins_[body.mesh] = *skin;
   }
-  const Skin& skin = scene.skins[static_cast<std::size_t>(body.motion.skin)];
-  body.joint_count = static_cast<std::uint32_t>(skin.joints.size());
+  if (body.motion.skin != kNoIndex) {
+    const Skin& skin = scene.skins[static_cast<std::size_t>(body.motion.skin)];
+    body.joint_count = static_cast<std::uint32_t>(skin.joints.size());
+  }
+  const bool morphs = body.motion.morph != kNoIndex;
+  if (morphs && !morphs_[body.mesh]) {
+    auto moves = CreateUploadBuffer(device, mesh.morph, mesh.name + " morph targets");
+    if (!moves) return moves.error();
+    morphs_[body.mesh] = *moves;
+  }
   auto skinned =
       SkinningPass::create_mesh(device, mesh, gpu_.vertices[body.mesh].GetGPUVirtualAddress(),
-                                bind_skins_[body.mesh].GetGPUVirtualAddress(), body.joint_count);
+                                bind_skins_[body.mesh].GetGPUVirtualAddress(), body.joint_count,
+                                morphs ? morphs_[body.mesh].GetGPUVirtualAddress() : 0);
   if (!skinned) return skinned.error();
   body.skinned = *skinned;
   // A body has records of its own: the same indices and materials, but other vertices.
@@ -225,7 +242,7 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
   for (std::size_t i = 0; i < mesh.geometries.size(); ++i) {
     GpuGeometry gpu = gpu_.geometries[bind_record + i];
     gpu.constants.vertex_stride = SkinningPass::stride(mesh);
-    if (!mesh.colors.empty()) gpu.constants.color_offset = kSkinnedColorOffset;
+    if (mesh.has_more()) gpu.constants.color_offset = kSkinnedColorOffset;
     gpu.vertices = body.skinned.vertices.GetGPUVirtualAddress() +
                    std::uint64_t{mesh.geometries[i].first_vertex} * gpu.constants.vertex_stride;
     gpu.vertex_buffer = body.skinned.vertices;

@@ -92,7 +92,8 @@ class StructureManager {
   rtapi::Buffer skinned_vertices(std::uint32_t instance) const;
 
  private:
-  // Skinned instances in the same pose share a body: deformed vertices and their structure.
+  // Skinned and morphed instances in the same pose share a body: deformed vertices and their
+  // structure.
   struct Body {
     std::uint32_t mesh = 0;
     Motion motion;
@@ -104,7 +105,9 @@ class StructureManager {
     std::vector<rtapi::RaytracingGeometryDesc> geometries;
     rtapi::Buffer structure;
     rtapi::Buffer scratch;
-    std::vector<JointMatrix> joints;  // in the last frame; empty before the first
+    std::vector<JointMatrix> joints;  // in the last frame
+    std::vector<float> weights;       // likewise
+    bool has_pose = false;            // there was a last frame
     std::uint32_t updates = 0;        // since it was built
     bool moved = false;
     bool has_history = false;  // the vertices hold the previous positions
@@ -145,7 +148,8 @@ class StructureManager {
   std::vector<Placement> placements_;
   std::vector<Body> bodies_;
   std::optional<SkinningPass> skinning_;
-  std::vector<rtapi::Buffer> bind_skins_;  // per mesh; empty handles for meshes without a skin
+  std::vector<rtapi::Buffer> bind_skins_;  // per mesh; empty handles for meshes without bodies
+  std::vector<rtapi::Buffer> morphs_;      // per mesh; empty handles for those without targets
   rtapi::Buffer top_scratch_;
   glm::dvec3 previous_origin_{0.0};
   std::uint32_t frame_ = 0;

@@ -2,6 +2,7 @@
 // Brings the structures up to date in one frame.
 #include <rtapi/upload.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <string>
@@ -17,8 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-bool same(const std::vector<JointMatrix>& a, const std::vector<JointMatrix>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+// To the bit.
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
 }
 
 Error mismatch(const std::string& what, std::size_t actual, std::size_t wanted) {
@@ -84,6 +88,12 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
       return mismatch("joints of instance \"" + instances_[i].name + "\"", states[i].joints.size(),
                       wanted);
     }
+    const std::uint32_t targets =
+        bodies_[static_cast<std::size_t>(placements_[i].body)].skinned.morph_targets;
+    if (states[i].weights.size() != targets) {
+      return mismatch("morph weights of instance \"" + instances_[i].name + "\"",
+                      states[i].weights.size(), targets);
+    }
   }
   statistics_.frame = frame_;
   statistics_.skinned = statistics_.updated = statistics_.rebuilt = statistics_.skipped = 0;
@@ -97,15 +107,19 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
     if (seen[id]) continue;
     seen[id] = true;
     Body& body = bodies_[id];
-    body.moved = body.joints.empty() || !same(body.joints, states[i].joints);
+    body.moved = !body.has_pose || !same(body.joints, states[i].joints) ||
+                 !same(body.weights, states[i].weights);
     if (!body.moved) {
       ++statistics_.skipped;
       continue;
     }
-    body.has_history = !body.joints.empty();
+    body.has_history = body.has_pose;
+    body.has_pose = true;
     body.joints = states[i].joints;
-    std::memcpy(body.skinned.joints.data<JointMatrix>().data(), body.joints.data(),
-                body.joints.size() * sizeof(JointMatrix));
+    body.weights = states[i].weights;
+    std::copy(body.joints.begin(), body.joints.end(),
+              body.skinned.joints.data<JointMatrix>().begin());
+    std::copy(body.weights.begin(), body.weights.end(), body.skinned.weights.data<float>().begin());
   }
   return {};
 }

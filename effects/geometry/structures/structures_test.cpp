@@ -169,6 +169,121 @@ TEST_P(Structures, DeformedVerticesKeepTheirColors) {
   EXPECT_GT(count, 1000u);
 }
 
+// A walking figure whose vertices two targets move besides, and a square that only morphs.
+Scene morphing_scene() {
+  Scene scene = make_runner_scene({.crowd = 0});
+  Mesh& figure = scene.meshes[scene.instances[1].mesh];
+  Mesh square;
+  square.name = "square";
+  std::vector<Vertex> corners(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i].position = glm::vec3(i % 2 == 0 ? -0.5f : 0.5f, i < 2 ? 0 : 1, 0);
+    corners[i].normal = glm::vec3(0, 0, 1);
+    corners[i].tangent = glm::vec4(1, 0, 0, 1);
+  }
+  square.add_geometry(corners, std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3}, 0, false);
+  const auto add_targets = [](Mesh& mesh) {
+    mesh.morph_targets = 2;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const auto part = static_cast<float>(i % 7) / 7;
+      mesh.morph.push_back({{0, 0.2f * part, 0}, {0.5f * part, 0, 0}, {}});
+      mesh.morph.push_back({{0.1f, 0, 0.3f * part}, {0, part, 0}, {0, 0.5f, part}});
+    }
+  };
+  add_targets(figure);
+  add_targets(square);
+  Node face;
+  face.name = "face";
+  face.weights = {0.0f, 0.25f};
+  const auto node = static_cast<std::int32_t>(scene.nodes.size());
+  scene.nodes.push_back(face);
+  Channel channel;
+  channel.node = static_cast<std::uint32_t>(node);
+  channel.path = ChannelPath::kWeights;
+  channel.times = {0, 1};
+  channel.weights = {0, 0.25f, 1, -0.5f};
+  scene.animations.at(0).channels.push_back(channel);
+  scene.animations.at(0).duration = std::max(scene.animations.at(0).duration, 1.0);
+  scene.instances[1].motion.morph = node;
+  Instance instance;
+  instance.name = "square";
+  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+  instance.transform[3] = glm::dvec4(0.5, 0.5, 1.5, 1);
+  instance.motion.animation = 0;
+  instance.motion.morph = node;
+  scene.meshes.push_back(square);
+  scene.instances.push_back(instance);
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error().message;
+  return scene;
+}
+
+TEST_P(Structures, MorphTargetsMoveWhatTheHostMoves) {
+  Stage stage(GetParam(), morphing_scene());
+  stage.go(0.11, false);
+  stage.go(0.37, false);
+  for (const std::size_t instance : {std::size_t{1}, stage.scene.instances.size() - 1}) {
+    const Mesh& mesh = stage.scene.meshes[stage.scene.instances[instance].mesh];
+    const std::vector<DeformedVertex> found = deformed(stage, static_cast<std::uint32_t>(instance));
+    const std::vector<Vertex> now = deform_vertices(mesh, stage.states[instance]);
+    const std::vector<Vertex> before = deform_vertices(mesh, stage.previous_states[instance]);
+    ASSERT_EQ(found.size(), now.size());
+    double moved = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      ASSERT_LT(distance(found[i].vertex.position, now[i].position), 2e-6) << instance << " " << i;
+      ASSERT_LT(distance(found[i].previous_position, before[i].position), 2e-6) << i;
+      ASSERT_LT(distance(found[i].vertex.normal, now[i].normal), 1e-5) << i;
+      ASSERT_LT(distance(glm::vec3(found[i].vertex.tangent), glm::vec3(now[i].tangent)), 1e-5);
+      moved = std::max(moved, distance(now[i].position, before[i].position));
+    }
+    EXPECT_GT(moved, 0.02);
+  }
+}
+
+// The motion of the square's pixels leads to where the weights of the frame before put their
+// points.
+TEST_P(Structures, MotionFollowsMorphTargets) {
+  Scene scene = morphing_scene();
+  scene.cameras.front().camera_to_world = look_at({0.5, 1, 4}, {0.5, 1, 1.5});
+  scene.cameras.front().half_height = 1;
+  Stage stage(GetParam(), scene);
+  stage.go(0.2);
+  stage.go(0.3);
+  const auto last = static_cast<std::uint32_t>(scene.instances.size()) - 1;
+  const FloatImage ids = stage.read(kIds), motion = stage.read(kMotion),
+                   position = stage.read(kPosition);
+  const Mesh& mesh = scene.meshes[scene.instances[last].mesh];
+  const std::vector<Vertex> now = deform_vertices(mesh, stage.states[last]);
+  const std::vector<Vertex> before = deform_vertices(mesh, stage.previous_states[last]);
+  int count = 0;
+  for (std::uint32_t y = 0; y < ids.height; ++y) {
+    for (std::uint32_t x = 0; x < ids.width; ++x) {
+      std::uint32_t id[2];
+      const float raw[2] = {ids.at(x, y, 0), ids.at(x, y, 1)};
+      id[0] = static_cast<std::uint32_t>(raw[0]);
+      id[1] = static_cast<std::uint32_t>(raw[1]);
+      if (id[0] != last + 1) continue;
+      const Geometry& geometry = mesh.geometries[0];
+      glm::dvec3 a[3], b[3];
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const std::uint32_t vertex = mesh.index(geometry, 3 * id[1] + c);
+        a[c] = glm::dvec3(now[vertex].position);
+        b[c] = glm::dvec3(before[vertex].position);
+      }
+      // The camera is level and looks along -z, so that its picture shows x and y as they are.
+      const glm::dvec2 p(position.at(x, y, 0) + 0.5 - scene.instances[last].transform[3].x,
+                         position.at(x, y, 1) + 1 - scene.instances[last].transform[3].y);
+      const glm::dmat2 edges(glm::dvec2(a[1] - a[0]), glm::dvec2(a[2] - a[0]));
+      const glm::dvec2 w = glm::inverse(edges) * (p - glm::dvec2(a[0]));
+      const glm::dvec3 from = b[0] + w.x * (b[1] - b[0]) + w.y * (b[2] - b[0]);
+      const double aspect = static_cast<double>(ids.width) / ids.height;
+      ASSERT_NEAR(motion.at(x, y, 0), (from.x - p.x) / (2 * aspect), 1e-5);
+      ASSERT_NEAR(motion.at(x, y, 1), -(from.y - p.y) / 2, 1e-5);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 100);
+}
+
 // The first frames of the walk, once by updates alone and once rebuilt in each frame: the triangles
 // are the same, so the hits must be. 10^5 rays.
 TEST_P(Structures, UpdatedStructuresGiveTheHitsOfNewOnes) {

@@ -35,7 +35,7 @@ struct GlassLayer {
 
 // Without a mirror image.
 GlassLayer LitLayer(Surface surface, float coverage, float3 direction, float sun_visibility) {
-  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
+  const Brdf brdf = SurfaceBrdf(surface);
   GlassLayer layer;
   layer.radiance = coverage * Contain(LayerLight(surface, brdf, -direction, sun_visibility));
   layer.transmittance = float3(1, 1, 1) * (1.0 - coverage);
@@ -47,8 +47,8 @@ GlassLayer LitLayer(Surface surface, float coverage, float3 direction, float sun
 void AddMirrored(inout GlassLayer layer, Surface surface, float coverage, float3 direction,
                  float3 mirrored, bool in_full) {
   if (surface.is_unlit) return;
-  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
-  const float3 fresnel = saturate(FresnelSchlick(brdf.f0, -dot(direction, surface.shading_normal)));
+  const Brdf brdf = SurfaceBrdf(surface);
+  const float3 fresnel = saturate(FresnelSchlick(brdf.f0, brdf.f90, -dot(direction, surface.shading_normal)));
   if (in_full) {
     layer.radiance += fresnel * mirrored;
     layer.transmittance *= float3(1, 1, 1) - fresnel;

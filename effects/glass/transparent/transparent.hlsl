@@ -67,7 +67,8 @@ float GlassCoverage(float2 barycentrics) {
   }
   float alpha = material.base_color.a;
   if (HasTexture(material, kBaseColorTexture)) {
-    const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+    const float2 uv = LoadUvOf(vertices, hit_constants, corners, barycentrics,
+                             UsesSecondUv(material, kBaseColorTexture));
     alpha *= SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
   }
   if (hit_constants.color_offset != 0) {
@@ -136,7 +137,7 @@ void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectio
   if (payload.kind != kBlendRay) return;
   if (on_edge) Remember(payload);
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
-  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
+  const Brdf brdf = SurfaceBrdf(surface);
   const float3 light =
       Contain(LayerLight(surface, brdf, -normalize(WorldRayDirection()), payload.sun_visibility));
   const float weight = coverage * BlendWeight(coverage, RayTCurrent());

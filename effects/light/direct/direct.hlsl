@@ -42,10 +42,6 @@ void CullByFrustum(uint thread : SV_GroupIndex) {
   if (thread == 0) lights_in_view[0] = count;
 }
 
-Brdf PixelBrdf(uint2 pixel) {
-  return MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, g_material[pixel].x);
-}
-
 BrdfView PixelView(uint2 pixel, Brdf brdf) {
   return MakeBrdfView(brdf, OctahedralDecode(g_shading_normal[pixel]),
                       -SeenAlong(g_position[pixel].xyz));

@@ -99,7 +99,7 @@ HoleVertex LightMapHoleVertex(MapCorner corner, uint vertex : SV_VertexID) {
   const uint geometry = draws[constants.draw].geometry;
   HoleVertex result;
   result.position = place.position;
-  result.uv = place.uv;
+  result.uv = HoleUv(geometry_buffers[2 * geometry], geometries[geometry], vertex, place.uv);
   result.alpha = VertexAlpha(geometry_buffers[2 * geometry], geometries[geometry], vertex);
   return result;
 }

@@ -45,8 +45,7 @@ ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   surface.shading_normal = OctahedralDecode(g_shading_normal[pixel]);
   surface.origin = position.xyz + surface.normal * position.w;
   surface.roughness = g_material[pixel].x;
-  surface.brdf =
-      MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, surface.roughness);
+  surface.brdf = PixelBrdf(pixel);
   surface.cosine_view = max(dot(surface.shading_normal, view), 1e-4);
   surface.local_view = ToLocal(view, surface.shading_normal);
   return surface;
@@ -55,7 +54,7 @@ ReflectionPoint LoadReflectionPoint(uint2 pixel) {
 // Returns the divisor of the sum of a pixel's samples. [ReflectionScale]
 float3 ReflectionScaleAt(ReflectionPoint surface) {
   return ReflectionScale(
-      SpecularAlbedo(surface.brdf.f0, surface.brdf.roughness, surface.cosine_view));
+      SpecularAlbedo(surface.brdf.f0, surface.brdf.f90, surface.brdf.roughness, surface.cosine_view));
 }
 
 // In the surface's own frame, about +Z.

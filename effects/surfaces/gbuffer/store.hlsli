@@ -63,9 +63,12 @@ void StoreSurface(uint2 pixel, ByteAddressBuffer vertices, ByteAddressBuffer ind
   g_normal[pixel] = OctahedralEncode(surface.normal);
   g_shading_normal[pixel] = OctahedralEncode(surface.shading_normal);
   g_base_color[pixel] = float4(EncodeColor(saturate(surface.base_color)), 1.0);
-  g_emissive[pixel] = float4(surface.emissive, 0.0);
-  g_material[pixel] = 
-      float4(surface.roughness, surface.metallic, surface.is_unlit ? 1.0 : 0.0, 0.0);
+  float tint;
+  const float2 dielectric =
+      EncodeDielectric(surface.dielectric_f0, surface.dielectric_f90, tint);
+  g_emissive[pixel] = float4(surface.emissive, tint);
+  g_material[pixel] = float4(surface.roughness, surface.metallic,
+                             surface.is_unlit ? 1.0 : dielectric.x, dielectric.y);
   g_ids[pixel] = ids;
   g_position[pixel] = float4(surface.position, surface.offset);
   const float3 previous = PreviousPosition(vertices, indices, hit, instance, surface.position);
