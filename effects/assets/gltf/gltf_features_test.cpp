@@ -413,6 +413,13 @@ TEST(GltfExtensions, ThoseThatAreNotReadAreNamed) {
   EXPECT_EQ(loaded.value().warnings.size(), 3u) << "one sentence each";
 }
 
+TEST(GltfExtensions, VariantsMayBeRequired) {
+  File file;
+  file.more = R"(,"extensionsRequired":["KHR_materials_variants"],)"
+              R"("extensionsUsed":["KHR_materials_variants"])";
+  expect_warning(load(file.bytes()), "KHR_materials_variants is not read: each mesh shows its own");
+}
+
 TEST(GltfExtensions, CompressionIsRefusedByName) {
   File file;
   file.more = R"(,"extensionsUsed":["KHR_draco_mesh_compression"])";

@@ -132,9 +132,10 @@ struct Mesh {
   bool has_more() const { return !colors.empty() || !second_uv.empty(); }
   /// What follows vertex `i` there.
   struct More {
-    VertexColor color = kWhite;
-    glm::vec2 second_uv{0.0f};
+    VertexColor color = kWhite;  ///< linear
+    glm::vec2 second_uv{0.0f};   ///< as Vertex::uv
   };
+  /// That of vertex `i`, whether the mesh has more or not.
   More more(std::size_t i) const;
   /// Index `i` of a geometry, relative to its first vertex.
   std::uint32_t index(const Geometry& geometry, std::uint32_t i) const;
