@@ -144,6 +144,9 @@ std::string ArgumentParser::apply(std::string_view name, const std::string& valu
     options.Strict = true;
   } else if (name == "-no-warnings") {
     options.NoWarnings = true;
+  } else if (name == "-no-legacy-cbuf-layout" || name == "-not_use_legacy_cbuf_load") {
+    out_.notes.push_back("warning: " + std::string(name) +
+                         " has no effect: constant buffers have rows of 16 bytes, as in DXC");
   } else if (name == "-WX") {
     out_.warnings_as_errors = true;
   } else if (name == "-Zi" || name == "-Zs") {

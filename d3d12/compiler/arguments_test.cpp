@@ -94,6 +94,15 @@ TEST(DxcArguments, DebugCodeUnlessOptimised) {
   EXPECT_TRUE(parse({"-Zi", "-Od", "-O3", "a.hlsl"}).options.Debug);
 }
 
+// DXC says so too: the layout that they asked for is gone.
+TEST(DxcArguments, LayoutOfConstantBuffersStays) {
+  for (const char* option : {"-no-legacy-cbuf-layout", "/not_use_legacy_cbuf_load"}) {
+    const DxcArguments parsed = parse({option, "-T", "cs_6_0", "a.hlsl"});
+    ASSERT_EQ(parsed.notes.size(), 1u);
+    EXPECT_THAT(parsed.notes[0], HasSubstr(std::string(option + 1) + " has no effect"));
+  }
+}
+
 TEST(DxcArguments, OldProfilesArePromoted) {
   const DxcArguments parsed = parse({"-T", "cs_5_1", "a.hlsl"});
   EXPECT_EQ(parsed.options.Target, "cs_6_0");
