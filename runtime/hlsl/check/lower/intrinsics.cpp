@@ -16,6 +16,14 @@ bool is_number(const Value& value) {
                         (value.type->is_enum() && !value.type->enumeration->is_class));
 }
 
+bool is_everywhere_two(const ir::Expr& expr) {
+  if (expr.kind == ir::ExprKind::kSplat) return is_everywhere_two(*expr.operands[0]);
+  if (expr.kind != ir::ExprKind::kLiteral) return false;
+  const uint64_t two = convert_bits(2, Scalar::kInt32, expr.type->scalar);
+  return std::all_of(expr.literal.begin(), expr.literal.end(),
+                     [&](uint64_t bits) { return bits == two; });
+}
+
 // Arguments from here on have a type of their own; the others get one in common.
 size_t joined_arguments(const IntrinsicRule& rule) {
   return rule.shape == IntrinsicShape::kRefract ? 2 : rule.count;
@@ -359,6 +367,11 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
     if (!operand) return error_value();
   }
   at(location);
+  // As in DXC, which makes a product of a square only: it is defined for numbers below zero.
+  if (rule.intrinsic == Intrinsic::pow && is_everywhere_two(*operands[1])) {
+    const ir::Expr* base = body_.repeatable(operands[0]);
+    return rvalue(build_.binary(ir::BinaryOp::kMultiply, base, base), result);
+  }
   if (type->is_scalar()) {
     // Vector functions on scalars reduce to arithmetic.
     const auto absolute = [&](const ir::Expr* value) {

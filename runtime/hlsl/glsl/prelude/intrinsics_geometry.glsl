@@ -57,7 +57,7 @@ $T k_refract($T incident, $T normal, $S eta) {
   precise $W e = $W(eta);
   precise $W cosine = k_dot_sum(incident, normal);
   precise $W k = $W(1) - e * e * ($W(1) - cosine * cosine);
-  if (k < $W(0)) return $0;
+  if (!(k >= $W(0))) return $0;
   precise $T r = eta * incident - $S(e * cosine + sqrt(k)) * normal;
   return r;
 }

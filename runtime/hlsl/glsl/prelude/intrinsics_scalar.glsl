@@ -91,7 +91,7 @@ $T k_lerp($T x, $T y, $T s) {
   return sum;
 }
 //@ k_step ints floats each
-$T k_step($T edge, $T x) { return x >= edge ? $1 : $0; }
+$T k_step($T edge, $T x) { return x < edge ? $0 : $1; }
 //@ k_smoothstep f32 f64 each
 $T k_smoothstep($T low, $T high, $T x) {
   $T t = k_saturate((x - low) / (high - low));
@@ -155,22 +155,21 @@ double k_fmod(double x, double y) {
 // Zero, infinities and NaN are their own mantissa, with exponent 0.
 //@ k_frexp_mantissa f32 each
 float k_frexp_mantissa(float x) {
-  uint bits = floatBitsToUint(x);
-  uint magnitude = bits & 0x7FFFFFFFu;
-  if (magnitude < 0x800000u || magnitude >= 0x7F800000u) return k_flushed(x);
-  return uintBitsToFloat((bits & 0x80000000u) | 0x3F000000u | (magnitude & 0x7FFFFFu));
+  uint magnitude = floatBitsToUint(x) & 0x7FFFFFFFu;
+  if (magnitude < 0x800000u) return 0.0;
+  return uintBitsToFloat(0x3F000000u | (magnitude & 0x7FFFFFu));
 }
 //@ k_frexp_exponent f32 each
 float k_frexp_exponent(float x) {
   uint magnitude = floatBitsToUint(x) & 0x7FFFFFFFu;
-  if (magnitude < 0x800000u || magnitude >= 0x7F800000u) return 0.0;
+  if (magnitude < 0x800000u) return 0.0;
   return float(int(magnitude >> 23) - 126);
 }
 //@ k_frexp_mantissa f64 each
 double k_frexp_mantissa(double x) {
-  if (x == 0.0LF || isnan(x) || isinf(x)) return x;
+  if (x == 0.0LF || isnan(x) || isinf(x)) return abs(x);
   int exponent;
-  return frexp(x, exponent);
+  return abs(frexp(x, exponent));
 }
 //@ k_frexp_exponent f64 each
 double k_frexp_exponent(double x) {

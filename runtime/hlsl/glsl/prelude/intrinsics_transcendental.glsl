@@ -312,8 +312,9 @@ float k_tanh(float x) {
 //@ k_pow f32 each
 float k_pow(float x, float y) {
   if (isnan(y) || !(x >= 0.0)) return uintBitsToFloat(0x7FC00000u);
-  if (y == 0.0 || x == 1.0) return 1.0;
   float edge = k_log_edge(abs(x));
+  if (k_flushed(y) == 0.0) return edge == 0.0 ? 1.0 : uintBitsToFloat(0x7FC00000u);
+  if (x == 1.0) return isinf(y) ? uintBitsToFloat(0x7FC00000u) : 1.0;
   if (edge != 0.0) return (edge > 0.0) == (y > 0.0) ? uintBitsToFloat(0x7F800000u) : 0.0;
   if (isinf(y)) return (x > 1.0) == (y > 0.0) ? y * y : 0.0;
   float e;

@@ -84,14 +84,14 @@ KAAMOS_INLINE V reflect(const V& incident, const V& normal) {
   return sub(incident, mul_c(splat<V>(twice), normal));
 }
 
-// Zero on total internal reflection.
+// Zero on total internal reflection, and where numbers are NaN.
 template <class V>
 KAAMOS_INLINE V refract(const V& incident, const V& normal, scalar_of<V> eta) {
   using S = op::Sum<scalar_of<V>>;
   const S e = op::widen(eta);
   const S cosine = op::dot_sum(incident, normal);
   const S k = S{1} - e * e * (S{1} - cosine * cosine);
-  if (k < S{0}) return V{};
+  if (!(k >= S{0})) return V{};
   const auto along = op::Convert<scalar_of<V>>::apply(e * cosine + sqrt(k));
   return sub(mul_c(splat<V>(eta), incident), mul_c(splat<V>(along), normal));
 }

@@ -160,15 +160,24 @@ struct Atan2 {
   }
 };
 
-// exp2(y * log2(x)) in HLSL: NaN for negative x, whatever y is.
+// exp2(y * log2(x)) in HLSL: NaN for negative x, whatever y is, and where the product is that of 0
+// and an infinity: 0 and infinity to the power 0, 1 to the power of an infinity.
 struct Pow {
   KAAMOS_HALF_THROUGH_FLOAT_2
   KAAMOS_INLINE static float apply(float x, float y) {
     const float base = __builtin_fabsf(flushed(x));
-    return x >= 0 && y == y ? __builtin_powf(base, y) : __builtin_nanf("");
+    return x >= 0 && has_product(base, flushed(y)) ? __builtin_powf(base, y) : __builtin_nanf("");
   }
   KAAMOS_INLINE static double apply(double x, double y) {
-    return x >= 0 && y == y ? __builtin_pow(__builtin_fabs(x), y) : __builtin_nan("");
+    const double base = __builtin_fabs(x);
+    return x >= 0 && has_product(base, y) ? __builtin_pow(base, y) : __builtin_nan("");
+  }
+
+ private:
+  template <class T>
+  KAAMOS_INLINE static bool has_product(T base, T y) {
+    if (y == 0) return base != 0 && base - base == 0;
+    return y == y && (base != 1 || y - y == 0);
   }
 };
 
@@ -189,24 +198,27 @@ struct Ldexp {
   }
 };
 
-// For zero, infinities and NaN the mantissa is the number itself, and the exponent 0.
+// Of |x|, as in DXC, which takes the bits of the number apart: an infinity is 0.5 * 2^129, a NaN
+// has a mantissa and the exponent 129 too. Doubles, which DXC does not take, keep those as they
+// are, with the exponent 0.
 struct FrexpMantissa {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
-    int exponent;
-    return __builtin_frexpf(flushed(x), &exponent);
+    const uint32_t bits = __builtin_bit_cast(uint32_t, flushed(x));
+    const uint32_t mantissa = (bits & 0x7FFFFFu) | 0x3F000000u;
+    return (bits & 0x7FFFFFFFu) == 0 ? 0.0f : __builtin_bit_cast(float, mantissa);
   }
   KAAMOS_INLINE static double apply(double x) {
     int exponent;
-    return __builtin_frexp(x, &exponent);
+    return __builtin_fabs(__builtin_frexp(x, &exponent));
   }
 };
 struct FrexpExponent {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
-    int exponent = 0;
-    __builtin_frexpf(flushed(x), &exponent);
-    return x - x == 0.0f ? static_cast<float>(exponent) : 0.0f;
+    const uint32_t magnitude = __builtin_bit_cast(uint32_t, flushed(x)) & 0x7FFFFFFFu;
+    const int32_t exponent = static_cast<int32_t>(magnitude >> 23) - 126;
+    return magnitude == 0 ? 0.0f : static_cast<float>(exponent);
   }
   KAAMOS_INLINE static double apply(double x) {
     int exponent = 0;
@@ -255,10 +267,11 @@ struct Lerp {
     return Add::apply(x, Multiply::apply(s, Subtract::apply(y, x)));
   }
 };
+// x < edge ? 0 : 1, so that NaN gives 1.
 struct Step {
   template <class T>
   KAAMOS_CONSTEXPR static T apply(T edge, T x) {
-    return Convert<T>::apply(comparable(x) >= comparable(edge));
+    return Convert<T>::apply(!(comparable(x) < comparable(edge)));
   }
 };
 struct Smoothstep {
