@@ -23,6 +23,9 @@ class Report final : public FinishReport {
   void stage_use(const StageUse& use, const ir::EntryPoint& entry) override {
     lines.push_back(std::string(use.name) + " in " + entry.name);
   }
+  void no_quads(const StageUse& use, const ir::EntryPoint& entry) override {
+    lines.push_back(std::string(use.name) + " without quads in " + entry.name);
+  }
   void no_register(const BindingFacts& binding) override {
     lines.push_back("no register: " + binding.name);
   }
