@@ -452,8 +452,11 @@ float4 main(float2 a : A, centroid float3x2 m : M) : SV_Target {
 Texture2D<float> t;
 SamplerState s;
 SamplerComparisonState c;
-float look(float2 uv) { return t.Sample(s, uv); }
+static Texture2D<float> alias = t;
+static SamplerState assigned;
+float look(float2 uv) { return alias.Sample(assigned, uv); }
 void main(float4 p : SV_Position, out float4 a : SV_Target0, out float4 b : SV_Target1) {
+  assigned = s;
   const float2 uv = p.xy * 4 / 64;
   a = float4(look(uv), t.SampleBias(s, uv, 1), t.SampleBias(s, uv, -0.5), t.SampleLevel(s, uv, 0));
   b = float4(t.CalculateLevelOfDetail(s, uv * 64), t.CalculateLevelOfDetailUnclamped(s, uv * 64),
