@@ -263,7 +263,7 @@ TEST(LanguageMessages, AMissingIncludeIsTheOnlyError) {
 
 TEST(LanguageMessages, HalfSaysThatItIsAnotherType) {
   const std::string messages =
-      messages_of(kernel("", "int f(half3 a) { return 1; }\nint f(min16float3 a) { return 2; }"),
+      messages_of(kernel("", "int f(half3 a) { return 1; }\nint f(float16_t3 a) { return 2; }"),
                   "lib_6_6", true);
   EXPECT_NE(messages.find("both parameters are 'float16_t3'"), std::string::npos) << messages;
 }

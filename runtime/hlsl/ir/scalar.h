@@ -14,8 +14,8 @@ namespace kaamos::hlsl {
 
 // The intermediate representation has the first ten only, the plain ones. Of the others, which the
 // checker replaces, a literal type adapts to what it is used with; its values are held as 64-bit
-// integers and doubles. half and the min types have 32 bits; they are types of their own for
-// overloads and templates.
+// integers and doubles. half and the min types have 32 bits, or 16 with native 16-bit types; they
+// are types of their own for overloads and templates.
 enum class Scalar : uint8_t {
   kBool,
   kInt16,
@@ -29,12 +29,17 @@ enum class Scalar : uint8_t {
   kFloat64,
   kLiteralInt,
   kLiteralFloat,
-  kHalf,  // Without native 16-bit types; with them half is kFloat16, and there are no min types.
+  kHalf,  // Without native 16-bit types; with them half is kFloat16.
   kMin16Float,
   kMin10Float,
   kMin16Int,
   kMin12Int,
   kMin16Uint,
+  kNativeMin16Float,  // With native 16-bit types, from here on.
+  kNativeMin10Float,
+  kNativeMin16Int,
+  kNativeMin12Int,
+  kNativeMin16Uint,
 };
 
 constexpr bool is_plain(Scalar scalar) {
@@ -43,7 +48,8 @@ constexpr bool is_plain(Scalar scalar) {
 constexpr bool is_floating(Scalar scalar) {
   return scalar == Scalar::kFloat16 || scalar == Scalar::kFloat32 || scalar == Scalar::kFloat64 ||
          scalar == Scalar::kLiteralFloat || scalar == Scalar::kHalf ||
-         scalar == Scalar::kMin16Float || scalar == Scalar::kMin10Float;
+         scalar == Scalar::kMin16Float || scalar == Scalar::kMin10Float ||
+         scalar == Scalar::kNativeMin16Float || scalar == Scalar::kNativeMin10Float;
 }
 constexpr bool is_literal(Scalar scalar) {
   return scalar == Scalar::kLiteralInt || scalar == Scalar::kLiteralFloat;
@@ -51,7 +57,8 @@ constexpr bool is_literal(Scalar scalar) {
 constexpr bool is_signed_integer(Scalar scalar) {
   return scalar == Scalar::kInt16 || scalar == Scalar::kInt32 || scalar == Scalar::kInt64 ||
          scalar == Scalar::kLiteralInt || scalar == Scalar::kMin16Int ||
-         scalar == Scalar::kMin12Int;
+         scalar == Scalar::kMin12Int || scalar == Scalar::kNativeMin16Int ||
+         scalar == Scalar::kNativeMin12Int;
 }
 constexpr bool is_min_precision(Scalar scalar) {
   return scalar >= Scalar::kMin16Float;
@@ -76,6 +83,14 @@ constexpr Scalar plain_scalar(Scalar scalar) {
       return Scalar::kInt32;
     case Scalar::kMin16Uint:
       return Scalar::kUint32;
+    case Scalar::kNativeMin16Float:
+    case Scalar::kNativeMin10Float:
+      return Scalar::kFloat16;
+    case Scalar::kNativeMin16Int:
+    case Scalar::kNativeMin12Int:
+      return Scalar::kInt16;
+    case Scalar::kNativeMin16Uint:
+      return Scalar::kUint16;
     default:
       return scalar;
   }
@@ -92,6 +107,11 @@ constexpr uint32_t scalar_bytes(Scalar scalar, ScalarStorage storage) {
     case Scalar::kInt16:
     case Scalar::kUint16:
     case Scalar::kFloat16:
+    case Scalar::kNativeMin16Float:
+    case Scalar::kNativeMin10Float:
+    case Scalar::kNativeMin16Int:
+    case Scalar::kNativeMin12Int:
+    case Scalar::kNativeMin16Uint:
       return 2;
     case Scalar::kInt64:
     case Scalar::kUint64:
@@ -105,9 +125,10 @@ constexpr uint32_t scalar_bytes(Scalar scalar, ScalarStorage storage) {
 // As written in HLSL.
 constexpr std::string_view name_of(Scalar scalar) {
   constexpr std::string_view kNames[] = {
-      "bool",     "int16_t",    "uint16_t",   "int",      "uint",        "int64_t",
-      "uint64_t", "float16_t",  "float",      "double",   "literal int", "literal float",
-      "half",     "min16float", "min10float", "min16int", "min12int",    "min16uint"};
+      "bool",       "int16_t",    "uint16_t",   "int",      "uint",        "int64_t",
+      "uint64_t",   "float16_t",  "float",      "double",   "literal int", "literal float",
+      "half",       "min16float", "min10float", "min16int", "min12int",    "min16uint",
+      "min16float", "min10float", "min16int",   "min12int", "min16uint"};
   return kNames[static_cast<size_t>(scalar)];
 }
 

@@ -180,6 +180,32 @@ TEST(Overloads, ShapesAndSums) {
   }
 }
 
+// With native 16-bit types the min types still are types of their own. [DXC: function_overload_*]
+TEST(Overloads, NativeMinTypes) {
+  const char* const types[] = {"float", "half",     "min16float", "min10float", "int",
+                               "uint",  "min16int", "min12int",   "min16uint"};
+  for (const bool is_float : {true, false}) {
+    const size_t first = is_float ? 0 : 4;
+    const size_t end = is_float ? 4 : 9;
+    std::string globals;
+    for (size_t i = first; i < end; ++i) {
+      const std::string name = types[i];
+      globals += "static " + name + " v" + std::to_string(i) + ";\nuint f(" + name + " a, " + name +
+                 " b) { return " + std::to_string(1111 * (i + 1)) + "; }\n";
+    }
+    for (size_t i = first; i < end; ++i) {
+      const std::string v = "v" + std::to_string(i);
+      FrontendOptions options;
+      options.native_16bit = true;
+      const Compilation compilation(
+          kernel("results.Store(0, f(" + v + ", " + v + " % 10));", globals), options);
+      ASSERT_NE(compilation.module, nullptr) << types[i] << compilation.messages();
+      EXPECT_NE(compilation.function("f").find(std::to_string(1111 * (i + 1))), std::string::npos)
+          << types[i] << compilation.function("f");
+    }
+  }
+}
+
 TEST(Overloads, CombinedScalars) {
   EXPECT_EQ(combined_scalar(Scalar::kInt64, Scalar::kUint32), Scalar::kUint64);
   EXPECT_EQ(combined_scalar(Scalar::kHalf, Scalar::kFloat32), Scalar::kFloat32);
@@ -189,6 +215,9 @@ TEST(Overloads, CombinedScalars) {
   EXPECT_EQ(combined_scalar(Scalar::kMin10Float, Scalar::kMin16Float), Scalar::kMin16Float);
   EXPECT_EQ(combined_scalar(Scalar::kMin16Int, Scalar::kMin16Uint), Scalar::kMin16Uint);
   EXPECT_EQ(combined_scalar(Scalar::kMin12Int, Scalar::kBool), Scalar::kMin12Int);
+  EXPECT_EQ(combined_scalar(Scalar::kNativeMin16Float, Scalar::kInt32), Scalar::kNativeMin16Float);
+  EXPECT_EQ(combined_scalar(Scalar::kNativeMin16Int, Scalar::kFloat32), Scalar::kFloat32);
+  EXPECT_EQ(combined_scalar(Scalar::kNativeMin12Int, Scalar::kBool), Scalar::kNativeMin12Int);
   EXPECT_EQ(combined_scalar(Scalar::kBool, Scalar::kLiteralInt), Scalar::kInt32);
   EXPECT_EQ(combined_scalar(Scalar::kLiteralFloat, Scalar::kInt64), Scalar::kFloat32);
   EXPECT_EQ(combined_scalar(Scalar::kFloat64, Scalar::kInt64), Scalar::kFloat64);

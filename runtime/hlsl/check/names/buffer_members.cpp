@@ -23,7 +23,9 @@ class Rows {
     const bool begins_row = type->is_array() || type->is_struct();
     if (begins_row) end_ = next_row(end_);
     if (!type->is_array()) {
-      const bool is_min = type->is_numeric() && is_min_precision(type->scalar);
+      // With native 16-bit types the min types are ordinary ones.
+      const bool is_min = type->is_numeric() && is_min_precision(type->scalar) &&
+                          scalar_bytes(type->scalar, ScalarStorage::kBuffer) == 4;
       if (is_min != after_min_) end_ = next_row(end_);
       after_min_ = is_min;
     }

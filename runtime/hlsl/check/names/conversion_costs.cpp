@@ -23,6 +23,18 @@ ConversionCost cost_of(Step step) {
   return ConversionCost{1} << (2 + 7 * step);
 }
 
+constexpr int kNatives =
+    static_cast<int>(Scalar::kNativeMin16Float) - static_cast<int>(Scalar::kMin16Float);
+
+bool is_native(Scalar scalar) {
+  return scalar >= Scalar::kNativeMin16Float;
+}
+
+// The min types rank alike with native 16-bit types and without.
+Scalar without_size(Scalar scalar) {
+  return is_native(scalar) ? static_cast<Scalar>(static_cast<int>(scalar) - kNatives) : scalar;
+}
+
 bool is_untyped(Scalar scalar) {
   return scalar == Scalar::kBool || is_literal(scalar);
 }
@@ -103,6 +115,10 @@ bool is_cast(Scalar from, Scalar to) {
 
 Scalar combined_scalar(Scalar a, Scalar b) {
   if (a == b) return a;
+  if (is_native(a) || is_native(b)) {
+    const Scalar both = combined_scalar(without_size(a), without_size(b));
+    return is_min_precision(both) ? static_cast<Scalar>(static_cast<int>(both) + kNatives) : both;
+  }
   const bool is_float = is_floating(a) || is_floating(b);
   if (is_literal(a) && is_literal(b)) return is_float ? Scalar::kLiteralFloat : Scalar::kLiteralInt;
   if (a == Scalar::kHalf && is_untyped(b)) return a;
@@ -120,6 +136,8 @@ Scalar combined_scalar(Scalar a, Scalar b) {
 }
 
 ConversionCost scalar_cost(Scalar from, Scalar to) {
+  from = without_size(from);
+  to = without_size(to);
   const Scalar both = combined_scalar(from, to);
   ConversionCost cost = 0;
   if (is_promotion(from, both)) {

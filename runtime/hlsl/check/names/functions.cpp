@@ -127,8 +127,7 @@ void Functions::declare_function(const FunctionDecl* decl, Scope* scope, StructI
             a->kind == TypeSyntaxKind::kNumeric && b->kind == a->kind && a->scalar != b->scalar;
         if (!is_other_word) continue;
         notes.push_back({decl->parameters[i]->location,
-                         "half and the min types are 16-bit types with -enable-16bit-types, so "
-                         "both parameters are '" +
+                         "half is float16_t with -enable-16bit-types, so both parameters are '" +
                              to_string(function->parameters[i].type) + "'"});
       }
       messages_.report_with_notes(CheckId::kFunctionRedefined, decl->location, {describe(*before)},

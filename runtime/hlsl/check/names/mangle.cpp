@@ -48,8 +48,10 @@ class Mangler {
 
   void numeric(const Type* type) {
     static constexpr std::string_view kCodes[] = {
-        "_N", "F",  "G", "H",       "I",        "_J",       "_K",       "$f16@",    "M",
-        "N",  "_J", "N", "$halff@", "$min16f@", "$min10f@", "$min16i@", "$min12i@", "$min16ui@"};
+        "_N",       "F",        "G",        "H",        "I",        "_J",
+        "_K",       "$f16@",    "M",        "N",        "_J",       "N",
+        "$halff@",  "$min16f@", "$min10f@", "$min16i@", "$min12i@", "$min16ui@",
+        "$min16f@", "$min10f@", "$min16i@", "$min12i@", "$min16ui@"};
     const std::string code(kCodes[static_cast<size_t>(type->scalar)]);
     if (type->is_scalar()) {
       text += code;

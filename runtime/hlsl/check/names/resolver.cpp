@@ -36,9 +36,9 @@ Scalar Resolver::scalar_of(ScalarKind kind, SourceLocation location) {
     case ScalarKind::kHalf:
       return native ? Scalar::kFloat16 : Scalar::kHalf;
     case ScalarKind::kMin10Float:
-      return native ? Scalar::kFloat16 : Scalar::kMin10Float;
+      return native ? Scalar::kNativeMin10Float : Scalar::kMin10Float;
     case ScalarKind::kMin16Float:
-      return native ? Scalar::kFloat16 : Scalar::kMin16Float;
+      return native ? Scalar::kNativeMin16Float : Scalar::kMin16Float;
     case ScalarKind::kFloat:
       return Scalar::kFloat32;
     case ScalarKind::kDouble:
@@ -54,11 +54,11 @@ Scalar Resolver::scalar_of(ScalarKind kind, SourceLocation location) {
     case ScalarKind::kUint64:
       return Scalar::kUint64;
     case ScalarKind::kMin12Int:
-      return native ? Scalar::kInt16 : Scalar::kMin12Int;
+      return native ? Scalar::kNativeMin12Int : Scalar::kMin12Int;
     case ScalarKind::kMin16Int:
-      return native ? Scalar::kInt16 : Scalar::kMin16Int;
+      return native ? Scalar::kNativeMin16Int : Scalar::kMin16Int;
     case ScalarKind::kMin16Uint:
-      return native ? Scalar::kUint16 : Scalar::kMin16Uint;
+      return native ? Scalar::kNativeMin16Uint : Scalar::kMin16Uint;
   }
   return Scalar::kInt32;
 }
@@ -197,7 +197,9 @@ const Type* Resolver::unsigned_twin(const TypeSyntax* syntax, const Type* type) 
     case Scalar::kInt32:
       return types_.with_scalar(type, Scalar::kUint32);
     default:
-      return types_.with_scalar(type, Scalar::kMin16Uint);
+      return types_.with_scalar(type, scalar_bytes(type->scalar, ScalarStorage::kBuffer) == 2
+                                          ? Scalar::kNativeMin16Uint
+                                          : Scalar::kMin16Uint);
   }
 }
 
