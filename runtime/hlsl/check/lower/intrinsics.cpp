@@ -96,7 +96,8 @@ void Intrinsics::use_in_stages(std::string_view name, uint32_t stages, SourceLoc
   const bool known =
       std::any_of(body_.function->stage_uses.begin(), body_.function->stage_uses.end(),
                   [&](const StageUse& use) { return use.name == name; });
-  if (!known) body_.function->stage_uses.push_back({location.raw, name, stages, false, is_lenient});
+  if (!known)
+    body_.function->stage_uses.push_back({location.raw, name, stages, false, false, is_lenient});
 }
 
 std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<Value>& arguments,
