@@ -547,7 +547,6 @@ inline constexpr ErrorId kEndlessLoop{2528};  ///< nothing ends this loop
 inline constexpr ErrorId kUnrollCount{2529};  ///< [unroll] cannot tell how often the loop runs
 inline constexpr ErrorId kReturnsThis{2530};  ///< DXC cannot return 'this' as a whole
 inline constexpr ErrorId kNeverReturns{2531};  ///< '{0}' has no return; it returns zero
-inline constexpr ErrorId kUnrollArgument{2532};  ///< the count of [unroll] must not be negative
 inline constexpr ErrorId kRegisterClass{2540};  ///< register '{0}' cannot be used for '{2}'; a '{1}' register is needed
 inline constexpr ErrorId kTwoRegisters{2541};  ///< '{0}' already has a register
 inline constexpr ErrorId kRegisterRange{2542};  ///< the registers of '{0}' extend past 4294967295

@@ -98,8 +98,6 @@ const std::vector<StrictCase>& strict_cases() {
        "float4 main(uint n : N) : SV_Target {\nfloat x = 0;\n"
        "[@unroll] for (uint i = 0; i < n; i++) x++;\nreturn x; }",
        "ps_6_6"},
-      {"UnrollLessThanNever", Id::kUnrollArgument,
-       kernel("[unroll(@-1)] for (uint i = 0; i < 3; ++i) results.Store(0, i);")},
       {"RootSignatureOfRays", Id::kRootSignatureStage,
        "[@RootSignature(\"\")]\n[shader(\"raygeneration\")] void main() {}"},
       {"WaveSizeTwice", Id::kAttributeTwice,

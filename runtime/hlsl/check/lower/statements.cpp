@@ -301,9 +301,6 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
     lower_.body_rules.check_loop(*node, statement.location);
   }
   const Attribute* unroll = find_attribute(statement.attributes, "unroll");
-  const auto* count =
-      unroll && !unroll->arguments.empty() ? as<UnaryExpr>(unroll->arguments[0]) : nullptr;
-  if (count && count->op == UnaryOp::kMinus) report(CheckId::kUnrollArgument, count->location);
   if (unroll && unroll->arguments.empty()) {
     lower_.body_rules.check_unroll(*node, unroll->location);
   }
