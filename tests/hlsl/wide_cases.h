@@ -261,6 +261,22 @@ void visit(uint x) { if (x & 1) { count += x & 7; last.y = real(x); } else { las
   put(id, 0, count);
   put(id, 1, last.x + last.y);
 })"},
+    {"static_resources", R"(
+struct Sources { ByteAddressBuffer numbers; uint from; };
+static ByteAddressBuffer alias = words;
+static StructuredBuffer<uint4> assigned;
+static Sources sources;
+static ByteAddressBuffer both[2];
+uint look(uint at) { return alias.Load(4 * at) + assigned[at].y; }
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  const uint x = mix(id.x);
+  assigned = records;
+  sources.numbers = alias;
+  both[0] = words;
+  both[1] = alias;
+  put(id, 0, look(x & 15));
+  if (x & 1) put(id, 1, sources.numbers.Load(4 * (x & 7)) + both[one].Load(8 + 4 * (x & 3)));
+})"},
     {"pictures_at_their_borders", R"(
 RWTexture2D<float4> picture : register(u1);
 RWTexture2D<uint> scratch_uint : register(u2);

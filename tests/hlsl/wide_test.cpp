@@ -138,6 +138,14 @@ TEST(WidePlan, SaysWhyAShaderRunsThreadByThread) {
        "void main(uint i : SV_GroupIndex) { results.Store(4 * i, "
        "many[NonUniformResourceIndex(i & 3)].Load(0)); }",
        "it chooses a resource for each thread"},
+      {"static ByteAddressBuffer kept;\nByteAddressBuffer other : register(t4);\n"
+       "[shader(\"compute\")] [numthreads(8, 1, 1)] void main(uint i : SV_GroupIndex) { "
+       "kept = words; if (i & 1) kept = other; results.Store(4 * i, kept.Load(0)); }",
+       "\"kept\" is a resource that only some threads may change"},
+      {"static ByteAddressBuffer kept;\nvoid keep() { kept = words; }\n"
+       "[shader(\"compute\")] [numthreads(8, 1, 1)] void main(uint i : SV_GroupIndex) { "
+       "if (i & 1) keep(); results.Store(4 * i, kept.Load(0)); }",
+       "\"kept\" is a resource that only some threads may change"},
   };
   for (const Refused& test : refused) {
     hlsl::FrontendOptions options;

@@ -69,6 +69,13 @@ class Analysis {
   // Returns whether a write needs a mask; also marks what it makes varying.
   bool write(const Variable* variable, bool varying, uint32_t region) {
     out_.written.insert(variable);
+    if (variable->storage == Storage::kStaticGlobal && holds_resource(variable->type)) {
+      // The threads have one in common, so all of them must be there.
+      if (varying || region != 0 || !out_.has_all_threads) {
+        refuse("\"" + variable->name + "\" is a resource that only some threads may change");
+      }
+      return false;
+    }
     if (variable->storage == Storage::kStaticGlobal) return true;
     if (variable->storage == Storage::kGroupShared) {
       refuse("it writes groupshared memory");
@@ -192,6 +199,10 @@ class Analysis {
     for (const Expr* argument : stmt.arguments) varying.push_back(out_.is_varying(argument));
     std::string reason;
     const WideFunction* callee = plan_.add(*stmt.function, varying, reason);
+    // Most functions do not care, and are there once.
+    if (callee == nullptr && out_.has_all_threads && region == 0) {
+      callee = plan_.add(*stmt.function, varying, reason, true);
+    }
     if (callee == nullptr) return refuse(reason);
     out_.callees[&stmt] = callee;
     for (size_t i = 0; i < varying.size(); ++i) {
@@ -291,7 +302,9 @@ bool WideFunction::only_reads(const Variable* parameter) const {
 }
 
 bool WideFunction::is_varying(const Variable* variable) const {
-  return variable->storage == Storage::kStaticGlobal || varying.count(variable) != 0;
+  const bool is_own =
+      variable->storage == Storage::kStaticGlobal && !holds_resource(variable->type);
+  return is_own || varying.count(variable) != 0;
 }
 
 bool WideFunction::is_varying(const Expr* expr) const {
@@ -305,12 +318,13 @@ bool WideFunction::is_varying(const Expr* expr) const {
 }
 
 const WideFunction* WidePlan::add(const Function& function,
-                                  const std::vector<bool>& varying_parameters,
-                                  std::string& reason) {
-  auto& known = functions_[{&function, varying_parameters}];
+                                  const std::vector<bool>& varying_parameters, std::string& reason,
+                                  bool has_all_threads) {
+  auto& known = functions_[{&function, has_all_threads, varying_parameters}];
   if (known == nullptr) {
     auto made = std::make_unique<WideFunction>();
     made->function = &function;
+    made->has_all_threads = has_all_threads;
     made->varying_parameters = varying_parameters;
     if (!Analysis(*this, *made).run(reason)) return nullptr;
     // Analysis may have added other functions; the reference into the map stays valid.
@@ -331,7 +345,7 @@ const WideFunction* WidePlan::add(const EntryPoint& entry, std::string& reason) 
                          entry.inputs[i].interpolation == shader::Interpolation::kNoInterpolation;
     varying.push_back(entry.parameters[i] != EntryParameter::kGroupId && !is_flat);
   }
-  return add(*entry.function, varying, reason);
+  return add(*entry.function, varying, reason, true);
 }
 
 }  // namespace kaamos::hlsl

@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -38,6 +39,7 @@ struct WideFacts {
 // A function for one choice of varying parameters.
 struct WideFunction {
   const ir::Function* function = nullptr;
+  bool has_all_threads = false;  // wherever it is called: no thread has left or waits elsewhere
   std::vector<bool> varying_parameters;
   std::unordered_set<const ir::Variable*> varying;  // locals and parameters
   std::unordered_set<const ir::Variable*> written;  // after their declaration
@@ -61,10 +63,10 @@ class WidePlan {
   const WideFunction* add(const ir::EntryPoint& entry, std::string& reason);
   // For a function's callee; null with the reason.
   const WideFunction* add(const ir::Function& function, const std::vector<bool>& varying_parameters,
-                          std::string& reason);
+                          std::string& reason, bool has_all_threads = false);
 
  private:
-  std::map<std::pair<const ir::Function*, std::vector<bool>>, std::unique_ptr<WideFunction>>
+  std::map<std::tuple<const ir::Function*, bool, std::vector<bool>>, std::unique_ptr<WideFunction>>
       functions_;
 };
 

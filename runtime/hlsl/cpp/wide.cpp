@@ -102,8 +102,10 @@ void WideEmitter::emit_structs() {
 void WideEmitter::emit_context() {
   open("struct WideStatics {");
   for (const Variable* variable : out_.module_.globals) {
-    if (variable->storage != Storage::kStaticGlobal || holds_resource(variable->type)) continue;
-    line(type(variable->type) + " " + out_.variable_names_[variable] + ";");
+    if (variable->storage != Storage::kStaticGlobal) continue;
+    const bool is_shared = holds_resource(variable->type);  // by all lanes
+    line((is_shared ? out_.type(variable->type) : type(variable->type)) + " " +
+         out_.variable_names_[variable] + ";");
   }
   close("};");
   open("struct WideContext {");
@@ -222,10 +224,12 @@ void WideEmitter::emit_static_initialisers(const Function& function) {
   const auto& used = out_.statics_[&function];
   for (const Variable* variable : out_.module_.globals) {
     if (variable->storage != Storage::kStaticGlobal || used.count(variable) == 0) continue;
-    line("ctx.statics." + out_.variable_names_[variable] + " = " +
-         (variable->initialiser != nullptr ? value(variable->initialiser)
-                                           : type(variable->type) + "{}") +
-         ";");
+    const bool is_shared = holds_resource(variable->type);
+    const Expr* first = variable->initialiser;
+    const std::string initial = is_shared
+                                    ? (first ? out_.value(first) : out_.type(variable->type) + "{}")
+                                    : (first ? value(first) : type(variable->type) + "{}");
+    line("ctx.statics." + out_.variable_names_[variable] + " = " + initial + ";");
   }
 }
 
