@@ -104,6 +104,7 @@ void Functions::declare_function(const FunctionDecl* decl, Scope* scope, StructI
       owner ? scopes_.find_local(scope, decl->name) : scopes_.find_taken(scope, decl->name);
   if (symbol && symbol->kind != SymbolKind::kFunctions) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
+    function->signature_failed = true;
     return;
   }
   if (!function->is_template) {
