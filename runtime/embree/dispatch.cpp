@@ -259,6 +259,7 @@ void begin_worker(RunningDispatch& dispatch, Worker& worker) {
 void end_worker(Worker& worker) {
   const std::lock_guard lock(worker.dispatch->mutex);
   worker.dispatch->counters.add(worker.counters);
+  worker.dispatch->far_rays.add(worker.far_rays);
 }
 
 CountedOutcome dispatch_rays(const DispatchEnvironment& environment,

@@ -13,15 +13,16 @@ namespace kaamos::embree {
 struct RayState;
 struct Worker;
 
-// The first one of a dispatch, and how many there were.
+// Those that a thread, or all threads of a dispatch, have met.
 struct FarRays {
   static constexpr uint32_t kWorld = UINT32_MAX;
 
-  uint64_t count = 0;
-  uint32_t instance = kWorld;  // in whose space the ray is too far away, or kWorld
-  float origin[3] = {0, 0, 0};
-  float direction[3] = {0, 0, 0};
+  uint64_t count = 0;  // a ray counts in the world, or once for each instance
+  // One of them: the least of all, so that it is the same for any number of threads.
+  uint32_t instance = kWorld;  // in whose space it is too far away, or kWorld
+  float ray[6] = {};           // origin, direction
 
+  void add(const FarRays& other);
   std::string message(const char* label) const;
 };
 

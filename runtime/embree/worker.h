@@ -126,6 +126,7 @@ struct alignas(64) Worker {
   // For a row that runs at once: the index of the ray that was traced, or of the first of 8.
   uint32_t fault_index[3] = {0, 0, 0};
   Counters counters;
+  FarRays far_rays;
   uint64_t reached_hashes[64] = {};  // the most recent ones, by the low bits of the hash
   // The top level of rays that are traced together, since their shaders may trace against another
   // one meanwhile.

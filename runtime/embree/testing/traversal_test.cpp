@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/testing/harness.h"
@@ -128,7 +131,7 @@ TEST(FarRays, TheDispatchSaysThatTheyMiss) {
   EXPECT_EQ(h.trace(ray).end, End::kMiss);
   ASSERT_EQ(h.messages.size(), 1u);
   EXPECT_EQ(h.messages[0].Id.text(), "KA0888");
-  EXPECT_NE(h.messages[0].Text.find("(0, 0, -2e+18) along (0, 0, 1), has a coordinate past"),
+  EXPECT_NE(h.messages[0].Text.find("(0, 0, -2e+18) along (0, 0, 1) has a coordinate past"),
             std::string::npos)
       << h.messages[0].Text;
 
@@ -140,6 +143,24 @@ TEST(FarRays, TheDispatchSaysThatTheyMiss) {
   ray.ray.origin[2] = -kInf;
   EXPECT_EQ(h.trace(ray).end, End::kMiss);
   EXPECT_TRUE(h.messages.empty());
+}
+
+TEST(FarRays, TheMessageIsTheSameForAnyNumberOfThreads) {
+  std::set<std::string> texts;
+  for (const uint32_t threads : {1u, 2u, 4u}) {
+    Harness h(threads);
+    h.use_standard_pipeline();
+    std::vector<Ray> rays(3000, ray_along_z(h.scene({triangle_at(4)})));
+    for (size_t i = 0; i < rays.size(); ++i) {
+      rays[i].ray.origin[1] = 2e18f * (1.0f + static_cast<float>(i * 7919 % rays.size()) / 64);
+    }
+    h.trace(rays);
+    ASSERT_EQ(h.messages.size(), 1u);
+    EXPECT_NE(h.messages[0].Text.find("3000 rays do"), std::string::npos) << h.messages[0].Text;
+    EXPECT_NE(h.messages[0].Text.find("from (0, 2e+18, 0)"), std::string::npos);
+    texts.insert(h.messages[0].Text);
+  }
+  EXPECT_EQ(texts.size(), 1u);
 }
 
 TEST(FarRays, AnInstanceCanMakeThemSo) {
