@@ -26,6 +26,7 @@ class Report final : public FinishReport {
   void no_quads(const StageUse& use, const ir::EntryPoint& entry) override {
     lines.push_back(std::string(use.name) + " without quads in " + entry.name);
   }
+  void reached(const std::vector<GlobalFacts*>&, const ir::EntryPoint&) override {}
   void no_register(const BindingFacts& binding) override {
     lines.push_back("no register: " + binding.name);
   }
@@ -115,7 +116,8 @@ TEST(Builder, AutomaticRegisterAvoidsTakenOne) {
 
 TEST(Builder, ReportsWhatTheStageMayNotDo) {
   Made made;
-  made.other.stage_uses.push_back({1, "TraceRay", ir::kStageRayGeneration, false});
+  made.other.stage_uses.push_back(
+      {.place = 1, .name = "TraceRay", .stages = ir::kStageRayGeneration});
   made.main.callees = {&made.other};
   made.facts.functions = {&made.other, &made.main};
   made.finish();

@@ -180,7 +180,7 @@ enum class ExprKind : uint8_t {
   kQueryValue,  // operands: the kVariable of a RayQuery; query_value, index 1: of what is committed
   kDimensions,  // operands: resource, [mip level]. uint4: textures {width, height,
                 // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
-  kQuad,  // only while a module is made (pixel_functions.h): operands[0] combined over the quad
+  kQuad,  // only while a module is made (quad_functions.h): operands[0] combined over the quad
           // of a pixel shader, by `wave`
 };
 
@@ -324,7 +324,7 @@ enum class StmtKind : uint8_t {
                   // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
   kRemoveDevice,  // removal: why. What follows may or may not run
   kDiscard,  // the pixel writes nothing from here on, and goes on for the derivatives of others.
-             // Does nothing where the assignment before it (pixel_functions.h) is enough
+             // Does nothing where the assignment before it (quad_functions.h) is enough
 };
 
 enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };

@@ -13,7 +13,7 @@
 // A vector, in a function; the matrix by rows. 5 x + 7 y has the derivatives 5 and 7.
 // EXPECT f32 160 12 12 12 12 12 12 12 12
 // EXPECT f32 192 24 24 24 24 24 24 24 24
-// Of what does not change, under a condition that not all threads meet.
+// Derivatives of what does not change stay right under a condition that not all threads meet.
 // EXPECT f32 224 0 1 0 1 0 1 0 1
 RWByteAddressBuffer results : register(u0);
 

@@ -51,6 +51,6 @@ void main() {
   results.Store(60, asuint(mul(two, float4x4(1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4))._44));
   results.Store(64, asuint(determinant(3.0 + z)));
   results.Store(68, asuint(transpose(5.0 + z)._11));
-  // Of as many components the left operand decides.
+  // The left operand decides where both have as many components.
   results.Store(72, asuint((float4x1(1, 2, 3, 4) * float4(10, 10, 10, 10 + z))._41));
 }

@@ -7,7 +7,7 @@
 
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/builder/finish/lone_lane.h"
-#include "runtime/hlsl/builder/finish/pixel_functions.h"
+#include "runtime/hlsl/builder/finish/quad_functions.h"
 #include "runtime/hlsl/builder/finish/registers.h"
 #include "runtime/hlsl/builder/finish/square_quads.h"
 
@@ -52,7 +52,8 @@ class EntryReach {
       binding->reachable = true;
       bindings.insert(binding);
       if (binding->is_ordered && entry_.stage != ir::kStagePixel) {
-        report_.stage_use({binding->place, binding->name, ir::kStagePixel, false}, entry_);
+        report_.stage_use(
+            {.place = binding->place, .name = binding->name, .stages = ir::kStagePixel}, entry_);
       }
     }
     entry_.uses_view_heap = entry_.uses_view_heap || function->uses_view_heap;
@@ -258,6 +259,7 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
               [](const GlobalFacts* a, const GlobalFacts* b) {
                 return a->variable->id < b->variable->id;
               });
+    report.reached(reach.globals, entry);
     // Initialisers that call functions run at the very start of the shader.
     ir::Block start;
     for (const GlobalFacts* global : reach.globals) {
@@ -294,7 +296,7 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
   for (const GlobalFacts* global : facts.globals) {
     if (all_globals.count(global)) module.globals.push_back(global->variable);
   }
-  make_pixel_functions(module, build, facts, report.has_errors());
+  make_quad_functions(module, build, facts, report.has_errors());
   assign_registers(module, facts, report);
   for (size_t i = 0; i < bindings_of.size(); ++i) {
     for (const BindingFacts* binding : bindings_of[i]) {

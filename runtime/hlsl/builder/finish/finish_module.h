@@ -55,6 +55,8 @@ class FinishReport {
   virtual void stage_use(const StageUse& use, const ir::EntryPoint& entry) = 0;
   // The entry point takes derivatives, and its thread groups are not made of quads.
   virtual void no_quads(const StageUse& use, const ir::EntryPoint& entry) = 0;
+  // The entry point reaches these, in the order of their variables.
+  virtual void reached(const std::vector<GlobalFacts*>& globals, const ir::EntryPoint& entry) = 0;
   virtual void no_register(const BindingFacts& binding) = 0;
   // Two bindings of one shader may not share a register.
   virtual void overlap(const BindingFacts& first, const BindingFacts& second,

@@ -2,7 +2,6 @@
 #include "runtime/hlsl/check/finish/finish.h"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -45,6 +44,22 @@ class Reports final : public FinishReport, public PayloadReport {
       size += (size.empty() ? "" : ", ") + std::to_string(number);
     }
     messages_.report(CheckId::kNoQuads, {use.place}, {std::string(use.name), entry.name, size});
+  }
+
+  // The memory that the groups of one shader share is limited. [D3D12]
+  void reached(const std::vector<GlobalFacts*>& globals, const ir::EntryPoint& entry) override {
+    constexpr uint32_t kMaxBytes = 32768;
+    uint64_t bytes = 0;
+    const VariableInfo* last = nullptr;
+    for (const GlobalFacts* global : globals) {
+      if (global->variable->storage != ir::Storage::kGroupShared) continue;
+      const auto* variable = static_cast<const VariableInfo*>(global);
+      bytes += layout_of(variable->type, ir::Layout::kStructured).size;
+      if (!last || last->decl->location.raw < variable->decl->location.raw) last = variable;
+    }
+    if (bytes <= kMaxBytes) return;
+    messages_.report(CheckId::kGroupsharedSize, last->decl->location,
+                     {entry.name, std::to_string(bytes)});
   }
 
   void no_register(const BindingFacts& binding) override {
@@ -95,6 +110,14 @@ void Finish::run() {
   program_.facts.reserve_unused = program_.options->reserve_unused;
   program_.facts.is_helper = bench_.is_helper;
   program_.facts.square_quads = shader_model_minor(program_.options->target) >= 6;
+  Reports reports(messages_);
+  check_resources();
+  finish_module(bench_.module, build_, program_.facts, reports);
+  check_unreached();
+}
+
+// What a static resource refers to has to be said somewhere.
+void Finish::check_resources() {
   for (const VariableInfo& variable : program_.variables) {
     const bool is_used = variable.kind == VariableKind::kGlobal && variable.variable &&
                          variable.type && variable.decl && !variable.decl->initializer &&
@@ -103,38 +126,6 @@ void Finish::run() {
         !lower_.places.is_assigned(variable.variable)) {
       report(CheckId::kUnassignedResource, variable.decl->location, {std::string(variable.name)});
     }
-  }
-  Reports reports(messages_);
-  check_groupshared();
-  finish_module(bench_.module, build_, program_.facts, reports);
-  check_unreached();
-}
-
-// The memory that the groups of one shader share is limited. [D3D12]
-void Finish::check_groupshared() {
-  constexpr uint32_t kMaxBytes = 32768;
-  for (const auto& [facts, index] : program_.facts.entries) {
-    std::set<const FunctionFacts*> seen;
-    std::set<const VariableInfo*> shared;
-    const std::function<void(const FunctionFacts*)> visit = [&](const FunctionFacts* function) {
-      if (!function || !seen.insert(function).second) return;
-      for (const GlobalFacts* global : function->globals) {
-        if (global->variable->storage == ir::Storage::kGroupShared) {
-          shared.insert(static_cast<const VariableInfo*>(global));
-        }
-      }
-      for (const FunctionFacts* callee : function->callees) visit(callee);
-    };
-    visit(facts);
-    uint64_t bytes = 0;
-    const VariableInfo* last = nullptr;
-    for (const VariableInfo* variable : shared) {
-      bytes += layout_of(variable->type, ir::Layout::kStructured).size;
-      if (!last || last->decl->location.raw < variable->decl->location.raw) last = variable;
-    }
-    if (bytes <= kMaxBytes) continue;
-    report(CheckId::kGroupsharedSize, last->decl->location,
-           {bench_.module.entry_points[index].name, std::to_string(bytes)});
   }
 }
 

@@ -17,7 +17,7 @@ class Finish : StagePart {
   void warn_skipped();
 
  private:
-  void check_groupshared();
+  void check_resources();
   void check_unreached();
 };
 

@@ -41,7 +41,7 @@ bool is_anonymous(const Type* type) {
 
 // A matrix of one row or column is like a vector, which can be longer than its target; any other
 // one and a vector must have the same number of components.
-bool Conversions::convertible_numeric(const Type* from, const Type* to, bool) {
+bool Conversions::convertible_numeric(const Type* from, const Type* to) {
   const uint32_t given = from->components();
   const uint32_t wanted = to->components();
   if (given == 1 || wanted == 1) return true;
@@ -86,7 +86,7 @@ ConversionRank Conversions::rank(const Type* from, const Type* to) {
     return result;
   }
   if (from->is_numeric() && to->is_numeric()) {
-    result.possible = convertible_numeric(from, to, false);
+    result.possible = convertible_numeric(from, to);
     result.cost =
         scalar_cost(from->scalar, to->scalar) + size_cost(from->components(), to->components());
     return result;
@@ -265,7 +265,7 @@ const ir::Expr* Conversions::convert(const Value& value, const Type* to, SourceL
   if (numbers) {
     if (from->is_enum() && from->enumeration->is_class && !is_explicit) return refuse();
     const Type* shape = from->is_enum() ? types_.scalar(from->scalar) : from;
-    if (!convertible_numeric(shape, to, is_explicit)) return refuse();
+    if (!convertible_numeric(shape, to)) return refuse();
     const bool truncates = !shape->is_scalar() && to->components() < shape->components();
     if (truncates && !is_explicit) {
       report(CheckId::kTruncation, location, {to_string(from), to_string(to)});

@@ -28,7 +28,7 @@ class Conversions : LowerPart {
   const ir::Expr* convert(const Value& value, const Type* to, SourceLocation location,
                           bool is_explicit = false);
   const ir::Expr* convert_numeric(const ir::Expr* expr, const Type* from, const Type* to);
-  static bool convertible_numeric(const Type* from, const Type* to, bool is_explicit);
+  static bool convertible_numeric(const Type* from, const Type* to);
   // Replaces literal types by their default types.
   Value settle(Value value);
   const ir::Expr* as_condition(const Value& value, SourceLocation location);

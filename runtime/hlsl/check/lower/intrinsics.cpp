@@ -96,8 +96,9 @@ void Intrinsics::use_in_stages(std::string_view name, uint32_t stages, SourceLoc
   const bool known =
       std::any_of(body_.function->stage_uses.begin(), body_.function->stage_uses.end(),
                   [&](const StageUse& use) { return use.name == name; });
-  if (!known)
-    body_.function->stage_uses.push_back({location.raw, name, stages, false, false, is_lenient});
+  if (known) return;
+  body_.function->stage_uses.push_back(
+      {.place = location.raw, .name = name, .stages = stages, .is_lenient = is_lenient});
 }
 
 std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<Value>& arguments,
@@ -360,7 +361,7 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
       if (!expr) return error_value();
       const Type* from = arguments[i].type->is_enum() ? types_.scalar(arguments[i].type->scalar)
                                                       : arguments[i].type;
-      if (!lower_.conversions.convertible_numeric(from, to, false)) return refuse(i, to_string(to));
+      if (!lower_.conversions.convertible_numeric(from, to)) return refuse(i, to_string(to));
       operands.push_back(lower_.conversions.convert_numeric(expr, from, to));
     }
   }

@@ -85,10 +85,10 @@ const Type* Operators::find_common_type(const Type* a, const Type* b, bool& trun
   const bool is_longer = a->components() >= b->components();
   const Type* longer = is_longer ? a : b;
   const Type* shorter = is_longer ? b : a;
-  if (Conversions::convertible_numeric(shorter, longer, false)) {
+  if (Conversions::convertible_numeric(shorter, longer)) {
     return types_.with_scalar(longer, scalar);
   }
-  if (!Conversions::convertible_numeric(longer, shorter, false)) return nullptr;
+  if (!Conversions::convertible_numeric(longer, shorter)) return nullptr;
   truncates = true;
   return types_.with_scalar(shorter, scalar);
 }

@@ -17,10 +17,9 @@ uint32_t PixelIntrinsics::stages_with_quads() const {
 }
 
 void PixelIntrinsics::use_derivative(std::string_view name, SourceLocation location) {
-  const uint32_t stages = stages_with_quads();
-  if (body_.function) {
-    body_.function->stage_uses.push_back({location.raw, name, stages, false, true});
-  }
+  if (!body_.function) return;
+  body_.function->stage_uses.push_back(
+      {.place = location.raw, .name = name, .stages = stages_with_quads(), .is_derivative = true});
 }
 
 const ir::Expr* PixelIntrinsics::quad_value(WaveOp op, const ir::Expr* operand) {
@@ -28,6 +27,16 @@ const ir::Expr* PixelIntrinsics::quad_value(WaveOp op, const ir::Expr* operand) 
   node->wave = op;
   if (body_.function) body_.function->quads.push_back(node);
   return node;
+}
+
+// The type of the first argument; null after an error.
+const Type* PixelIntrinsics::type_of_numbers(std::string_view name, const Value& argument) {
+  const Type* type = argument.type;
+  if (type && type->is_numeric()) return types_.settled(type);
+  report(CheckId::kIntrinsicArgument, argument.location,
+         {"1", std::string(name), "a number, a vector or a matrix",
+          type ? to_string(type) : "a resource"});
+  return nullptr;
 }
 
 Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Value>& arguments,
@@ -40,14 +49,8 @@ Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Va
   } else {
     use_derivative(name, location);
   }
-  const Type* type = arguments[0].type;
-  if (!type || !type->is_numeric()) {
-    report(CheckId::kIntrinsicArgument, arguments[0].location,
-           {"1", std::string(name), "a number, a vector or a matrix",
-            type ? to_string(type) : "a resource"});
-    return error_value();
-  }
-  type = types_.settled(type);
+  const Type* type = type_of_numbers(name, arguments[0]);
+  if (!type) return error_value();
   if (!is_floating(type->scalar) || type->scalar == Scalar::kFloat64) {
     type = types_.with_scalar(type, Scalar::kFloat32);
   }
@@ -116,18 +119,12 @@ Value PixelIntrinsics::evaluate_attribute(std::string_view name, std::vector<Val
     return error_value();
   }
   lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
-  const Type* type = arguments[0].type;
-  if (!type || !type->is_numeric()) {
-    report(CheckId::kIntrinsicArgument, arguments[0].location,
-           {"1", std::string(name), "a number, a vector or a matrix",
-            type ? to_string(type) : "a resource"});
-    return error_value();
-  }
+  const Type* type = type_of_numbers(name, arguments[0]);
+  if (!type) return error_value();
   if (count == 2 && !lower_.conversions.convert(arguments[1], types_.scalar(Scalar::kUint32),
                                                 arguments[1].location)) {
     return error_value();
   }
-  type = types_.settled(type);
   return rvalue(lower_.conversions.convert(arguments[0], type, arguments[0].location), type);
 }
 
@@ -135,7 +132,10 @@ void PixelIntrinsics::use_implicit_level(std::string_view name, ir::Expr* sample
                                          SourceLocation location) {
   sample->implicit_level = true;
   if (!body_.function) return;
-  body_.function->stage_uses.push_back({location.raw, name, stages_with_quads(), true});
+  body_.function->stage_uses.push_back({.place = location.raw,
+                                        .name = name,
+                                        .stages = stages_with_quads(),
+                                        .is_implicit_level = true});
   body_.function->implicit_levels.push_back(sample);
 }
 

@@ -2,7 +2,7 @@
 //
 // Lowers what needs the quad of a pixel or compute shader: derivatives, implicit levels of detail;
 // and clip. What is made of them here stays an expression until it is known which stages reach it.
-// [builder/finish/pixel_functions.h]
+// [builder/finish/quad_functions.h]
 #pragma once
 
 #include <string_view>
@@ -24,6 +24,7 @@ class PixelIntrinsics : LowerPart {
 
  private:
   uint32_t stages_with_quads() const;
+  const Type* type_of_numbers(std::string_view name, const Value& argument);
   Value is_helper_lane(std::vector<Value>& arguments, SourceLocation location);
   Value evaluate_attribute(std::string_view name, std::vector<Value>& arguments,
                            SourceLocation location);

@@ -242,8 +242,8 @@ class GraphicsSignature : StagePart {
     return nullptr;
   }
 
-  // Of the one sample that a pixel has: as an input, whether it is covered; as an output, whether
-  // it stays. [D3D11.3: 16.5 Sample mask]
+  // SV_Coverage says of a pixel's one sample, as an input, whether it is covered; as an output,
+  // whether it stays. [D3D11.3: 16.5 Sample mask]
   const ir::Expr* cover(const Type* type, const Source& source, const ir::Expr* value) {
     at(source.location);
     if (std::exchange(has_coverage_, true)) {

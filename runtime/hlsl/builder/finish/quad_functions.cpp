@@ -8,7 +8,7 @@
 // - stores and atomics depend on `live`, a static global that says whether the pixel is covered and
 //   was not discarded; an atomic of another lane gives 0.
 // [D3D11.3: 16.13 Pixel shader, discard; 7.18.11 LOD]
-#include "runtime/hlsl/builder/finish/pixel_functions.h"
+#include "runtime/hlsl/builder/finish/quad_functions.h"
 
 #include <algorithm>
 #include <map>
@@ -560,8 +560,8 @@ uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& s
 
 }  // namespace
 
-void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts,
-                          bool has_errors) {
+void make_quad_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts,
+                         bool has_errors) {
   // Initialisers are the same for all pixels, so their derivatives are 0. Where no pixel shader
   // comes, levels are 0 too; copies for pixel shaders are made first.
   for (GlobalFacts* global : facts.globals) {

@@ -10,9 +10,8 @@
 
 namespace kaamos::hlsl {
 
-// Copies the functions that these shaders reach, as said in pixel_functions.cpp, sets levels of
+// Copies the functions that these shaders reach, as said in quad_functions.cpp, sets levels of
 // detail to 0 everywhere else, and sets EntryPoint::graphics_flags.
-void make_pixel_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts,
-                          bool has_errors);
+void make_quad_functions(ir::Module& module, IrBuilder& build, ModuleFacts& facts, bool has_errors);
 
 }  // namespace kaamos::hlsl
