@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "effects/assets/gltf/gltf_accessor.h"
@@ -51,9 +52,9 @@ class NodeReader {
   std::vector<std::size_t> order_;
   std::vector<bool> moves_;   // set if `animated`: the first animation moves the node or a parent
   std::vector<bool> morphs_;  // likewise: it moves the morph weights of the node
-  std::map<std::pair<int, std::vector<double>>, int> morphable_;  // in Scene::meshes
   std::vector<std::int32_t> skin_ids_;
-  std::map<std::pair<int, std::vector<double>>, int> morphed_;  // in Scene::meshes
+  // In Scene::meshes, by the file's mesh, whether its weights move, and what they are at rest.
+  std::map<std::tuple<int, bool, std::vector<double>>, int> morphed_;
 };
 
 Error id_error(const std::string& where, const char* noun, int id, std::size_t count) {
@@ -189,30 +190,22 @@ std::span<const double> NodeReader::weights_of(const tinygltf::Node& node) const
 }
 
 /// The mesh of a node in Scene::meshes, or -1 if it has no triangles. A node with morph weights of
-/// its own gets a mesh of its own.
+/// its own, or whose weights move, gets a mesh of its own.
 Result<int> NodeReader::mesh_of(const tinygltf::Node& node, std::size_t node_id) {
   const auto place = static_cast<std::size_t>(node.mesh);
   const int id = reader_.mesh_ids[place];
   const tinygltf::Mesh& from = model_.meshes[place];
-  const bool has_targets = count_morph_targets(from) > 0;
-  if (id >= 0 && has_targets && reader_.animated && morphs_[node_id]) {
-    const std::span<const double> weights = weights_of(node);
-    const auto [found, is_new] = morphable_.try_emplace(
-        {node.mesh, std::vector<double>(weights.begin(), weights.end())}, id);
-    if (!is_new) return found->second;
-    Result<Mesh> mesh = read_morphable_mesh(reader_, node.mesh, weights);
-    if (!mesh.ok()) return mesh.error();
-    mesh.value().name += " (morphs)";
-    found->second = static_cast<int>(reader_.scene.meshes.size());
-    reader_.scene.meshes.push_back(std::move(mesh.value()));
-    return found->second;
-  }
-  if (id < 0 || !has_targets || node.weights.empty() || node.weights == from.weights) return id;
-  const auto [found, is_new] = morphed_.try_emplace({node.mesh, node.weights}, id);
+  if (id < 0 || count_morph_targets(from) == 0) return id;
+  const bool morphs = reader_.animated && morphs_[node_id];
+  if (!morphs && (node.weights.empty() || node.weights == from.weights)) return id;
+  const std::span<const double> weights = weights_of(node);
+  const auto [found, is_new] = morphed_.try_emplace(
+      {node.mesh, morphs, std::vector<double>(weights.begin(), weights.end())}, id);
   if (!is_new) return found->second;
-  Result<Mesh> mesh = read_morphed_mesh(reader_, node.mesh, node.weights);
+  Result<Mesh> mesh = morphs ? read_morphable_mesh(reader_, node.mesh, weights)
+                             : read_morphed_mesh(reader_, node.mesh, weights);
   if (!mesh.ok()) return mesh.error();
-  mesh.value().name += " (morphed)";
+  mesh.value().name += morphs ? " (morphs)" : " (morphed)";
   found->second = static_cast<int>(reader_.scene.meshes.size());
   reader_.scene.meshes.push_back(std::move(mesh.value()));
   return found->second;

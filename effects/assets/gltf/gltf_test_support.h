@@ -124,4 +124,71 @@ inline std::vector<std::uint8_t> textured(const std::string& material,
   return textured_with({200, 100, 50, 255, 0, 0, 0, 0}, material, extra);
 }
 
+/// A file of accessors that lie one after the other in its buffer. Accessor 0 is the quad's
+/// positions, 1 its indices.
+class GltfFile {
+ public:
+  GltfFile() {
+    add(kQuad, 5126, "VEC3", 3);
+    add(std::vector<std::uint8_t>{0, 1, 2, 2, 1, 3}, 5121, "SCALAR", 1);
+  }
+  /// Returns the accessor's number as text.
+  template <class T>
+  std::string add(const std::vector<T>& values, int component_type, const std::string& type,
+                  std::size_t components, bool normalized = false) {
+    const std::size_t at = glb_.add(values);
+    append(views_, R"({"buffer":0,"byteOffset":)" + std::to_string(at) + R"(,"byteLength":)" +
+                       std::to_string(values.size() * sizeof(T)) + "}");
+    return accessor(R"("bufferView":)" + std::to_string(count_views_++) + R"(,"componentType":)" +
+                    std::to_string(component_type) + R"(,"count":)" +
+                    std::to_string(values.size() / components) + R"(,"type":")" + type + "\"" +
+                    (normalized ? R"(,"normalized":true)" : ""));
+  }
+  std::string accessor(const std::string& members) {
+    append(accessors_, "{" + members + "}");
+    return std::to_string(count_accessors_++);
+  }
+  std::string attributes = R"("POSITION":0)";
+  std::string indices = "1";
+  std::string primitive;  // further members of it, each preceded by a comma
+  std::string mesh;       // of the mesh
+  std::string nodes = R"({"mesh":0})";
+  std::string more;  // of the file
+
+  std::vector<std::uint8_t> bytes() const {
+    return glb_.bytes("\"accessors\":[" + accessors_ + "],\"bufferViews\":[" + views_ +
+                      R"(],"meshes":[{"primitives":[{"attributes":{)" + attributes +
+                      R"(},"indices":)" + indices + primitive + "}]" + mesh + R"(}],"nodes":[)" +
+                      nodes + "]" + more);
+  }
+
+ private:
+  static void append(std::string& list, const std::string& item) {
+    list += (list.empty() ? "" : ",") + item;
+  }
+  Glb glb_;
+  std::string accessors_, views_;
+  int count_accessors_ = 0, count_views_ = 0;
+};
+
+inline Scene scene_of(const Result<LoadedScene>& loaded) {
+  EXPECT_TRUE(loaded.ok()) << loaded.error().message;
+  return loaded.ok() ? loaded.value().scene : Scene{};
+}
+
+inline void expect_warning(const Result<LoadedScene>& loaded, const std::string& part) {
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  bool found = false;
+  std::string all;
+  for (const std::string& warning : loaded.value().warnings) {
+    found |= warning.find(part) != std::string::npos;
+    all += warning + "\n";
+  }
+  EXPECT_TRUE(found) << "wanted: " << part << "\n" << all;
+}
+
+inline Result<LoadedScene> load_animated(const std::vector<std::uint8_t>& bytes) {
+  return load_gltf_memory(bytes, "test.glb", ".", {.animated = true});
+}
+
 }  // namespace kaamos::effects

@@ -22,33 +22,58 @@ glm::dvec4 interpolate_linear(ChannelPath path, const glm::dvec4& a, const glm::
   return {q.x, q.y, q.z, q.w};
 }
 
+/// A moment among the times of a channel.
+struct Moment {
+  std::size_t key = 0;
+  bool holds = true;  ///< the value is that of `key`; else it lies between that and the next
+  double step = 0;    ///< seconds between the two
+  double u = 0;       ///< 0..1 of that
+};
+
+Moment moment_of(const Channel& channel, double seconds) {
+  Moment out;
+  const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), seconds);
+  if (after == channel.times.begin()) return out;
+  out.key = static_cast<std::size_t>(after - channel.times.begin()) - 1;
+  if (after == channel.times.end() || channel.interpolation == Interpolation::kStep) return out;
+  out.holds = false;
+  const double begin = channel.times[out.key];
+  out.step = channel.times[out.key + 1] - begin;
+  out.u = (seconds - begin) / out.step;
+  return out;
+}
+
 /// [glTF 2.0: Appendix C, cubic spline interpolation]
-glm::dvec4 interpolate_cubic(const Channel& channel, std::size_t key, double step, double u) {
-  const glm::dvec4 value(channel.values[3 * key + 1]);
-  const glm::dvec4 out_tangent(channel.values[3 * key + 2]);
-  const glm::dvec4 in_tangent(channel.values[3 * key + 3]);
-  const glm::dvec4 next(channel.values[3 * key + 4]);
-  const double u2 = u * u, u3 = u2 * u;
-  return (2 * u3 - 3 * u2 + 1) * value + step * (u3 - 2 * u2 + u) * out_tangent +
-         (3 * u2 - 2 * u3) * next + step * (u3 - u2) * in_tangent;
+template <class T>
+T interpolate_cubic(const Moment& at, const T& value, const T& out_tangent, const T& in_tangent,
+                    const T& next) {
+  const double u = at.u, u2 = u * u, u3 = u2 * u;
+  return (2 * u3 - 3 * u2 + 1) * value + at.step * (u3 - 2 * u2 + u) * out_tangent +
+         (3 * u2 - 2 * u3) * next + at.step * (u3 - u2) * in_tangent;
+}
+
+/// `values(key, part)`: part of a key, 0 without cubic splines, else in-tangent, value,
+/// out-tangent; `mix`: of two values.
+template <class Values, class Mix>
+auto value_at(const Channel& channel, const Moment& at, const Values& values, const Mix& mix) {
+  const bool cubic = channel.interpolation == Interpolation::kCubicSpline;
+  const auto here = values(at.key, cubic ? 1 : 0);
+  if (at.holds) return here;
+  if (!cubic) return mix(here, values(at.key + 1, 0), at.u);
+  return interpolate_cubic(at, here, values(at.key, 2), values(at.key + 1, 0),
+                           values(at.key + 1, 1));
 }
 
 glm::dvec4 value_at(const Channel& channel, double seconds) {
-  const bool cubic = channel.interpolation == Interpolation::kCubicSpline;
-  const auto key_value = [&](std::size_t key) {
-    return glm::dvec4(channel.values[cubic ? 3 * key + 1 : key]);
-  };
-  const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), seconds);
-  if (after == channel.times.begin()) return key_value(0);
-  const std::size_t key = static_cast<std::size_t>(after - channel.times.begin()) - 1;
-  if (after == channel.times.end() || channel.interpolation == Interpolation::kStep) {
-    return key_value(key);
-  }
-  const double begin = channel.times[key];
-  const double step = channel.times[key + 1] - begin;
-  const double u = (seconds - begin) / step;
-  return cubic ? interpolate_cubic(channel, key, step, u)
-               : interpolate_linear(channel.path, key_value(key), key_value(key + 1), u);
+  const std::size_t per_key = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
+  return value_at(
+      channel, moment_of(channel, seconds),
+      [&](std::size_t key, std::size_t part) {
+        return glm::dvec4(channel.values[per_key * key + part]);
+      },
+      [&](const glm::dvec4& a, const glm::dvec4& b, double u) {
+        return interpolate_linear(channel.path, a, b, u);
+      });
 }
 
 glm::dmat4 local_transform(const Node& node) {
@@ -59,35 +84,16 @@ glm::dmat4 local_transform(const Node& node) {
   return m;
 }
 
-/// [glTF 2.0: Appendix C]
 void apply_weights(const Channel& channel, double seconds, std::vector<float>& weights) {
-  const bool cubic = channel.interpolation == Interpolation::kCubicSpline;
-  const std::size_t count = weights.size(), per_key = cubic ? 3 : 1;
-  if (count == 0) return;
-  const auto value = [&](std::size_t key, std::size_t part, std::size_t i) {
-    return static_cast<double>(channel.weights[(per_key * key + part) * count + i]);
-  };
-  const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), seconds);
-  const bool before_first = after == channel.times.begin();
-  const std::size_t key =
-      before_first ? 0 : static_cast<std::size_t>(after - channel.times.begin()) - 1;
-  const bool holds =
-      before_first || after == channel.times.end() || channel.interpolation == Interpolation::kStep;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double here = value(key, cubic ? 1 : 0, i);
-    if (holds) {
-      weights[i] = static_cast<float>(here);
-      continue;
-    }
-    const double next = value(key + 1, cubic ? 1 : 0, i);
-    const double begin = channel.times[key];
-    const double step = channel.times[key + 1] - begin;
-    const double u = (seconds - begin) / step, u2 = u * u, u3 = u2 * u;
-    const double mixed =
-        cubic ? (2 * u3 - 3 * u2 + 1) * here + step * (u3 - 2 * u2 + u) * value(key, 2, i) +
-                    (3 * u2 - 2 * u3) * next + step * (u3 - u2) * value(key + 1, 0, i)
-              : glm::mix(here, next, u);
-    weights[i] = static_cast<float>(here == next && !cubic ? here : mixed);
+  const std::size_t per_key = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
+  const Moment at = moment_of(channel, seconds);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = static_cast<float>(value_at(
+        channel, at,
+        [&](std::size_t key, std::size_t part) {
+          return double{channel.weights[(per_key * key + part) * weights.size() + i]};
+        },
+        [](double a, double b, double u) { return a == b ? a : glm::mix(a, b, u); }));
   }
 }
 

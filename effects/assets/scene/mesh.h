@@ -114,7 +114,7 @@ struct Mesh {
   std::vector<SkinVertex> skin;      ///< one per vertex where the mesh is skinned, else empty
   std::vector<VertexColor> colors;   ///< one per vertex, or empty: all are white
   std::vector<glm::vec2> second_uv;  ///< one per vertex, or empty: `uv` [MaterialConstants]
-  /// Of a mesh whose weights are animated, else empty: morph_targets for each vertex, in turn.
+  /// morph_targets moves for each vertex where animations change the weights, else empty.
   std::vector<MorphMove> morph;
   std::uint32_t morph_targets = 0;    ///< that the mesh has; its vertices are those without them
   std::vector<std::uint8_t> indices;  ///< 16- or 32-bit per geometry, little endian

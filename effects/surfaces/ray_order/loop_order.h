@@ -25,7 +25,8 @@ enum class LoopOrder : std::uint8_t {
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> loop_order_library();
 
-/// Finds what each pixel of a frame shows by testing every triangle against every pixel.
+/// Finds what each pixel of a frame with a perspective camera shows by testing every triangle
+/// against every pixel.
 class VisibilityLoops {
  public:
   /// Takes the triangles of a valid scene as they stand at its start, without skins, glass left out
