@@ -146,6 +146,9 @@ struct Effect {
   /// What its rays meet depends on a pixel's surface and place and the sample's number alone, so
   /// that a sample of the frame before can be taken again. [TemporalGradients]
   bool repeats = false;
+  /// Frames before have a part in what it shows and in how long it takes, so that it is measured in
+  /// a sequence of frames.
+  bool has_history = false;
   std::string misses = {};  ///< what it cannot show, in a few words; empty: nothing but noise
 };
 

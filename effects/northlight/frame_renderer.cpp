@@ -122,7 +122,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
   return Outcome::kDone;
 }
 
-rtapi::Result<Outcome> FrameRenderer::run_effects(const Progress& progress) {
+rtapi::Result<Outcome> FrameRenderer::run_early_effects(const Progress& progress) {
   auto& [surfaces, lights, effects, filters, composition] = *stages_;
   if (context_.settings.whole_frame) {
     lights.begin_frame();
@@ -132,14 +132,18 @@ rtapi::Result<Outcome> FrameRenderer::run_effects(const Progress& progress) {
   if (context_.settings.whole_frame) {
     if (const auto s = lights.run(); !s) return s.error();
   }
-  for (const bool late : {false, true}) {
-    if (late && !effects.has_late()) continue;
-    if (late) {
-      if (const auto s = composition.run_unreflected(); !s) return s.error();
-    }
-    if (const auto s = effects.run(late, progress); !is_done(s)) return s;
-    if (const auto s = filters.run(late); !s) return s.error();
-  }
+  if (const auto s = effects.run(false, progress); !is_done(s)) return s;
+  if (const auto s = filters.run(false); !s) return s.error();
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> FrameRenderer::run_effects(const Progress& progress) {
+  if (const auto s = run_early_effects(progress); !is_done(s)) return s;
+  auto& [surfaces, lights, effects, filters, composition] = *stages_;
+  if (!effects.has_late()) return Outcome::kDone;
+  if (const auto s = composition.run_unreflected(); !s) return s.error();
+  if (const auto s = effects.run(true, progress); !is_done(s)) return s;
+  if (const auto s = filters.run(true); !s) return s.error();
   return Outcome::kDone;
 }
 
@@ -164,7 +168,8 @@ rtapi::Result<ActiveEffect*> FrameRenderer::find_runnable(const std::string& nam
   }
   if (effect->is_late()) {
     if (!has_effects_) {
-      if (const auto rendered = render(); !rendered) return rendered.error();
+      if (const auto s = run_early_effects({}); !s) return s.error();
+      has_effects_ = true;
     }
     const auto done = runner.execute(
         [&](rtapi::CommandList& list) { stages_->composition.record_unreflected(list); });
@@ -219,6 +224,7 @@ rtapi::Result<Outcome> FrameRenderer::accumulate(const std::string& name,
 
 rtapi::Status FrameRenderer::set_seed(std::uint32_t seed) {
   stages_->effects.gradients().forget();  // samples of another seed cannot be compared
+  has_effects_ = false;
   return scene_->set_seed(seed);
 }
 

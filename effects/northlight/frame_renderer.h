@@ -60,7 +60,8 @@ class FrameRenderer {
   rtapi::Result<Outcome> render(const Progress& progress = {});
 
   /// Runs a chosen effect alone, over the G-buffer and the lights of the frame; its sums begin
-  /// anew. One dispatch.
+  /// anew. One dispatch. What it reads of the frame's radiance [EffectNeeds] is that of all chosen
+  /// effects that do not read it, denoised; they are rendered once a frame and seed.
   /// @errors those of prepare and of the device; KA3046 an effect that this frame does not have.
   rtapi::Result<RunStatistics> run(const std::string& effect, std::uint32_t samples);
   /// The same with all settings. `first_sample`: of each pixel's sequence. An effect with passes of
@@ -135,6 +136,7 @@ class FrameRenderer {
   FrameRenderer(const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
                 std::vector<Effect> effects);
   rtapi::Result<Outcome> create_stages(const Progress& progress);
+  rtapi::Result<Outcome> run_early_effects(const Progress& progress);
   rtapi::Result<Outcome> run_effects(const Progress& progress);
   rtapi::Result<ActiveEffect*> find_runnable(const std::string& effect,
                                              const EffectSettings& settings);
@@ -144,7 +146,7 @@ class FrameRenderer {
   std::unique_ptr<Stages> stages_;
   bool has_begun_ = false;     // begin_frame was called since the last frame
   bool has_surfaces_ = false;  // the G-buffer and the lights of this frame are there
-  bool has_effects_ = false;   // and all that its radiance is put together from
+  bool has_effects_ = false;   // and all that its radiance without reflections is made from
   bool is_prepared_ = false;
   bool has_own_libraries_ = false;
 };

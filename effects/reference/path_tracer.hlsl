@@ -67,14 +67,12 @@ struct PathLight {
   float3 indirect;
   float3 first;
   float3 reflection;
-  float2 visibility;  // sun: whether the sampled point of its disk is visible
 };
 
 PathLight NoLight() {
   PathLight light;
   light.all = light.sun = light.lamps = light.indirect = light.first = light.reflection =
       float3(0, 0, 0);
-  light.visibility = float2(0, 0);
   return light;
 }
 
@@ -248,7 +246,6 @@ void AddInView(inout PathLight light, uint kind, Lobes lobes, bool is_free, uint
                uint2 pixel) {
   if (kind == kSunSample) {
     light.sun += SumOf(lobes);
-    light.visibility.y = is_free ? 1.0 : 0.0;
   } else if (kind == kEmitterSample || kind == kSkySample) {
     light.indirect += lobes.diffuse;
     if (seen_as != kAsPane) light.reflection += lobes.specular;
@@ -352,6 +349,15 @@ float AmbientVisibility(PathSampler sampler, PathHit hit) {
              ? 1.0 : 0.0;
 }
 
+// Tells whether a point of the sun's disk is visible from the triangle, whatever its material and
+// shading normal make of the light. It is the point that the path's light sample has.
+float SunVisibility(PathSampler sampler, PathHit hit) {
+  if (constants.has_sun == 0) return 0.0;
+  const LightRay ray = SampleSunDisk(PathRandom(sampler, 0, kPairSun));
+  if (!(dot(ray.direction, hit.normal) > 0.0)) return 0.0;
+  return IsFree(hit.position + hit.normal * hit.offset, ray.direction, ray.reach) ? 1.0 : 0.0;
+}
+
 void ClearEachLamp(uint2 pixel) {
   if (!HasEachLamp()) return;
   uint width, height;
@@ -377,6 +383,7 @@ void PathTracerRayGen() {
 
   PathLight sum = NoLight();
   float3 whole = float3(0, 0, 0);
+  float2 visible = float2(0, 0);
   float4 glass = float4(0, 0, 0, 0);
   PathSampler sampler;
   sampler.seed = HashCombine(HashCombine(constants.seed, pixel.x), pixel.y);
@@ -408,14 +415,16 @@ void PathTracerRayGen() {
         of_glass = start.weight * (start.emission + found.all);
       }
     }
-    light.visibility.x = first.distance >= 0.0 ? AmbientVisibility(sampler, first) : 1.0;
-    if (first.distance < 0.0) light.visibility.y = 1.0;
+    float2 visibility = float2(1, 1);
+    if (first.distance >= 0.0) {
+      visibility = float2(AmbientVisibility(sampler, first), SunVisibility(sampler, first));
+    }
     sum.sun += light.sun;
     sum.lamps += light.lamps;
     sum.indirect += light.indirect;
     sum.first += light.first;
     sum.reflection += light.reflection;
-    sum.visibility += light.visibility;
+    visible += visibility;
     glass += float4(of_glass, Brightness(through));
     whole += (emission + light.all) * through + of_glass;
   }
@@ -428,7 +437,7 @@ void PathTracerRayGen() {
   path_first[pixel] = float4(sum.first, count);
   path_reflection[pixel] = float4(sum.reflection, count);
   path_glass[pixel] = glass;
-  path_visibility[pixel] = float4(sum.visibility, 0, 0);
+  path_visibility[pixel] = float4(visible, 0, 0);
   Lobes albedo = NoLobes();
   if (first.distance >= 0.0) albedo = MakeVertex(first, view).bsdf.albedo;
   path_diffuse_albedo[pixel] = float4(albedo.diffuse * count, count);

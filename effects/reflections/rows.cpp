@@ -125,6 +125,7 @@ Effect blurred_row() {
   effect.needs.perspective = true;
   effect.library = {"reflections/blurred/blurred_reflections", blurred_reflections_library};
   effect.make = make_blurred_reflections;
+  effect.has_history = true;
   effect.misses = "what ssr misses; what touches a rough surface is as blurred as what is far away";
   effect.defaults.set_constants(BlurredConstants{});
   for (const float fresh : {1.0f, 0.5f, 0.125f}) {

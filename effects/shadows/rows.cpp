@@ -234,6 +234,7 @@ std::vector<Effect> shadow_alternatives() {
           .alternative_to = "sun",
           .samples_option = "adaptive-sun-samples",
           .steps = adaptive_steps(),
+          .has_history = true,
           .misses = "for up to four frames what moves, and thin shadows on calm ground",
       },
       sun_map_row(),

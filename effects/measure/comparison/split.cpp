@@ -106,7 +106,7 @@ std::vector<Part> parts_of(const Options& options) {
   if (options.split == "shadow-map")
     return technique_parts(options, "sun-map", "sun", {"ao"}, kQuietSamples);
   if (options.split == "ssr") {
-    return technique_parts(options, "ssr", "reflections", {"sun", "local", "gi"}, kFewSamples);
+    return technique_parts(options, "ssr", "reflections", {"all"}, kFewSamples);
   }
   const Part near_field = indirect_part(options, "near-field", IndirectMode::kNearField);
   if (options.split == "gi") {

@@ -27,6 +27,26 @@ std::string cache_folder(const Options& options) {
   return options.out + "/measure-cache";
 }
 
+// The frame of a sequence in which effects with a history are measured: by then it has settled.
+constexpr std::uint32_t kSettled = 7;
+
+bool has_history(const MeasuredSetting& measured) {
+  return find_effect(northlight_effects(), measured.setting.effect)->has_history;
+}
+
+// Runs all that have a history over the frames of a sequence before the one that is measured.
+rtapi::Status settle(EffectRuns& runs, const MeasurePlan& plan) {
+  if (std::none_of(plan.settings.begin(), plan.settings.end(), has_history)) return {};
+  for (std::uint32_t frame = 0; frame < kSettled; ++frame) {
+    if (const auto s = runs.begin_frame(frame); !s) return s;
+    for (const MeasuredSetting& measured : plan.settings) {
+      if (!has_history(measured)) continue;
+      if (const auto ran = runs.run(in_frame(measured.setting, frame)); !ran) return ran.error();
+    }
+  }
+  return runs.begin_frame(kSettled);
+}
+
 // The results of one run of a setting.
 struct Record {
   std::vector<double> ms;
@@ -192,12 +212,15 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
   std::vector<Record> records(plan.settings.size());
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
     if (const auto s = runs->set_seed(options.frame.seed + repeat); !s) return s.error();
+    if (const auto s = settle(*runs, plan); !s) return s.error();
     if (repeat == 1) records.assign(plan.settings.size(), {});
     for (std::size_t i = 0; i < records.size(); ++i) {
       const MeasuredSetting& measured = plan.settings[i];
       const Target& target = compared.at(measured.reference).target;
       const Target* truth = truth_for(measured);
-      const auto image = run_setting(*runs, measured.setting, target, truth, records[i]);
+      const Setting now =
+          has_history(measured) ? in_frame(measured.setting, kSettled) : measured.setting;
+      const auto image = run_setting(*runs, now, target, truth, records[i]);
       if (!image) return image.error();
       if (look_at && repeat == options.repeats) {
         if (const auto s = look_at(i, *image, target, truth); !s) return s.error();

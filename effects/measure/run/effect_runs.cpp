@@ -60,18 +60,22 @@ Setting setting_of(const std::string& effect, std::uint32_t samples) {
   return out;
 }
 
+Setting in_frame(Setting setting, std::uint32_t index) {
+  setting.first_sample = index * setting.settings.samples;
+  return setting;
+}
+
 rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& scene,
                                           const std::vector<std::string>& effects,
                                           const std::string& cache, const Progress& progress,
                                           const Say& message, std::unique_ptr<EffectRuns>& out) {
   out = std::make_unique<EffectRuns>();
   Options own = options;
-  choose(own, effects);
+  choose_in_frame(own, effects);
   for (auto& [name, settings] : own.frame.effects) {
     settings.pixel_step = 1;
     settings.keep = find_effect(northlight_effects(), name)->needs.glass;
   }
-  own.frame.denoise = default_denoise(DenoiseMethod::kNone);
   own.frame.order = RayOrder::kPixels;
   own.frame.max_pass_views = kMostDenoiserViews;
   if (own.frame.volume.file.empty()) {
@@ -81,6 +85,7 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
   if (!renderer) return renderer.error();
   out->renderer_ = std::move(*renderer);
   out->ao_radius_ = options.effects.at("ao").radius;
+  out->seconds_ = options.seconds.value_or(0.0);
   if (options.cpu_clock) {
     out->renderer_->runner().set_clock([threads = options.threads] { return cpu_ms(threads); });
   }
@@ -90,6 +95,13 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
     if (const auto s = out->create_background(); !s) return s.error();
   }
   return Outcome::kDone;
+}
+
+rtapi::Status EffectRuns::begin_frame(std::uint32_t index) {
+  return renderer_->begin_frame({.index = index,
+                                 .seconds = seconds_,
+                                 .camera = renderer_->context().scene.cameras.front(),
+                                 .cut = index == 0});
 }
 
 rtapi::Status EffectRuns::create_background() {

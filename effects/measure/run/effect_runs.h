@@ -37,12 +37,16 @@ struct Setting {
 // That effect with `samples` rays a pixel, all else as its row of the registry has it.
 Setting setting_of(const std::string& effect, std::uint32_t samples = 1);
 
+// The same in a frame of a sequence: each frame goes on with each pixel's sequence of samples.
+Setting in_frame(Setting setting, std::uint32_t index);
+
 // Names a volume of indirect light by all that it depends on.
 std::string volume_key(const Options& options);
 
 class EffectRuns {
  public:
-  // Whatever runs must be among `effects`. `cache`: a folder for the volume of indirect light.
+  // Whatever runs must be among `effects`; they stand in the frame that choose_in_frame makes.
+  // `cache`: a folder for the volume of indirect light.
   // `scene` must stay.
   static rtapi::Result<Outcome> create(const Options& options, const effects::Scene& scene,
                                        const std::vector<std::string>& effects,
@@ -61,6 +65,8 @@ class EffectRuns {
   // The picture to which a run adds.
   rtapi::Texture sum(const Setting& setting) const;
   rtapi::Status set_seed(std::uint32_t seed) { return renderer_->set_seed(seed); }
+  // Moves on to a frame of a sequence at rest; the first one is a cut.
+  rtapi::Status begin_frame(std::uint32_t index);
 
   // Pixels that show a surface, or glass where `glass` is set (after a run of it).
   rtapi::Result<std::vector<std::uint8_t>> mask(bool glass);
@@ -75,6 +81,7 @@ class EffectRuns {
 
   std::unique_ptr<effects::FrameRenderer> renderer_;
   float ao_radius_ = 0;
+  double seconds_ = 0;  // on the scene's clock
   std::optional<effects::CompositePass> background_;  // what glass is seen before
 };
 

@@ -54,5 +54,9 @@ struct Options {
 
 // Chooses these effects instead, with the settings of options.effects. "all": every one.
 void choose(Options& options, const std::vector<std::string>& effects);
+// Chooses these effects in the frame that they are used in. One that reads the frame's radiance
+// [EffectNeeds::radiance] stands among all effects of a plain frame but glass, which are denoised;
+// others need nothing beside them.
+void choose_in_frame(Options& options, const std::vector<std::string>& effects);
 
 }  // namespace kaamos::measure

@@ -180,9 +180,7 @@ class MotionStudy {
   rtapi::Status run_setting(std::size_t index, std::uint32_t frame, const FrameSurfaces& surfaces) {
     const MeasuredSetting& measured = plan_.settings[index];
     Track& track = tracks_[index];
-    // Each frame goes on with each pixel's sequence of samples, as frames of a sequence do.
-    Setting setting = measured.setting;
-    setting.first_sample = frame * setting.settings.samples;
+    const Setting setting = in_frame(measured.setting, frame);
     const auto ran = runs_->run(setting);
     if (!ran) return ran.error();
     const auto image = runs_->read(setting);
