@@ -5,8 +5,8 @@
 #include <bit>
 #include <utility>
 
-#include "effects/assets/common/checksum.h"
 #include "effects/assets/common/sampling.h"
+#include "effects/assets/scene/scene_checksum.h"
 #include "effects/engine/picture.h"
 
 namespace kaamos::effects {
@@ -27,70 +27,15 @@ std::uint32_t channels_of(PathLayer layer) {
   return layer == kPathVisibility ? 2 : 3;
 }
 
-void add_transform(Checksum& checksum, const glm::dmat4& transform) {
-  checksum.add_value(transform);
-}
-
-void add_material(Checksum& checksum, const MaterialConstants& material) {
-  MaterialConstants constants = material;
-  constants.one_texel_level = {};  // set on upload
-  checksum.add_value(constants);
-}
-
-void add_light(Checksum& checksum, const Light& light) {
-  checksum.add_value(light.type);
-  checksum.add_value(light.color);
-  checksum.add_value(light.intensity);
-  checksum.add_value(light.position);
-  checksum.add_value(light.direction);
-  checksum.add_value(light.range);
-  checksum.add_value(light.inner_cone_angle);
-  checksum.add_value(light.outer_cone_angle);
-  checksum.add_value(light.radius);
-}
-
-void add_scene(Checksum& checksum, const Scene& scene) {
-  for (const Mesh& mesh : scene.meshes) {
-    checksum.add_values(mesh.vertices);
-    checksum.add_values(mesh.second_uv);
-    checksum.add_values(mesh.indices);
-    for (const Geometry& geometry : mesh.geometries) {
-      checksum.add_value(geometry.index_offset_bytes);
-      checksum.add_value(geometry.index_count);
-      checksum.add_value(geometry.material);
-    }
-  }
-  for (const Instance& instance : scene.instances) {
-    checksum.add_value(instance.mesh);
-    checksum.add_value(instance.mask);
-    add_transform(checksum, instance.transform);
-  }
-  for (const Material& material : scene.materials) add_material(checksum, material.constants);
-  for (const TextureImage& image : scene.images) {
-    checksum.add_value(image.srgb);
-    for (const auto& mip : image.mips) checksum.add_values(mip);
-  }
-  for (const Light& light : scene.lights) add_light(checksum, light);
-  checksum.add_value(scene.sky.zenith);
-  checksum.add_value(scene.sky.horizon);
-  checksum.add_value(scene.sky.ground);
-  checksum.add_value(scene.sun.has_value());
-  if (scene.sun) {
-    checksum.add_value(scene.sun->direction_to_sun);
-    checksum.add_value(scene.sun->irradiance);
-    checksum.add_value(scene.sun->angular_radius);
-  }
-}
+// Raised where a layer's meaning changes, so that older sums are not gone on with.
+constexpr std::uint32_t kLayersVersion = 2;
 
 }  // namespace
 
 std::uint64_t reference_fingerprint(const Scene& scene, const PathReferenceDesc& desc) {
   Checksum checksum;
   add_scene(checksum, scene);
-  const Camera& camera = scene.cameras.front();
-  add_transform(checksum, camera.camera_to_world);
-  checksum.add_value(camera.vertical_fov);
-  if (camera.is_orthographic()) checksum.add_value(camera.half_height);
+  checksum.add_value(kLayersVersion);
   checksum.add_value(desc.paths.bounces);
   checksum.add_value(desc.paths.occlusion_radius);
   checksum.add_value(desc.paths.lamps_apart);

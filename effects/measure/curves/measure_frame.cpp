@@ -10,6 +10,7 @@
 #include "effects/assets/common/sampling.h"
 #include "effects/measure/curves/measure.h"
 #include "effects/measure/run/failure.h"
+#include "effects/measure/run/picture_key.h"
 #include "effects/measure/truth/truth.h"
 
 namespace kaamos::measure {
@@ -177,7 +178,7 @@ rtapi::Result<Outcome> FrameMeasurement::run_method(std::size_t method) {
   own.frame.denoise = default_denoise(kMethods[method].method);
   own.frame.moving = true;
   if (own.frame.volume.file.empty()) {
-    own.frame.volume.file = cache_ + "/volume-" + volume_key(options_) + ".bin";
+    own.frame.volume.file = cache_ + "/volume-" + volume_key(options_, scene_) + ".bin";
   }
   const auto created = create_renderer(own, scene_, [](const std::string&) {});
   if (!created) return created.error();

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
 #include "effects/assets/image/exr.h"
+#include "effects/measure/run/picture_key.h"
 
 namespace kaamos::measure {
 
@@ -18,22 +18,18 @@ namespace {
 constexpr std::uint32_t kProbeSeed = 0x0B5E55ED;
 constexpr std::uint32_t kPartSeed = 0x5EED0000;  // no other run uses it
 
-std::uint64_t hash_of(const FloatImage& image, std::uint64_t hash) {
-  for (const float value : image.values) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    hash = (hash ^ bits) * 0x100000001B3u;
-  }
-  return hash;
-}
-
-rtapi::Result<std::string> probe(EffectRuns& runs, Setting setting, std::uint32_t samples) {
+// Of the settings, and of what they show: that differs where a scene's files or a driver changed.
+rtapi::Result<std::string> key_of(EffectRuns& runs, Setting setting, std::uint32_t samples) {
+  Checksum checksum;
+  checksum.add(runs.key(setting));
+  checksum.add_value(samples);
   setting.settings.samples = 2;
   if (const auto s = runs.set_seed(kProbeSeed); !s) return s.error();
   if (const auto ran = runs.run(setting); !ran) return ran.error();
   const auto image = runs.read(setting);
   if (!image) return image.error();
-  return fmt::format("{:016x}", hash_of(*image, 0xCBF29CE484222325u + samples));
+  checksum.add_values(image->values);
+  return as_key(checksum);
 }
 
 // The parts that an earlier run has finished.
@@ -88,7 +84,7 @@ rtapi::Result<Outcome> make_reference(EffectRuns& runs, const Setting& setting,
                                       std::uint32_t samples, const std::string& name,
                                       const std::string& cache, const Progress& progress,
                                       Target& target) {
-  const auto key = probe(runs, setting, samples);
+  const auto key = key_of(runs, setting, samples);
   if (!key) return key.error();
   const Frame& frame = runs.renderer().frame();
   const std::string path =

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <ctime>
-#include <filesystem>
 #include <thread>
 #include <utility>
 
 #include "effects/engine/picture.h"
+#include "effects/measure/run/picture_key.h"
 
 namespace kaamos::measure {
 
@@ -37,27 +37,19 @@ FloatImage first_channels(const FloatImage& image, std::uint32_t channels) {
 
 }  // namespace
 
-// Everything that the volume depends on, including the program's own timestamp, since its shaders
-// are part of it.
-std::string volume_key(const Options& options) {
-  std::error_code ignored;
-  const VolumeSettings& volume = options.frame.volume;
-  std::string text = fmt::format("{} {} {} {} {} {}", options.scene, volume.cell.value_or(0),
-                                 volume.samples, volume.error, volume.lights, options.frame.seed);
-  for (const std::string& material : options.materials) text += " " + material;
-  for (const std::string& file : {options.scene, std::string("/proc/self/exe")}) {
-    const auto time = std::filesystem::last_write_time(file, ignored);
-    if (!ignored) text += fmt::format(" {}", time.time_since_epoch().count());
-  }
-  std::uint64_t hash = 0xCBF29CE484222325u;  // FNV-1a
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
-  return fmt::format("{:016x}", hash);
-}
-
 Setting setting_of(const std::string& effect, std::uint32_t samples) {
   Setting out{.effect = effect, .settings = find_effect(northlight_effects(), effect)->defaults};
   out.settings.samples = samples;
   return out;
+}
+
+void add_setting(Checksum& checksum, const Setting& setting) {
+  const auto& [effect, settings, first_sample, lit, times_ao] = setting;
+  checksum.add(effect);
+  add_settings(checksum, settings);
+  checksum.add_value(first_sample);
+  checksum.add_value(lit);
+  checksum.add_value(times_ao);
 }
 
 Setting in_frame(Setting setting, std::uint32_t index) {
@@ -79,12 +71,13 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
   own.frame.order = RayOrder::kPixels;
   own.frame.max_pass_views = kMostDenoiserViews;
   if (own.frame.volume.file.empty()) {
-    own.frame.volume.file = cache + "/volume-" + volume_key(options) + ".bin";
+    own.frame.volume.file = cache + "/volume-" + volume_key(options, scene) + ".bin";
   }
   auto renderer = create_renderer(own, scene, message);
   if (!renderer) return renderer.error();
   out->renderer_ = std::move(*renderer);
   out->ao_radius_ = options.effects.at("ao").radius;
+  out->key_ = picture_key(own, scene);
   out->seconds_ = options.seconds.value_or(0.0);
   if (options.cpu_clock) {
     out->renderer_->runner().set_clock([threads = options.threads] { return cpu_ms(threads); });
@@ -95,6 +88,13 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
     if (const auto s = out->create_background(); !s) return s.error();
   }
   return Outcome::kDone;
+}
+
+std::string EffectRuns::key(const Setting& setting) const {
+  Checksum checksum;
+  checksum.add(key_);
+  add_setting(checksum, setting);
+  return as_key(checksum);
 }
 
 rtapi::Status EffectRuns::begin_frame(std::uint32_t index) {

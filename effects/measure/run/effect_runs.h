@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/assets/common/checksum.h"
 #include "effects/measure/run/frame_result.h"
 #include "effects/measure/run/options.h"
 #include "effects/northlight/frame_renderer.h"
@@ -37,11 +38,10 @@ struct Setting {
 // That effect with `samples` rays a pixel, all else as its row of the registry has it.
 Setting setting_of(const std::string& effect, std::uint32_t samples = 1);
 
+// Adds all members, for keys.
+void add_setting(effects::Checksum& checksum, const Setting& setting);
 // The same in a frame of a sequence: each frame goes on with each pixel's sequence of samples.
 Setting in_frame(Setting setting, std::uint32_t index);
-
-// Names a volume of indirect light by all that it depends on.
-std::string volume_key(const Options& options);
 
 class EffectRuns {
  public:
@@ -71,6 +71,8 @@ class EffectRuns {
   // Pixels that show a surface, or glass where `glass` is set (after a run of it).
   rtapi::Result<std::vector<std::uint8_t>> mask(bool glass);
 
+  // Names what a setting shows in this frame, by all that it depends on. [picture_key]
+  std::string key(const Setting& setting) const;
   effects::FrameRenderer& renderer() { return *renderer_; }
 
  private:
@@ -81,7 +83,8 @@ class EffectRuns {
 
   std::unique_ptr<effects::FrameRenderer> renderer_;
   float ao_radius_ = 0;
-  double seconds_ = 0;  // on the scene's clock
+  std::string key_;                                   // of the frame
+  double seconds_ = 0;                                // on the scene's clock
   std::optional<effects::CompositePass> background_;  // what glass is seen before
 };
 

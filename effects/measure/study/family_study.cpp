@@ -11,6 +11,7 @@
 #include "effects/assets/common/file.h"
 #include "effects/assets/image/png.h"
 #include "effects/measure/run/failure.h"
+#include "effects/measure/run/picture_key.h"
 #include "effects/measure/study/files.h"
 #include "effects/measure/study/motion.h"
 
@@ -84,13 +85,22 @@ class PartStudy {
     return out;
   }
 
+  // Of all that the numbers depend on, and how they were measured.
   std::string key() const {
-    std::string text = fmt::format(
-        "{} {}x{} {} {} {} {} {} {} {}", volume_key(options_), options_.frame.width,
-        options_.frame.height, options_.backend, options_.repeats, options_.measure_reference,
-        options_.measure_truth, options_.cpu_clock, options_.camera_path, options_.seeds);
-    for (const MeasuredSetting& each : plan_.settings) text += "|" + each.group + "/" + each.label;
-    return text;
+    Checksum checksum;
+    checksum.add(picture_key(options_, scene_));
+    for (const std::uint32_t number :
+         {options_.repeats, options_.measure_reference, options_.measure_truth, options_.seeds}) {
+      checksum.add_value(number);
+    }
+    checksum.add_value(options_.cpu_clock);
+    checksum.add(options_.committed);
+    for (const MeasuredSetting& each : plan_.settings) {
+      checksum.add(each.group);
+      checksum.add(each.label);
+      add_setting(checksum, each.setting);
+    }
+    return as_key(checksum);
   }
 
   StudyResult begin_result(const std::string& name, const std::string& title) const {

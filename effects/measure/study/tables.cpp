@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "effects/assets/common/file.h"
-#include "effects/measure/run/effect_runs.h"
+#include "effects/measure/run/picture_key.h"
 #include "effects/measure/study/files.h"
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 
@@ -199,8 +199,8 @@ std::optional<StudyTable> figure_18(const StudyResult& result) {
 rtapi::Result<Outcome> study_claims(const Options& options, const Scene& scene,
                                     const Progress& progress, std::vector<StudyTable>& tables) {
   const std::string file = options.out + "/study/claims.json";
-  const std::string key = fmt::format("{} {}x{} {} {}", volume_key(options), options.frame.width,
-                                      options.frame.height, options.repeats, options.cpu_clock);
+  const std::string key =
+      fmt::format("{} {} {}", picture_key(options, scene), options.repeats, options.cpu_clock);
   if (const auto kept = parse_tables(read_text(file), key)) {
     tables.insert(tables.end(), kept->begin(), kept->end());
     return Outcome::kDone;

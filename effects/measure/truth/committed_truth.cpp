@@ -38,6 +38,7 @@ bool is_same_picture(const Options& options, const ExrFile& file) {
          options.materials.empty() &&
          wanted.paths.occlusion_radius ==
              find_effect(northlight_effects(), "ao")->defaults.radius &&
+         wanted.ray_cones == made.ray_cones &&
          wanted.sun_angular_radius == made.sun_angular_radius && wanted.seed == made.seed;
 }
 

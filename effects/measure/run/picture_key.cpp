@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Each function names every member of a struct: one with a new member does not compile before
+// somebody has decided whether pictures depend on it.
+#include "effects/measure/run/picture_key.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "effects/assets/scene/scene_checksum.h"
+
+namespace kaamos::measure {
+
+using namespace kaamos::effects;
+
+namespace {
+
+// Values without padding.
+template <class... Values>
+void add_values(Checksum& checksum, const Values&... values) {
+  (checksum.add_value(values), ...);
+}
+
+template <class T>
+void add_optional(Checksum& checksum, const std::optional<T>& value) {
+  checksum.add_value(value.has_value());
+  if (value) checksum.add_value(*value);
+}
+
+void add_program(Checksum& checksum) {
+  std::error_code failed;
+  const auto time = std::filesystem::last_write_time("/proc/self/exe", failed);
+  if (!failed) checksum.add_value(time.time_since_epoch().count());
+}
+
+// How the volume is baked, not where it is kept.
+void add_volume(Checksum& checksum, const VolumeSettings& volume) {
+  const auto& [cell, samples, error, bounces, lights, seed, file, given] = volume;
+  add_optional(checksum, cell);
+  add_values(checksum, samples, error, bounces, lights);
+  add_optional(checksum, seed);
+}
+
+void add_denoise(Checksum& checksum, const DenoiseDesc& denoise) {
+  const auto& [method, constants, iterations, iterations_with_history] = denoise;
+  add_values(checksum, method, constants, iterations, iterations_with_history);
+}
+
+void add_effects(Checksum& checksum, const std::map<std::string, EffectSettings>& effects) {
+  checksum.add_value(effects.size());
+  for (const auto& [name, settings] : effects) {
+    checksum.add(name);
+    add_settings(checksum, settings);
+  }
+}
+
+void add_frame(Checksum& checksum, const FrameSettings& frame) {
+  // `order` and `rows` leave the picture as it is, but not its time.
+  const auto& [width, height, seed, effects, whole_frame, denoise, volume, light_culling,
+               light_maps, contact, taa, moving, order, primary, ray_cones, curvature_to_roughness,
+               sun_angular_radius, sun_map, max_pass_views, rows] = frame;
+  add_values(checksum, width, height, seed, whole_frame, light_culling, light_maps, contact, taa,
+             moving, order, primary, ray_cones, curvature_to_roughness, sun_angular_radius, sun_map,
+             max_pass_views, rows);
+  add_effects(checksum, effects);
+  add_denoise(checksum, denoise);
+  add_volume(checksum, volume);
+  // What was read from a file may be anything.
+  if (volume.file.empty()) return;
+  std::error_code failed;
+  checksum.add(volume.file);
+  const auto time = std::filesystem::last_write_time(volume.file, failed);
+  if (!failed) checksum.add_value(time.time_since_epoch().count());
+}
+
+}  // namespace
+
+void add_settings(Checksum& checksum, const EffectSettings& settings) {
+  const auto& [samples, pixel_step, rotates, radius, constants, keep, named, trace_only] = settings;
+  add_values(checksum, samples, pixel_step, rotates, radius, constants, keep, named, trace_only);
+}
+
+std::string as_key(const Checksum& checksum) {
+  return fmt::format("{:016x}", checksum.value());
+}
+
+std::string picture_key(const Options& options, const Scene& scene) {
+  // Of the work only how often and how long something is measured: who keeps numbers adds that.
+  const auto& [name, materials, backend, precision, checked, threads, frame, effects, camera_path,
+               frames_per_second, out, say, split, reference, path_samples, bounces, seconds,
+               each_lamp, half, save_seconds, resume, committed, measure, measure_reference,
+               measure_truth, repeats, cpu_clock, families, quick, seeds] = options;
+  Checksum checksum;
+  add_scene(checksum, scene);  // with the materials that were changed
+  checksum.add(name);          // which committed truth is its own
+  checksum.add(backend);
+  checksum.add(precision);
+  add_values(checksum, checked, threads, frames_per_second);
+  add_optional(checksum, seconds);
+  add_optional(checksum, bounces);
+  checksum.add(camera_path);
+  add_frame(checksum, frame);
+  add_effects(checksum, effects);
+  add_program(checksum);
+  return as_key(checksum);
+}
+
+std::string volume_key(const Options& options, const Scene& scene) {
+  Checksum checksum;
+  add_scene(checksum, scene);
+  checksum.add(options.precision);
+  add_optional(checksum, options.seconds);
+  const FrameSettings& frame = options.frame;
+  add_values(checksum, frame.seed, frame.light_maps, frame.ray_cones, frame.sun_angular_radius,
+             frame.sun_map);
+  add_volume(checksum, frame.volume);
+  add_program(checksum);
+  return as_key(checksum);
+}
+
+}  // namespace kaamos::measure
