@@ -149,6 +149,9 @@ struct Effect {
   /// Frames before have a part in what it shows and in how long it takes, so that it is measured in
   /// a sequence of frames.
   bool has_history = false;
+  /// Why some of its settings may show the very same picture as others, its own or those of a
+  /// neighbour; empty: that would be a fault.
+  std::string may_equal = {};
   std::string misses = {};  ///< what it cannot show, in a few words; empty: nothing but noise
 };
 

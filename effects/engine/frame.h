@@ -66,6 +66,8 @@ struct PassConstants {
   std::uint32_t pixel_step = 1;    ///< 2: rays at one pixel of each 2 x 2 only
   std::uint32_t accumulate = 1;    ///< 0: pictures of sums begin anew, whatever stands in them
   std::uint32_t pixel_offset = 0;  ///< which of the 2 x 2: bit 0 to the right, bit 1 below
+  std::uint32_t sharpness = 1;     ///< 0: nobody reads how sharp shadows are, so that rays may end
+                                   ///< at the first hit that they find
 };
 
 /// The number of pixels of a side of `size` pixels that get rays: every `constants.pixel_step`-th.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "effects/assets/common/errors.h"
+#include "effects/northlight/signal_filters.h"
 #include "effects/surfaces/ray_order/ray_order.h"
 
 namespace kaamos::effects {
@@ -167,6 +168,8 @@ PassConstants ActiveEffect::complete(PassConstants constants,
   constants.radius = settings.radius;
   constants.pixel_step = settings.pixel_step;
   constants.pixel_offset = pixel_offset(settings, context_.moment.index);
+  const FrameSettings& frame = context_.settings;
+  constants.sharpness = frame.whole_frame && reads_sharpness(frame.denoise.method) ? 1 : 0;
   return constants;
 }
 

@@ -8,14 +8,10 @@
 
 namespace kaamos::effects {
 
-namespace {
-
-bool is_temporal(DenoiseMethod method) {
+bool reads_sharpness(DenoiseMethod method) {
   return method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
          method == DenoiseMethod::kControl || method == DenoiseMethod::kAdaptiveSvgf;
 }
-
-}  // namespace
 
 std::uint64_t SignalFilters::Filter::bytes() const {
   return visibility ? visibility->bytes() + sums_bytes : denoiser->bytes();
@@ -60,7 +56,7 @@ rtapi::Status SignalFilters::create_some(const rtapi::Device& device, const Fram
   std::size_t channels = 0;  // of the visibilities
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     if (signals_[i].sums.is_late != late) continue;
-    if (is_temporal(desc.method) && signals_[i].sharpness) {
+    if (reads_sharpness(desc.method) && signals_[i].sharpness) {
       if (channels + signals_[i].channels > kMostVisibilityChannels) {
         const auto s = create_visibility_filter(device, frame, libraries, desc, visibilities);
         if (!s) return s;

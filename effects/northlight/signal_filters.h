@@ -18,6 +18,9 @@
 
 namespace kaamos::effects {
 
+/// Returns whether a denoiser reads how sharp shadows are. [EffectSignal::is_visibility]
+bool reads_sharpness(DenoiseMethod method);
+
 /// The pictures to which an effect adds the samples of a signal, and what tells its denoiser more.
 struct SignalSums {
   rtapi::Texture sum;        ///< of light or visibility

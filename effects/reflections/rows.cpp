@@ -100,6 +100,7 @@ Effect masked_row() {
   effect.make = make_masked_reflections;
   effect.defaults.set_constants(ScreenMaskConstants{});
   effect.steps = steps_of_pixels(ScreenMaskConstants{});
+  effect.may_equal = "its mask leaves out only pixels whose rays find nothing, so that it is ssr";
   return effect;
 }
 
@@ -165,6 +166,7 @@ Effect planar_row() {
       row("planar", "reflections of flat mirrors, from the mirrored scene", "planar", false);
   effect.library = {"reflections/planar/planar_reflections", planar_reflections_library};
   effect.make = make_planar_reflections;
+  effect.may_equal = "without a flat mirror in view it is env-map";
   effect.misses = "mirrors that are not flat show an environment map";
   effect.defaults.set_constants(PlanarConstants{});
   effect.steps = {{"hits without the sun", EffectSettings().set_constants(

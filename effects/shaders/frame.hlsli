@@ -59,6 +59,7 @@ struct PassConstants {
   uint pixel_step;    // 2: only one pixel of each 2 x 2 gets rays, and rows count those
   uint accumulate;    // 0: sums begin anew, whatever the pictures hold
   uint pixel_offset;  // which pixel of the 2 x 2: bit 0 to the right, bit 1 below
+  uint sharpness;     // 0: nobody reads how sharp shadows are
 };
 
 // The place of an instance in the previous frame. [effects/engine/gpu_scene.h]

@@ -48,6 +48,22 @@ OccluderPayload TraceOccluder(float3 origin, float3 direction, float t_max) {
   return payload;
 }
 
+// Tells whether nothing is in the way; which occluder it is does not matter. The origin must be off
+// the surface.
+bool IsOpenTowards(float3 origin, float3 direction, float t_max) {
+  RayDesc ray;
+  ray.Origin = origin;
+  ray.TMin = 0.0;
+  ray.Direction = direction;
+  ray.TMax = t_max;
+  OccluderPayload payload;
+  payload.distance = 0.0;
+  payload.moved = 0.0;
+  TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER,
+           kMaskWithoutLamps, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
+  return payload.distance == kNoOccluder;
+}
+
 // 1 / radius of a penumbra, 1/m: how sharply the shadow of an occluder ends. A point light has a
 // sharp shadow; so does what touches the surface. Sums of the sharpest stay finite, in any units.
 static const float kSharpest = 1e30;

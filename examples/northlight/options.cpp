@@ -474,6 +474,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   show_views(options);
   options.cpu_clock = words.measuring.clock == "cpu";
   options.study = !words.measuring.study.empty();
+  options.command = typed_command(argc, argv);
   FrameSettings& frame = options.frame;
   for (const auto& [name, text, chosen] :
        {std::tuple("--pixel", &words.pixel, &options.pixel),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options_measure.h"
 
+#include <cstdio>
 #include <tuple>
 
 #include "effects/measure/curves/measure.h"
@@ -61,6 +62,12 @@ void add_measuring(CLI::App& app, Options& options, MeasureWords& words) {
       ->delimiter(',')
       ->needs(study)
       ->check(CLI::IsMember(study_family_names()));
+  app.add_option("--rows", options.rows,
+                 "of --study: only these settings, EFFECT/SETTING as its reports name them in the "
+                 "command of each row; may be repeated")
+      ->needs(study)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--quick", options.quick,
                "of --study: three settings of each technique, at rest, on one backend")
       ->needs(study);
@@ -88,6 +95,37 @@ void add_measuring(CLI::App& app, Options& options, MeasureWords& words) {
       ->check(CLI::Range(2u, 4096u));
 }
 
+// The words of a command line as a shell takes them, without the options that choose parts.
+std::string typed_command(int argc, char** argv) {
+  std::string out = "northlight";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::string option = word.substr(0, word.find('='));
+    if (option == "--families" || option == "--rows" || option == "--out") {
+      if (option == word) ++i;  // its value is the next word
+      continue;
+    }
+    const bool is_plain = word.find_first_of(" \t\"'\\$`!&|;<>()*?[]#~") == std::string::npos;
+    out += is_plain && !word.empty() ? " " + word : " '" + word + "'";
+  }
+  return out;
+}
+
+// "0e376842", with "-dirty" where files are changed; empty: there is no source tree.
+std::string source_commit() {
+  const auto folder = find_effects_folder();
+  if (folder.empty()) return {};
+  const std::string command = "git -C '" + folder.string() +
+                              "' describe --always --dirty --exclude '*' --abbrev=12 2>/dev/null";
+  std::string out;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {};
+  char text[64];
+  while (std::fgets(text, sizeof text, pipe) != nullptr) out += text;
+  if (pclose(pipe) != 0) return {};
+  return out.substr(0, out.find('\n'));
+}
+
 void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& options) {
   FrameSettings& frame = options.frame;
   if (!options.measure.empty()) {
@@ -104,6 +142,7 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& op
   }
   if (!words.study.empty()) {
     options.scene = words.study;
+    options.commit = source_commit();
     if (app.count("--size") == 0) {
       const auto committed = committed_size(options);
       std::tie(frame.width, frame.height) = committed.value_or(std::pair(160u, 90u));

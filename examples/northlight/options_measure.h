@@ -16,6 +16,9 @@ struct MeasureWords {
   std::string study;
 };
 
+// What was typed, but for --families, --rows and --out.
+std::string typed_command(int argc, char** argv);
+
 // "a, b, c".
 std::string join(const std::vector<std::string>& names);
 

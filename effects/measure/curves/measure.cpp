@@ -239,6 +239,7 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
     row.traced = records[i].traced;
     row.ms = median(records[i].ms);
     row.ms_min = *std::min_element(records[i].ms.begin(), records[i].ms.end());
+    row.ms_max = *std::max_element(records[i].ms.begin(), records[i].ms.end());
     row.errors = records[i].errors.summary(target);
     row.reference_rmse = target.own_rmse;
     if (const Target* truth = truth_for(measured)) {

@@ -57,6 +57,7 @@ struct MeasuredRow {
   double traced = 0;       // per pixel, including those of hit shading
   double ms = 0;           // median
   double ms_min = 0;
+  double ms_max = 0;
   double filter_ms = 0;    // the denoiser's part of ms
   double flicker = -1;     // negative: not measured
   Errors::Summary errors;  // against the effect's own converged result

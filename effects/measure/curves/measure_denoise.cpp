@@ -247,6 +247,7 @@ rtapi::Status Motion::add_row(const MeasuredSignal& signal, const Subject& subje
   row.traced = row.rays;
   row.ms = median(place.ms);
   row.ms_min = *std::min_element(place.ms.begin(), place.ms.end());
+  row.ms_max = *std::max_element(place.ms.begin(), place.ms.end());
   const Place& raw = (is_last ? subjects_[0].last : subjects_[0].first).at(signal.name);
   row.filter_ms = std::max(0.0, row.ms - median(raw.ms));
   row.errors = place.errors.summary(target);

@@ -207,7 +207,7 @@ void FrameMeasurement::add_rows(MeasuredTable& table) const {
         MeasuredRow row{fmt::format("{}, {}", part.name, kPlaceNames[place]),
                         kMethods[method].label, part.name};
         row.ms = median(record.ms);
-        row.ms_min = row.ms;
+        row.ms_min = row.ms_max = row.ms;
         row.errors = record.errors.summary(truth);
         row.errors.bias_squared -= truth.own_rmse * truth.own_rmse;
         row.reference_rmse = truth.own_rmse;

@@ -48,6 +48,9 @@ struct Options {
   std::uint32_t repeats = 7;                // runs of each measured setting
   bool cpu_clock = false;                   // measure CPU time over threads
   std::vector<std::string> families;        // of the study; empty: all
+  std::vector<std::string> rows;            // of them, "EFFECT/SETTING"; empty: all
+  std::string command;                      // what was typed, but for --families, --rows and --out
+  std::string commit;                       // of the source tree; empty: unknown
   bool quick = false;                       // three settings of each technique
   std::uint32_t seeds = 64;                 // for each denoiser
 };

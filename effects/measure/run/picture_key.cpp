@@ -89,7 +89,8 @@ std::string picture_key(const Options& options, const Scene& scene) {
   const auto& [name, materials, backend, precision, checked, threads, frame, effects, camera_path,
                frames_per_second, out, say, split, reference, path_samples, bounces, seconds,
                each_lamp, half, save_seconds, resume, committed, measure, measure_reference,
-               measure_truth, repeats, cpu_clock, families, quick, seeds] = options;
+               measure_truth, repeats, cpu_clock, families, rows, command, commit, quick, seeds] =
+      options;
   Checksum checksum;
   add_scene(checksum, scene);  // with the materials that were changed
   checksum.add(name);          // which committed truth is its own

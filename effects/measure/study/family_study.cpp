@@ -13,6 +13,7 @@
 #include "effects/measure/run/failure.h"
 #include "effects/measure/run/picture_key.h"
 #include "effects/measure/study/files.h"
+#include "effects/measure/study/findings.h"
 #include "effects/measure/study/motion.h"
 
 namespace kaamos::measure {
@@ -116,22 +117,18 @@ class PartStudy {
     if (part_.family.effect.empty()) return measure_filters(progress, results);
     results.push_back(begin_result(part_.name(), part_.family.title));
     StudyResult& result = results.back();
-    if (part_.family.effect == "sun" && !scene_.sun) {
-      result.skipped = "the scene has no sun";
+    for (const MeasuredSetting& each : plan_.settings) result.rows.push_back(begin_row(each));
+    if (const std::string missing = why_missing(); !missing.empty() || result.rows.empty()) {
+      for (StudyRow& row : result.rows) row.missing = missing;
       return Outcome::kDone;
     }
-    if (part_.family.effect == "contact" && scene_.lights.empty()) {
-      result.skipped = "the scene has no local light";
-      return Outcome::kDone;
-    }
-    if (part_.moves && options_.measure_truth == 0) {
-      result.skipped = "--measure-truth 0 leaves nothing to compare moving pictures with";
-      return Outcome::kDone;
-    }
-    result.rows.assign(plan_.settings.size(), {});
     MeasuredTable table;
+    std::vector<std::uint64_t> pictures(result.rows.size());
     const LookAt look_at = [&](std::size_t setting, const FloatImage& image, const Target& target,
                                const Target* truth) {
+      Checksum checksum;
+      checksum.add_values(image.values);
+      pictures[setting] = checksum.value();
       return keep_pictures(setting, image, truth != nullptr ? *truth : target, result);
     };
     const auto done = part_.moves ? run_motion(plan_, options_, scene_, progress, table, look_at)
@@ -143,14 +140,51 @@ class PartStudy {
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const MeasuredRow& measured = table.rows[i];
       fill(measured, result.rows[i]);
-      result.rows[i].technique = measured.group;
-      result.rows[i].label = measured.label;
       result.truth = measured.truth ? std::string("path-traced truth")
                                     : fmt::format("the ray traced effect with {} samples a pixel",
                                                   options_.measure_reference);
       result.truth_error = measured.truth ? measured.truth_rmse : measured.reference_rmse;
     }
+    note_equal(pictures, result);
     return Outcome::kDone;
+  }
+
+  StudyRow begin_row(const MeasuredSetting& measured) const {
+    StudyRow row;
+    row.effect = measured.setting.effect;
+    row.technique = measured.group;
+    row.label = measured.label;
+    row.command = fmt::format("{} --families {} --rows \"{}\"", options_.command, part_.family.name,
+                              row_name(measured));
+    return row;
+  }
+
+  std::string why_missing() const {
+    if (part_.family.effect == "sun" && !scene_.sun) return "the scene has no sun";
+    if (part_.family.effect == "contact" && scene_.lights.empty()) {
+      return "the scene has no local light";
+    }
+    if (part_.moves && options_.measure_truth == 0) {
+      return "--measure-truth 0 leaves nothing to compare moving pictures with";
+    }
+    return {};
+  }
+
+  // Two rows with one picture measure nothing, unless one of their effects says why.
+  static void note_equal(const std::vector<std::uint64_t>& pictures, StudyResult& result) {
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const auto first = std::find(pictures.begin(), pictures.end(), pictures[i]);
+      const auto same = static_cast<std::size_t>(first - pictures.begin());
+      if (same == i) continue;
+      StudyRow& row = result.rows[i];
+      std::string why;
+      for (const std::string& effect : {row.effect, result.rows[same].effect}) {
+        const Effect* of = find_effect(northlight_effects(), effect);
+        if (why.empty() && of != nullptr) why = of->may_equal;
+      }
+      row.note = fmt::format("the same picture as {}: {}", setting_name(result.rows[same]),
+                             why.empty() ? kUnexplained : why);
+    }
   }
 
   // Runs --measure svgf and takes the last frames at rest and along the path: a result for each
@@ -197,6 +231,7 @@ class PartStudy {
       }
       StudyResult& result = results.back();
       StudyRow& row = result.rows.emplace_back();
+      row.command = fmt::format("{} --families {}", options_.command, part_.family.name);
       fill(measured, row);
       const std::size_t comma = measured.label.find(", ");
       row.technique = comma == std::string::npos ? measured.label
@@ -212,6 +247,7 @@ class PartStudy {
   static void fill(const MeasuredRow& measured, StudyRow& row) {
     const Errors::Summary& errors = measured.truth ? *measured.truth : measured.errors;
     row.ms = measured.ms;
+    row.ms_spread = measured.ms > 0 ? (measured.ms_max - measured.ms_min) / measured.ms : 0;
     row.traced = measured.traced;
     row.error = errors.rmse;
     row.flip = errors.flip;

@@ -103,6 +103,18 @@ std::string flicker_line(const std::vector<StudyResult>& results) {
   return out.empty() ? out : "Change from frame to frame beyond motion: " + out;
 }
 
+// Says which settings show the same picture as others without a reason: their rows mislead.
+std::string unexplained_line(const std::vector<StudyResult>& results) {
+  std::string out;
+  for (const StudyResult& result : results) {
+    for (const StudyRow& row : result.rows) {
+      if (row.note.find(kUnexplained) == std::string::npos) continue;
+      out += (out.empty() ? "" : "; ") + setting_name(row);
+    }
+  }
+  return out.empty() ? out : "Settings without effect, for which no reason is known: " + out;
+}
+
 }  // namespace
 
 std::string setting_name(const StudyRow& row) {
@@ -118,14 +130,16 @@ std::vector<std::string> study_findings(const std::vector<StudyResult>& results)
     if (is_about_filters(result)) continue;
     // What moves and the second backend come behind, if there is room.
     const bool is_first = result.family.find('-') == std::string::npos;
-    if (!result.skipped.empty()) {
-      add(is_first ? out : later, result.title + ": not measured, " + result.skipped);
+    if (result.rows.empty()) continue;
+    if (!result.is_measured()) {
+      add(is_first ? out : later, result.title + ": not measured, " + result.rows.front().missing);
       continue;
     }
     add(is_first ? out : later, front_line(result));
     add(is_first ? out : later, others_line(result));
   }
   add(out, filters_line(results));
+  add(out, unexplained_line(results));
   add(out, flicker_line(results));
   for (const std::string& line : later) out.push_back(line);
   if (out.size() > kMostLines) out.resize(kMostLines);

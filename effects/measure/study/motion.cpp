@@ -217,6 +217,7 @@ class MotionStudy {
       row.traced = track.traced;
       row.ms = median(track.ms);
       row.ms_min = *std::min_element(track.ms.begin(), track.ms.end());
+      row.ms_max = *std::max_element(track.ms.begin(), track.ms.end());
       row.flicker = track.change.mean();
       row.errors = track.sums;
       row.errors.rmse = std::sqrt(track.mse / kMeasured);

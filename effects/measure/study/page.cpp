@@ -94,7 +94,7 @@ function advise(family, section) {
   tell();
 }
 
-for (const family of study.filter(each => each.rows.length > 0)) {
+for (const family of study.filter(each => each.rows.some(row => row.missing === ""))) {
   const section = document.getElementById(family.family);
   connect(family, section);
   split(family, section);

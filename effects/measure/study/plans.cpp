@@ -57,6 +57,24 @@ void match_length(const Setting& reference, Setting& setting) {
   }
 }
 
+// What is found in the picture has a radius of its own, within which it is best: the same settings
+// over larger and smaller ones, up to that of the rays.
+void sweep_radius(const Effect& row, const Options& options, bool quick, MeasurePlan& plan) {
+  const float longest = plan.references.front().setting.settings.radius;
+  const float own = options.effects.at(row.name).radius;
+  if (row.steps.empty() || own >= longest || plan.settings.empty()) return;
+  MeasuredSetting middle = plan.settings.back();
+  const EffectStep& step = row.steps[(row.steps.size() - 1) / 2];
+  middle.setting.settings = step.settings;
+  for (const float part : quick ? std::vector{4.0f} : std::vector{0.5f, 2.0f, 4.0f, 8.0f}) {
+    const float radius = part * own;
+    if (radius > longest) break;
+    middle.setting.settings.radius = radius;
+    middle.label = fmt::format("{}, {:g} m", step.label, radius);
+    plan.settings.push_back(middle);
+  }
+}
+
 bool belongs_to(const Effect& row, const StudyFamily& family) {
   return row.name == family.effect || row.alternative_to == family.effect;
 }
@@ -102,14 +120,26 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
       setting.setting.effect = row.name;
       setting.setting.settings = step.settings;
       setting.reference = plan.references.front().name;
-      // All answer the same question.
-      setting.setting.settings.radius = plan.references.front().setting.settings.radius;
+      // The radius that the options want: rays and what is found in the picture have one each.
+      setting.setting.settings.radius = options.effects.at(row.name).radius;
       if (family.effect == "contact")
         match_length(plan.references.front().setting, setting.setting);
       plan.settings.push_back(setting);
     }
+    if (family.effect == "ao") sweep_radius(row, options, quick, plan);
+  }
+  if (!options.rows.empty()) {
+    std::erase_if(plan.settings, [&](const MeasuredSetting& each) {
+      return std::count(options.rows.begin(), options.rows.end(), row_name(each)) == 0;
+    });
   }
   return plan;
+}
+
+std::string row_name(const MeasuredSetting& setting) {
+  const std::string& effect = setting.setting.effect;
+  const bool is_whole_row = find_effect(northlight_effects(), effect)->about == setting.group;
+  return effect + "/" + (is_whole_row ? "" : setting.group + "/") + setting.label;
 }
 
 std::string what_it_misses(const std::string& group) {

@@ -19,8 +19,13 @@ const std::vector<StudyFamily>& study_families();
 // The names that --families takes: those, and "claims".
 std::vector<std::string> study_family_names();
 
-// Every technique of the family, from fast to accurate. `quick`: three settings of each at most.
+// Every technique of the family, from fast to accurate, or of these only options.rows. `quick`:
+// three settings of each at most, and fewer radii.
 MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool quick);
+
+// The row of a setting as --rows takes it: "gtao/3 slices, 3 steps"; where an effect has several
+// techniques, with theirs between.
+std::string row_name(const MeasuredSetting& setting);
 
 // Returns what the technique of a plan's group cannot show; empty: nothing but noise.
 std::string what_it_misses(const std::string& group);

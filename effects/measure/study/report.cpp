@@ -2,12 +2,14 @@
 #include "effects/measure/study/report.h"
 
 #include <fmt/format.h>
+#include <rtapi/version.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "effects/measure/run/failure.h"
 #include "effects/measure/study/findings.h"
@@ -96,19 +98,28 @@ std::string table_of(const StudyResult& result) {
                                        [](const StudyRow& row) { return row.flicker >= 0; });
   std::string out = fmt::format(
       "<table><thead><tr><th>technique</th><th>setting</th><th>ms</th><th>rays a pixel</th>"
-      "<th>RMSE</th><th>FLIP</th><th>SSIM</th><th>energy</th>{}</tr></thead>"
-      "<tbody class=\"settings\">\n",
+      "<th>RMSE</th><th>FLIP</th><th>SSIM</th><th>energy</th>{}<th>spread of ms</th><th></th></tr>"
+      "</thead><tbody class=\"settings\">\n",
       has_flicker ? "<th>flicker</th>" : "");
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyRow& row = result.rows[i];
+    const std::string begin = fmt::format(
+        "<tr{} title=\"{}\"><td>{}</td><td>{}</td>", front.count(i) != 0 ? " class=\"front\"" : "",
+        escaped(row.command), escaped(row.technique), escaped(row.label));
+    if (!row.missing.empty()) {
+      out += begin + fmt::format("<td colspan=\"{}\">not measured: {}</td></tr>\n",
+                                 has_flicker ? 9 : 8, escaped(row.missing));
+      continue;
+    }
+    out += begin;
     out += fmt::format(
-        "<tr{}><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.2f}</td><td>{:.3g}</td><td>{:.4f}</td>"
-        "<td>{:.4f}</td><td>{:.3f}</td>{}</tr>\n",
-        front.count(i) != 0 ? " class=\"front\"" : "", escaped(row.technique), escaped(row.label),
+        "<td>{:.3g}</td><td>{:.2f}</td><td>{:.3g}</td><td>{:.4f}</td>"
+        "<td>{:.4f}</td><td>{:.3f}</td>{}<td>{:.0f} %</td><td>{}</td></tr>\n",
         row.ms, row.traced, row.error, row.flip, row.ssim, row.energy,
         !has_flicker       ? std::string()
         : row.flicker >= 0 ? fmt::format("<td>{:.4f}</td>", row.flicker)
-                           : std::string("<td></td>"));
+                           : std::string("<td></td>"),
+        100 * row.ms_spread, escaped(row.note));
   }
   return out + "</tbody></table>\n";
 }
@@ -151,7 +162,9 @@ std::string pictures_of(const StudyResult& result) {
 
 double middle_error(const StudyResult& result) {
   std::vector<double> errors;
-  for (const StudyRow& row : result.rows) errors.push_back(row.error);
+  for (const StudyRow& row : result.rows) {
+    if (row.missing.empty()) errors.push_back(row.error);
+  }
   std::sort(errors.begin(), errors.end());
   return errors[errors.size() / 2];
 }
@@ -159,9 +172,7 @@ double middle_error(const StudyResult& result) {
 std::string section_of(const StudyResult& result) {
   std::string out = fmt::format("<section id=\"{}\"><h2>{}</h2>\n", escaped(result.family),
                                 escaped(result.title));
-  if (!result.skipped.empty()) {
-    return out + "<p>Not measured: " + escaped(result.skipped) + ".</p></section>\n";
-  }
+  if (!result.is_measured()) return out + table_of(result) + "</section>\n";
   std::string plot = plot_svg(as_plot(result));
   plot.erase(0, plot.find("<svg"));
   out +=
@@ -196,12 +207,42 @@ std::string article_of(const StudyTable& table) {
   return out + "</article>\n";
 }
 
+// "AMD EPYC 7B13": of the first processor; empty: the system does not say.
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("model name", 0) != 0) continue;
+    const std::size_t colon = line.find(':');
+    return colon == std::string::npos ? "" : line.substr(colon + 2);
+  }
+  return {};
+}
+
+// On what, by what and how often everything was measured.
+std::string circumstances(const Options& options) {
+  const std::uint32_t threads =
+      options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+  std::string out = fmt::format("Measured on {}, {} {}, with Kaamos {}", processor(), threads,
+                                threads == 1 ? "thread" : "threads", rtapi::GetVersion());
+  if (!options.commit.empty()) out += " of commit " + options.commit;
+  out += fmt::format(
+      "; seeds {} to {}, references of {} samples a pixel, path-traced truth of {}. Times are "
+      "medians of {} runs{}; their spread is that of the longest and the shortest over the median. "
+      "Techniques that keep a history are timed in the eighth frame of a sequence at rest. "
+      "Command: {}",
+      options.frame.seed + 1, options.frame.seed + options.repeats, options.measure_reference,
+      options.measure_truth, options.repeats,
+      options.cpu_clock ? ", processor time over threads" : "", options.command);
+  return "<p>" + escaped(out) + "; a row's own command shows above it.</p>\n";
+}
+
 }  // namespace
 
-rtapi::Result<std::string> study_page(const std::string& scene, const std::string& folder,
+rtapi::Result<std::string> study_page(const Options& options,
                                       const std::vector<StudyResult>& results,
                                       const std::vector<StudyTable>& tables) {
-  const auto data = as_script(folder, results);
+  const std::string& scene = options.scene;
+  const auto data = as_script(options.out + "/study", results);
   if (!data) return data.error();
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>What accuracy "
@@ -211,7 +252,7 @@ rtapi::Result<std::string> study_page(const std::string& scene, const std::strin
   for (const std::string& line : study_findings(results)) {
     out += "<li>" + escaped(line.substr(line.find_first_not_of(' '))) + "</li>\n";
   }
-  out += "</ul>\n";
+  out += "</ul>\n" + circumstances(options);
   for (const StudyResult& result : results) out += section_of(result);
   for (const StudyTable& table : tables) out += article_of(table);
   return out + "<script>const study = " + *data + ";</script>\n<script>" + kPageScript +

@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "effects/measure/run/options.h"
 #include "effects/measure/study/result.h"
 #include "effects/measure/study/tables.h"
 
 namespace kaamos::measure {
 
-// The page. `folder`: of the pictures that the results name.
-rtapi::Result<std::string> study_page(const std::string& scene, const std::string& folder,
+// The page. The pictures that the results name are read from the study's folder.
+rtapi::Result<std::string> study_page(const Options& options,
                                       const std::vector<StudyResult>& results,
                                       const std::vector<StudyTable>& tables);
 

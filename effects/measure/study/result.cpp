@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "effects/measure/study/result.h"
 
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace kaamos::measure {
@@ -10,8 +12,16 @@ using nlohmann::ordered_json;
 
 std::vector<Trade> StudyResult::trades() const {
   std::vector<Trade> out;
-  for (const StudyRow& row : rows) out.push_back({row.ms, row.error});
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const StudyRow& row : rows) {
+    out.push_back(row.missing.empty() ? Trade{row.ms, row.error} : Trade{kNone, kNone});
+  }
   return out;
+}
+
+bool StudyResult::is_measured() const {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const StudyRow& row) { return row.missing.empty(); });
 }
 
 namespace {
@@ -19,9 +29,14 @@ namespace {
 ordered_json as_json(const StudyResult& result) {
   ordered_json rows = ordered_json::array();
   for (const StudyRow& row : result.rows) {
-    rows.push_back({{"technique", row.technique},
+    rows.push_back({{"effect", row.effect},
+                    {"technique", row.technique},
                     {"setting", row.label},
+                    {"command", row.command},
+                    {"missing", row.missing},
+                    {"note", row.note},
                     {"ms", row.ms},
+                    {"ms_spread", row.ms_spread},
                     {"rays", row.traced},
                     {"rmse", row.error},
                     {"flip", row.flip},
@@ -40,7 +55,6 @@ ordered_json as_json(const StudyResult& result) {
           {"truth_picture", result.truth_picture},
           {"truth_rmse", result.truth_error},
           {"about", result.about},
-          {"skipped", result.skipped},
           {"rows", rows}};
 }
 
@@ -55,12 +69,16 @@ StudyResult as_result(const ordered_json& in) {
   in.at("truth_picture").get_to(out.truth_picture);
   in.at("truth_rmse").get_to(out.truth_error);
   in.at("about").get_to(out.about);
-  in.at("skipped").get_to(out.skipped);
   for (const ordered_json& each : in.at("rows")) {
     StudyRow row;
+    each.at("effect").get_to(row.effect);
     each.at("technique").get_to(row.technique);
     each.at("setting").get_to(row.label);
+    each.at("command").get_to(row.command);
+    each.at("missing").get_to(row.missing);
+    each.at("note").get_to(row.note);
     each.at("ms").get_to(row.ms);
+    each.at("ms_spread").get_to(row.ms_spread);
     each.at("rays").get_to(row.traced);
     each.at("rmse").get_to(row.error);
     each.at("flip").get_to(row.flip);
@@ -95,19 +113,30 @@ std::optional<std::vector<StudyResult>> parse_results(const std::string& text) {
 }
 
 Table as_csv(const std::vector<StudyResult>& results) {
+  constexpr std::size_t kNumbers = 9;
   Table out;
-  out.columns = {"family", "technique", "setting", "ms",      "rays",    "rmse",
-                 "flip",   "ssim",      "energy",  "flicker", "on_front"};
+  out.columns = {"family", "technique", "setting", "ms",       "rays",      "rmse", "flip",
+                 "ssim",   "energy",    "flicker", "on_front", "ms_spread", "note", "command"};
   for (const StudyResult& result : results) {
     std::vector<bool> is_on_front(result.rows.size());
     for (const std::size_t i : pareto_front(result.trades())) is_on_front[i] = true;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
       const StudyRow& row = result.rows[i];
-      out.rows.push_back({result.family, row.technique, row.label, csv_number(row.ms),
-                          csv_number(row.traced), csv_number(row.error), csv_number(row.flip),
-                          csv_number(row.ssim), csv_number(row.energy),
-                          row.flicker < 0 ? "" : csv_number(row.flicker),
-                          is_on_front[i] ? "1" : "0"});
+      auto& cells = out.rows.emplace_back(std::vector{result.family, row.technique, row.label});
+      if (row.missing.empty()) {
+        for (const double number :
+             {row.ms, row.traced, row.error, row.flip, row.ssim, row.energy}) {
+          cells.push_back(csv_number(number));
+        }
+        cells.push_back(row.flicker < 0 ? "" : csv_number(row.flicker));
+        cells.push_back(is_on_front[i] ? "1" : "0");
+        cells.push_back(csv_number(row.ms_spread));
+        cells.push_back(row.note);
+      } else {
+        cells.resize(kNumbers + 3);
+        cells.push_back("not measured: " + row.missing);
+      }
+      cells.push_back(row.command);
     }
   }
   return out;
@@ -120,6 +149,7 @@ Plot as_plot(const StudyResult& result) {
             .y_label = "root mean square error of the " + result.signal};
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyRow& row = result.rows[i];
+    if (!row.missing.empty()) continue;
     if (plot.series.empty() || plot.series.back().name != row.technique) {
       plot.series.push_back({row.technique, {}, true});
     }

@@ -12,12 +12,21 @@
 
 namespace kaamos::measure {
 
+// Stands in StudyRow::note where two settings give one picture and no effect says why
+// [Effect::may_equal]: a fault of the study or of the technique.
+inline constexpr const char* kUnexplained = "no reason is known";
+
 // A setting of a technique.
 struct StudyRow {
+  std::string effect;  // of the registry; empty: a denoiser
   std::string technique, label;
-  double ms = 0;      // median
-  double traced = 0;  // rays per pixel
-  double error = 0;   // RMSE against the truth
+  std::string command;   // that measures this row alone
+  std::string missing;   // why it was not measured; empty: it was
+  std::string note;      // what else must be known to read the numbers; may be empty
+  double ms = 0;         // median
+  double ms_spread = 0;  // (longest - shortest) / median
+  double traced = 0;     // rays per pixel
+  double error = 0;      // RMSE against the truth
   double flip = 0, ssim = 0, energy = 0;
   double flicker = -1;     // mean change from frame to frame beyond motion; negative: not measured
   std::string picture;     // PNG files beside the report
@@ -34,9 +43,10 @@ struct StudyResult {
   double truth_error = 0;     // the truth's own standard error
   std::vector<std::string> about;
   std::vector<StudyRow> rows;
-  std::string skipped;  // why there is nothing; empty: there is
 
+  // Of all rows; those that were not measured are not finite, and so never on a front.
   std::vector<effects::Trade> trades() const;
+  bool is_measured() const;  // at least one row is
 };
 
 std::string to_json(const std::vector<StudyResult>& results);

@@ -26,10 +26,10 @@ bool is_wanted(const std::string& family, const std::vector<std::string>& names)
 
 rtapi::Status write_files(const Options& options, const std::vector<StudyResult>& results,
                           const std::vector<StudyTable>& tables) {
-  const auto page = study_page(options.scene, options.out + "/study", results, tables);
+  const auto page = study_page(options, results, tables);
   if (!page) return page.error();
   for (const StudyResult& result : results) {
-    if (!result.skipped.empty()) continue;
+    if (!result.is_measured()) continue;
     const std::string plot = options.out + "/study-" + result.family + ".svg";
     if (const auto s = write_text(plot, plot_svg(as_plot(result))); !s) return s;
   }

@@ -145,7 +145,7 @@ std::optional<StudyTable> figure_18(const StudyResult& result) {
       find_row(result, "adaptive-sun", adaptive_label(kAdaptiveStandardSamples)),
       find_row(result, "adaptive-sun", adaptive_label(kAdaptiveHighSamples))};
   for (const StudyRow* row : ours) {
-    if (row == nullptr || row->ms <= 0) return std::nullopt;
+    if (row == nullptr) return std::nullopt;
   }
   StudyTable out{"figure-18", "The survey's figure 18: shadow maps against rays", {}, {}};
   out.title += result.title.find(',') == std::string::npos
@@ -176,6 +176,11 @@ std::optional<StudyTable> figure_18(const StudyResult& result) {
       theirs.push_back(scene[0] / by[0]);
     }
     const auto [low, high] = std::minmax_element(theirs.begin(), theirs.end());
+    if (!ours[i]->missing.empty() || !(ours[kRaysHard]->ms > 0)) {
+      cells.push_back("-");
+      cells.push_back("not measured: " + ours[i]->missing);
+      continue;
+    }
     const double here = ours[i]->ms / ours[kRaysHard]->ms;
     cells.push_back(fmt::format("{:.2f}", here));
     cells.push_back(i == kRaysHard ? "the unit"
@@ -184,7 +189,11 @@ std::optional<StudyTable> figure_18(const StudyResult& result) {
                                    : "agrees: between their scenes");
   }
   out.about = {
-      result.subtitle + fmt::format("; hard rays take {:.3g} ms", ours[kRaysHard]->ms),
+      result.is_measured()
+          ? result.subtitle + fmt::format("; hard rays, which end at the first hit that they find, "
+                                          "take {:.3g} ms",
+                                          ours[kRaysHard]->ms)
+          : result.title + ": not measured, " + ours[kRaysHard]->missing,
       "Theirs: 1920 x 1080, RTX 2080 Ti, maps of 2048 x 2048 texels; Pub 281 000, Resort 376 000, "
       "Breakfast 1.4 million triangles. Here: one scene and one light, the sun; four lights are "
       "not measured, since maps of the sun and adaptive rays are for the sun alone",

@@ -8,7 +8,7 @@
 // Samples that see the sun.
 RWTexture2D<float> sun_visibility_sum : register(u0, space3);
 // Sums over the other samples: 1 / radius of their penumbra, 1/m, in x, and how many were blocked
-// by what moves in z.
+// by what moves in z. Not written where nobody reads them.
 RWTexture2D<float4> sun_sharpness_sum : register(u1, space3);
 
 float3 SunDirection(float2 tile, uint index) {
@@ -41,6 +41,10 @@ void SunShadowRayGen() {
       sharpness += kSharpest;
       continue;
     }
+    if (pass_constants.sharpness == 0) {
+      visible += IsOpenTowards(origin, direction, kSunDistance) ? 1.0 : 0.0;
+      continue;
+    }
     const OccluderPayload occluder = TraceOccluder(origin, direction, kSunDistance);
     if (occluder.distance == kNoOccluder) {
       visible += 1.0;
@@ -50,6 +54,7 @@ void SunShadowRayGen() {
     }
   }
   sun_visibility_sum[pixel] = SumBefore(sun_visibility_sum, pixel) + visible;
+  if (pass_constants.sharpness == 0) return;
   sun_sharpness_sum[pixel] = SumBefore(sun_sharpness_sum, pixel) + float4(sharpness, 0, moved, 0);
 }
 
