@@ -71,6 +71,8 @@ class EffectRuns {
   // Pixels that show a surface, or glass where `glass` is set (after a run of it).
   rtapi::Result<std::vector<std::uint8_t>> mask(bool glass);
 
+  // The radius of ambient occlusion that the options want, metres; that of the truth, too.
+  float ambient_radius() const { return ao_radius_; }
   // Names what a setting shows in this frame, by all that it depends on. [picture_key]
   std::string key(const Setting& setting) const;
   effects::FrameRenderer& renderer() { return *renderer_; }

@@ -113,39 +113,69 @@ class PartStudy {
     return out;
   }
 
+  // A result for each question that the family answers: settings that are compared with the same.
+  // Only ambient occlusion has several, by radius.
+  void begin_results(std::vector<StudyResult>& results) {
+    const bool is_split = part_.family.effect == "ao";
+    for (const MeasuredSetting& each : plan_.settings) {
+      const bool is_first = !is_split || each.reference == plan_.references.front().name;
+      const std::string question = is_first ? "" : each.reference.substr(each.reference.find('-'));
+      const std::string name = part_.name(question);
+      auto found = std::find_if(results.begin(), results.end(),
+                                [&](const StudyResult& result) { return result.family == name; });
+      if (found == results.end()) {
+        results.push_back(begin_result(name, part_.family.title));
+        found = results.end() - 1;
+        if (is_split) {
+          found->title += fmt::format(" within {:g} m", each.setting.settings.radius);
+        }
+      }
+      places_.emplace_back(found - results.begin(), found->rows.size());
+      found->rows.push_back(begin_row(each));
+    }
+  }
+
+  StudyRow& row_of(std::size_t setting, std::vector<StudyResult>& results) const {
+    const auto& [result, row] = places_[setting];
+    return results[result].rows[row];
+  }
+
   rtapi::Result<Outcome> measure(const Progress& progress, std::vector<StudyResult>& results) {
     if (part_.family.effect.empty()) return measure_filters(progress, results);
-    results.push_back(begin_result(part_.name(), part_.family.title));
-    StudyResult& result = results.back();
-    for (const MeasuredSetting& each : plan_.settings) result.rows.push_back(begin_row(each));
-    if (const std::string missing = why_missing(); !missing.empty() || result.rows.empty()) {
-      for (StudyRow& row : result.rows) row.missing = missing;
+    begin_results(results);
+    if (results.empty()) return Outcome::kDone;
+    if (const std::string missing = why_missing(); !missing.empty()) {
+      for (StudyResult& result : results) {
+        for (StudyRow& row : result.rows) row.missing = missing;
+      }
       return Outcome::kDone;
     }
     MeasuredTable table;
-    std::vector<std::uint64_t> pictures(result.rows.size());
+    std::vector<std::uint64_t> pictures(places_.size());
     const LookAt look_at = [&](std::size_t setting, const FloatImage& image, const Target& target,
                                const Target* truth) {
       Checksum checksum;
       checksum.add_values(image.values);
       pictures[setting] = checksum.value();
-      return keep_pictures(setting, image, truth != nullptr ? *truth : target, result);
+      const auto& [result, row] = places_[setting];
+      return keep_pictures(row, image, truth != nullptr ? *truth : target, results[result]);
     };
     const auto done = part_.moves ? run_motion(plan_, options_, scene_, progress, table, look_at)
                                   : run_plan(plan_, options_, scene_, progress, table, look_at);
     if (!is_done(done)) return done;
-    result.subtitle = table.subtitle;
-    result.signal = plan_.signal;
-    result.about = table.about;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const MeasuredRow& measured = table.rows[i];
-      fill(measured, result.rows[i]);
+      StudyResult& result = results[places_[i].first];
+      fill(measured, row_of(i, results));
+      result.subtitle = table.subtitle;
+      result.signal = plan_.signal;
+      result.about = table.about;
       result.truth = measured.truth ? std::string("path-traced truth")
                                     : fmt::format("the ray traced effect with {} samples a pixel",
                                                   options_.measure_reference);
       result.truth_error = measured.truth ? measured.truth_rmse : measured.reference_rmse;
     }
-    note_equal(pictures, result);
+    note_equal(pictures, results);
     return Outcome::kDone;
   }
 
@@ -171,18 +201,20 @@ class PartStudy {
   }
 
   // Two rows with one picture measure nothing, unless one of their effects says why.
-  static void note_equal(const std::vector<std::uint64_t>& pictures, StudyResult& result) {
+  void note_equal(const std::vector<std::uint64_t>& pictures,
+                  std::vector<StudyResult>& results) const {
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const auto first = std::find(pictures.begin(), pictures.end(), pictures[i]);
       const auto same = static_cast<std::size_t>(first - pictures.begin());
       if (same == i) continue;
-      StudyRow& row = result.rows[i];
+      StudyRow& row = row_of(i, results);
+      const StudyRow& other = row_of(same, results);
       std::string why;
-      for (const std::string& effect : {row.effect, result.rows[same].effect}) {
+      for (const std::string& effect : {row.effect, other.effect}) {
         const Effect* of = find_effect(northlight_effects(), effect);
         if (why.empty() && of != nullptr) why = of->may_equal;
       }
-      row.note = fmt::format("the same picture as {}: {}", setting_name(result.rows[same]),
+      row.note = fmt::format("the same picture as {}: {}", setting_name(other),
                              why.empty() ? kUnexplained : why);
     }
   }
@@ -280,12 +312,13 @@ class PartStudy {
   const Scene& scene_;
   std::string folder_;
   MeasurePlan plan_;
+  std::vector<std::pair<std::size_t, std::size_t>> places_;  // of settings: result, row
 };
 
 }  // namespace
 
-std::string StudyPart::name() const {
-  return family.name + (moves ? "-motion" : "") + (is_smaller ? "-" + backend : "");
+std::string StudyPart::name(const std::string& question) const {
+  return family.name + question + (moves ? "-motion" : "") + (is_smaller ? "-" + backend : "");
 }
 
 std::vector<StudyPart> study_parts(const StudyFamily& family, const Options& options) {

@@ -20,7 +20,7 @@ struct StudyPart {
   bool moves = false;       // along a camera path
   bool is_smaller = false;  // the second backend
 
-  std::string name() const;  // of its files: "shadows-motion"
+  std::string name(const std::string& question = {}) const;  // of its files: "shadows-motion"
 };
 
 // At rest and, without options.quick, in motion, on each backend.

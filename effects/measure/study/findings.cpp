@@ -129,7 +129,7 @@ std::vector<std::string> study_findings(const std::vector<StudyResult>& results)
   for (const StudyResult& result : results) {
     if (is_about_filters(result)) continue;
     // What moves and the second backend come behind, if there is room.
-    const bool is_first = result.family.find('-') == std::string::npos;
+    const bool is_first = result.title.find(',') == std::string::npos;
     if (result.rows.empty()) continue;
     if (!result.is_measured()) {
       add(is_first ? out : later, result.title + ": not measured, " + result.rows.front().missing);

@@ -24,9 +24,10 @@ using namespace kaamos::effects;
 namespace {
 
 constexpr std::uint32_t kFrames = 6;
-constexpr std::uint32_t kFirstMeasured = 2;  // histories begin to tell something
-constexpr double kMoverHalf = 0.25;          // metres
-constexpr double kMoverSpeed = 1.5;          // metres a second
+constexpr std::uint32_t kFirstMeasured = 2;           // histories begin to tell something
+constexpr std::uint32_t kSamplesOfOthers = 1u << 20;  // no setting has so many in all frames
+constexpr double kMoverHalf = 0.25;                   // metres
+constexpr double kMoverSpeed = 1.5;                   // metres a second
 
 // The scene with a box that crosses what the camera looks at.
 Scene with_mover(Scene scene) {
@@ -125,7 +126,11 @@ class MotionStudy {
     for (const auto& reference : plan_.references) {
       auto truth = truth_of(*runs_, reference.setting, sums);
       if (!truth) return truth.error();
-      if (!*truth) return failure("nothing is known to be true of " + reference.name);
+      if (!*truth) {
+        auto converged = converge(reference.setting);
+        if (!converged) return converged.error();
+        *truth = std::move(*converged);
+      }
       for (std::size_t i = 0; i < mask->size(); ++i) {
         if ((*mask)[i] == 0) (*truth)->mask[i] = 0;
       }
@@ -133,6 +138,19 @@ class MotionStudy {
       truths_.emplace(reference.name, std::move(**truth));
     }
     return Outcome::kDone;
+  }
+
+  // What the effect itself comes to with many samples, none of which a measured setting has.
+  rtapi::Result<Target> converge(Setting setting) {
+    setting.settings.samples = options_.measure_reference;
+    setting.first_sample = kSamplesOfOthers;
+    if (const auto ran = runs_->run(setting); !ran) return ran.error();
+    auto image = runs_->read(setting);
+    if (!image) return image.error();
+    Target out;
+    out.image = std::move(*image);
+    out.mask.assign(std::size_t{out.image.width} * out.image.height, 1);
+    return out;
   }
 
   rtapi::Result<Outcome> run_frame(const CameraPath& path, std::uint32_t frame) {
@@ -206,8 +224,11 @@ class MotionStudy {
                                  options_.cpu_clock ? ", CPU time over threads" : "");
     for (const auto& [name, track] : truth_tracks_) {
       table.about.push_back(
-          fmt::format("truth of {}: path-traced, {} samples in each frame; it flickers by {:.2g}",
-                      name, options_.measure_truth, track.change.mean()));
+          fmt::format("truth of {}: {} samples in each frame; it flickers by {:.2g}", name,
+                      truths_.at(name).own_rmse > 0
+                          ? fmt::format("path-traced, {}", options_.measure_truth)
+                          : fmt::format("converged rays, {}", options_.measure_reference),
+                      track.change.mean()));
     }
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       const MeasuredSetting& measured = plan_.settings[i];

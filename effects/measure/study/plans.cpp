@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <set>
+#include <utility>
 
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
@@ -57,21 +59,66 @@ void match_length(const Setting& reference, Setting& setting) {
   }
 }
 
-// What is found in the picture has a radius of its own, within which it is best: the same settings
-// over larger and smaller ones, up to that of the rays.
-void sweep_radius(const Effect& row, const Options& options, bool quick, MeasurePlan& plan) {
+constexpr float kRadii[] = {0.25f, 0.5f, 1.0f, 2.0f, 4.0f};  // metres
+
+std::string radius_label(float radius) {
+  return fmt::format("{:g} m", radius);
+}
+
+// The reference of rays of this radius; the plan gets it where it has none.
+std::string radius_reference(float radius, MeasurePlan& plan) {
+  const MeasurePlan::Reference first = plan.references.front();
+  if (radius == first.setting.settings.radius) return first.name;
+  MeasurePlan::Reference wanted = first;
+  wanted.name = fmt::format("{}-{:g}m", first.name, radius);
+  wanted.about = fmt::format("rays of {}", radius_label(radius));
+  wanted.setting.settings.radius = radius;
+  const auto is_same = [&](const MeasurePlan::Reference& each) { return each.name == wanted.name; };
+  if (std::none_of(plan.references.begin(), plan.references.end(), is_same)) {
+    plan.references.push_back(wanted);
+  }
+  return wanted.name;
+}
+
+// Asks the question of a setting again for another radius.
+void ask_within(float radius, MeasuredSetting setting, MeasurePlan& plan) {
+  setting.setting.settings.radius = radius;
+  setting.reference = radius_reference(radius, plan);
+  setting.label += ", " + radius_label(radius);
+  plan.settings.push_back(setting);
+}
+
+// What is found in the picture has a radius of its own, within which it is at its best: it is held
+// against rays of that radius, and rays are measured there too. Besides, one setting of each over
+// larger and smaller ones.
+void sweep_radii(const Options& options, bool quick, MeasurePlan& plan) {
   const float longest = plan.references.front().setting.settings.radius;
-  const float own = options.effects.at(row.name).radius;
-  if (row.steps.empty() || own >= longest || plan.settings.empty()) return;
-  MeasuredSetting middle = plan.settings.back();
-  const EffectStep& step = row.steps[(row.steps.size() - 1) / 2];
-  middle.setting.settings = step.settings;
-  for (const float part : quick ? std::vector{4.0f} : std::vector{0.5f, 2.0f, 4.0f, 8.0f}) {
-    const float radius = part * own;
-    if (radius > longest) break;
-    middle.setting.settings.radius = radius;
-    middle.label = fmt::format("{}, {:g} m", step.label, radius);
-    plan.settings.push_back(middle);
+  std::set<float> radii;
+  const std::vector<MeasuredSetting> settings = std::exchange(plan.settings, {});
+  for (const MeasuredSetting& each : settings) {
+    const float own = options.effects.at(each.setting.effect).radius;
+    if (own == longest) {
+      plan.settings.push_back(each);
+    } else {
+      radii.insert(own);
+    }
+  }
+  for (const float radius : radii) {
+    for (const MeasuredSetting& each : settings) {
+      const float own = options.effects.at(each.setting.effect).radius;
+      if (own == radius || own == longest) ask_within(radius, each, plan);
+    }
+  }
+  if (quick || radii.empty()) return;
+  for (const float radius : kRadii) {
+    if (radii.count(radius) != 0) continue;
+    std::size_t first = 0;
+    while (first < settings.size()) {
+      std::size_t last = first;
+      while (last < settings.size() && settings[last].group == settings[first].group) ++last;
+      ask_within(radius, settings[first + (last - first - 1) / 2], plan);
+      first = last;
+    }
   }
 }
 
@@ -120,14 +167,13 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
       setting.setting.effect = row.name;
       setting.setting.settings = step.settings;
       setting.reference = plan.references.front().name;
-      // The radius that the options want: rays and what is found in the picture have one each.
       setting.setting.settings.radius = options.effects.at(row.name).radius;
       if (family.effect == "contact")
         match_length(plan.references.front().setting, setting.setting);
       plan.settings.push_back(setting);
     }
-    if (family.effect == "ao") sweep_radius(row, options, quick, plan);
   }
+  if (family.effect == "ao") sweep_radii(options, quick, plan);
   if (!options.rows.empty()) {
     std::erase_if(plan.settings, [&](const MeasuredSetting& each) {
       return std::count(options.rows.begin(), options.rows.end(), row_name(each)) == 0;

@@ -51,7 +51,11 @@ rtapi::Result<Target> behind_glass(EffectRuns& runs, const PathSums& truth) {
 
 rtapi::Result<std::optional<Target>> truth_of(EffectRuns& runs, const Setting& setting,
                                               const PathSums& truth) {
-  if (setting.effect == "ao") return std::optional(channel_of(truth, "visibility", 0));
+  if (setting.effect == "ao") {
+    // The truth has one radius.
+    if (setting.settings.radius != runs.ambient_radius()) return std::optional<Target>();
+    return std::optional(channel_of(truth, "visibility", 0));
+  }
   if (setting.effect == "sun") return std::optional(channel_of(truth, "visibility", 1));
   if (setting.lit) {
     return std::optional(
