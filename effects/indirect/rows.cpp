@@ -97,6 +97,7 @@ Effect indirect_diffuse_row() {
       .needs = {.lights = true, .volume = true},
       .samples_option = "gi-samples",
       .repeats = true,
+      .may_equal = "no surface that rays hit mirrors a lamp or the sun",
   };
 }
 

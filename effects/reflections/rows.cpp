@@ -191,6 +191,7 @@ Effect reflections_row() {
       .defaults = EffectSettings().set_constants(ReflectionConstants{}),
       .needs = {.glossy = true, .lights = true, .volume = true},
       .samples_option = "reflection-samples",
+      .may_equal = "all that mirrors is smooth, so that one ray is all there is",
   };
 }
 

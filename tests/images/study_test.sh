@@ -19,11 +19,19 @@ study=(--study lounge --quick --size 32x18 --repeats 1 --measure-reference 16 --
 for file in study.html study.csv study.json study-shadows.svg study-ao.svg study/ao-truth.png study-figure-18.csv; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
-grep -q 'Ambient occlusion: .* settings are worth their time' "$work/log" || fail "no findings: $(cat "$work/log")"
+grep -q 'Ambient occlusion within 4 m: .* settings are worth their time' "$work/log" || fail "no findings: $(cat "$work/log")"
 head -1 "$work/out/study.csv" | grep -q '^family,technique,setting,ms' || fail "study.csv has other columns"
 grep -q '^contact,screen-space contact shadows,' "$work/out/study.csv" || fail "study.csv lacks marches of contact shadows"
 grep -q '<h2>The survey.s figure 18' "$work/out/study.html" || fail "the report lacks the survey's figure 18"
 grep -q '^shadows,sun shadow,' "$work/out/study.csv" || fail "study.csv lacks the ray traced sun"
+grep -q 'no reason is known' "$work/out/study.csv" && fail "settings without effect: $(grep 'no reason' "$work/out/study.csv")"
+grep -q 'Measured on .* Command: northlight --study lounge --quick' "$work/out/study.html" || fail "the report does not say how it was made"
+# A row's own command measures it alone.
+command=$(grep '^shadows,sun shadow,4 rays' "$work/out/study.csv" | sed 's/.*,"northlight \(.*\)"$/\1/; s/""/"/g')
+eval "\"\$northlight\" $command --out \"\$work/row\"" > "$work/log" 2>&1 || fail "the command of a row, $command: $(cat "$work/log")"
+[ "$(grep -c '^shadows,' "$work/row/study.csv")" = 1 ] || fail "a row's command measured others: $(cat "$work/row/study.csv")"
+same=$(cut -d, -f6 <(grep '^shadows,sun shadow,4 rays' "$work/out/study.csv") <(grep '^shadows,' "$work/row/study.csv") | uniq | wc -l)
+[ "$same" = 1 ] || fail "a row measured alone has another error"
 # What is there is not measured again.
 cp "$work/out/study.csv" "$work/before.csv"
 "$northlight" "${study[@]}" --families shadows,contact,ao > /dev/null 2>&1 || fail "the study again"
@@ -94,5 +102,5 @@ timeout 120 "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$w
   --virtual-time-budget=20000 --dump-dom "file://$work/probed.html" > "$work/dom" 2> "$work/log"
 grep -q '^end of probe' "$work/dom" || fail "the page's probe did not run: $(tail -3 "$work/log")"
 grep -E '^(BAD|error): ' "$work/dom" && fail "the report"
-[ "$(grep -c '^ok: ' "$work/dom")" = 21 ] || fail "not all was probed: $(grep '^ok: ' "$work/dom")"
+[ "$(grep -c '^ok: ' "$work/dom")" = 28 ] || fail "not all was probed: $(grep '^ok: ' "$work/dom")"
 [ "$failures" = 0 ]

@@ -7,6 +7,12 @@ namespace kaamos::measure {
 
 using namespace kaamos::effects;
 
+Options default_options() {
+  Options out;
+  for (const Effect& effect : northlight_effects()) out.effects[effect.name] = effect.defaults;
+  return out;
+}
+
 void choose(Options& options, const std::vector<std::string>& effects) {
   FrameSettings& frame = options.frame;
   frame.effects = choose_effects(effects);

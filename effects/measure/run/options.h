@@ -55,6 +55,8 @@ struct Options {
   std::uint32_t seeds = 64;                 // for each denoiser
 };
 
+// Every effect as its row of the registry has it; none is chosen.
+Options default_options();
 // Chooses these effects instead, with the settings of options.effects. "all": every one.
 void choose(Options& options, const std::vector<std::string>& effects);
 // Chooses these effects in the frame that they are used in. One that reads the frame's radiance

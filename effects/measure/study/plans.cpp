@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -32,13 +33,15 @@ std::vector<EffectStep> steps_of(const Effect& row) {
 }
 
 // The first, the middle and the last.
-std::vector<EffectStep> three_of(const std::vector<EffectStep>& steps) {
+template <class T>
+std::vector<T> three_of(const std::vector<T>& steps) {
   if (steps.size() <= kQuickSteps) return steps;
   return {steps.front(), steps[(steps.size() - 1) / 2], steps.back()};
 }
 
-// The modes of indirect light are techniques of their own.
-void name_modes(MeasurePlan& plan) {
+// The modes of indirect light are techniques of their own; of those that are there twice the first
+// stays.
+void name_modes(bool quick, MeasurePlan& plan) {
   for (MeasuredSetting& each : plan.settings) {
     if (each.steps) continue;
     each.group = each.label;
@@ -46,6 +49,23 @@ void name_modes(MeasurePlan& plan) {
         fmt::format("{} rays", std::max(each.setting.settings.samples, each.setting.times_ao));
     each.steps = true;
   }
+  std::vector<MeasuredSetting> settings = std::exchange(plan.settings, {});
+  std::set<std::uint64_t> seen;
+  std::map<std::string, std::vector<std::size_t>> by_group;
+  for (MeasuredSetting& each : settings) {
+    Checksum checksum;
+    add_setting(checksum, each.setting);
+    if (!seen.insert(checksum.value()).second) continue;
+    by_group[each.group].push_back(plan.settings.size());
+    plan.settings.push_back(std::move(each));
+  }
+  if (!quick) return;
+  std::set<std::size_t> kept;
+  for (const auto& [group, places] : by_group) {
+    for (const std::size_t place : three_of(places)) kept.insert(place);
+  }
+  settings = std::exchange(plan.settings, {});
+  for (const std::size_t place : kept) plan.settings.push_back(std::move(settings[place]));
 }
 
 // Marches and rays look equally far.
@@ -152,7 +172,7 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   plan.title = family.title;
   plan.against_truth = true;
   if (family.effect == "gi") {
-    name_modes(plan);
+    name_modes(quick, plan);
   } else {
     plan.settings.clear();
     plan.references.resize(1);
