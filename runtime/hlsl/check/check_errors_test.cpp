@@ -199,6 +199,9 @@ const std::vector<Case>& cases() {
        "RWByteAddressBuffer r;\n"
        "[shader(\"compute\")][numthreads(4, 3, 1)] void main(uint i : SV_GroupIndex) {\n"
        "  r.Store(0, @fwidth(i)); }"},
+      {"AtomicOfFloatTexel", Id::kUnsupported,
+       kernel("float x;\nInterlockedCompareExchangeFloatBitwise(t@[uint2(0, 0)], 0.0f, 1.0f, x);",
+              "RWTexture2D<float> t : register(u5);")},
       {"QuadOfRays", Id::kStage,
        "[shader(\"raygeneration\")] void main() { uint x = @QuadReadAcrossX(1u); }"},
       {"WaveSizeNoPowerOfTwo", Id::kWaveSize,

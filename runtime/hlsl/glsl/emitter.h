@@ -117,6 +117,7 @@ class GlslEmitter {
   std::string sample(const ir::Expr& expr);
   std::string dimensions(const ir::Expr& expr);
   void atomic(const ir::Stmt& stmt);
+  void exchange_shared_float(const ir::Stmt& stmt);
   std::string alone_atomic(ir::AtomicOp op, const ir::Type* type);
   std::string from_texel(const ir::Type* type, const std::string& bits);
   std::string to_texel(const ir::Type* type, const std::string& text);

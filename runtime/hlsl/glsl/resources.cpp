@@ -327,11 +327,43 @@ std::string GlslEmitter::alone_atomic(AtomicOp op, const Type* t) {
                                       "max(old, v)", "v",       "",        ""};
   const bool compares = op == AtomicOp::kCompareExchange || op == AtomicOp::kCompareStore;
   const std::string name = std::string("g_") + atomic_name(op) + "_" + glsl::suffix(t->scalar);
-  const std::string result = compares ? "old == compare ? v : old" : kResults[static_cast<int>(op)];
+  const bool equal_bits = t->scalar == Scalar::kFloat32;
+  const std::string same =
+      equal_bits ? "floatBitsToUint(old) == floatBitsToUint(compare)" : "old == compare";
+  const std::string result = compares ? same + " ? v : old" : kResults[static_cast<int>(op)];
   return generated(name, type(t) + " " + name + "(inout " + type(t) + " place, " +
                              (compares ? type(t) + " compare, " : "") + type(t) + " v) {\n  " +
                              type(t) + " old = place;\n  place = " + result +
                              ";\n  return old;\n}\n");
+}
+
+// Exchanges a groupshared float, which devices need not have as an atomic operation: one thread of
+// the group after another does, under a lock that it gives back before any other goes on.
+void GlslEmitter::exchange_shared_float(const Stmt& stmt) {
+  if (made_.insert("g_float_lock").second) declarations_ += "shared uint g_float_lock = {};\n";
+  const Path p = path(stmt.place);
+  const std::string guard = p.guard();
+  if (!guard.empty() && stmt.result != nullptr) {
+    line(variable(stmt.result) + " = " + zero(stmt.result->type) + ";");
+  }
+  open(guard.empty() ? "{" : "if (" + guard + ") {");
+  line("const float g_new = " + value(stmt.value) + ";");
+  if (stmt.compare != nullptr) line("const float g_compare = " + value(stmt.compare) + ";");
+  line("float g_old = 0.0;");
+  open("for (bool g_waits = true; g_waits;) {");
+  open("if (atomicCompSwap(g_float_lock, 0u, 1u) == 0u) {");
+  line("memoryBarrierShared();");
+  line("g_old = " + p.text + ";");
+  line((stmt.compare != nullptr ? "if (floatBitsToUint(g_old) == floatBitsToUint(g_compare)) "
+                                : "") +
+       p.text + " = g_new;");
+  line("memoryBarrierShared();");
+  line("atomicExchange(g_float_lock, 0u);");
+  line("g_waits = false;");
+  close("}");
+  close("}");
+  if (stmt.result != nullptr) line(variable(stmt.result) + " = g_old;");
+  close("}");
 }
 
 void GlslEmitter::atomic(const Stmt& stmt) {
@@ -342,6 +374,10 @@ void GlslEmitter::atomic(const Stmt& stmt) {
     arguments += ", " + value(stmt.compare);
   }
   arguments += ", " + value(stmt.value) + ")";
+  if (stmt.target == AtomicTarget::kPlace && entry_.stage == kStageCompute &&
+      scalar == Scalar::kFloat32) {
+    return exchange_shared_float(stmt);
+  }
   if (stmt.target == AtomicTarget::kPlace) {
     const Path p = path(stmt.place);
     const std::string guard = p.guard();

@@ -5,6 +5,15 @@
 #include "runtime/hlsl/ir/builtin_functions.h"
 
 namespace kaamos::hlsl {
+namespace {
+
+bool is_in_memory(const ir::Stmt& statement) {
+  if (statement.target == ir::AtomicTarget::kPlace) return false;
+  return statement.target != ir::AtomicTarget::kTyped ||
+         statement.operands[0]->type->resource == ir::ResourceKind::kRWBuffer;
+}
+
+}  // namespace
 
 // Anything else than an unsigned integer of that size becomes a signed one.
 const Type* Atomics::any_integer(const Type* given, uint32_t bytes) {
@@ -17,12 +26,11 @@ const Type* Atomics::any_integer(const Type* given, uint32_t bytes) {
 // Converts an argument to the parameter's type, which is unsigned where the operation is the same
 // for both, and that to the memory's, which keeps its bits. [DXC: gen_intrin_main.txt]
 const ir::Expr* Atomics::operand(const AtomicRule& rule, const Value& argument, const Type* type,
-                                 bool is_compared) {
-  // Floats are exchanged as their bits.
+                                 bool is_compared, bool as_bits) {
   if (is_floating(type->scalar)) {
     const ir::Expr* value = lower_.conversions.convert(argument, type, argument.location);
     const ir::Type* bits = types_.scalar(Scalar::kUint32)->ir;
-    return value ? build_.intrinsic(Intrinsic::asuint, bits, {value}) : nullptr;
+    return value && as_bits ? build_.intrinsic(Intrinsic::asuint, bits, {value}) : value;
   }
   const uint32_t bytes = scalar_bytes(type->scalar, ScalarStorage::kBuffer);
   const bool takes_any = rule.op == ir::AtomicOp::kMin || rule.op == ir::AtomicOp::kMax ||
@@ -41,14 +49,15 @@ Value Atomics::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
     lower_.body_rules.check_model("a 64-bit atomic operation", location);
   }
   statement->atomic = rule.op;
-  const bool is_float = is_floating(type->scalar);
+  // Floats in memory are exchanged as their bits; texels and groupshared places have their type.
+  const bool is_float = is_floating(type->scalar) && is_in_memory(*statement);
   const ir::Type* memory_type = is_float ? types_.scalar(Scalar::kUint32)->ir : type->ir;
   if (rule.has_compare) {
-    statement->compare = operand(rule, arguments[index], type, true);
+    statement->compare = operand(rule, arguments[index], type, true, is_float);
     if (!statement->compare) return error_value();
     ++index;
   }
-  statement->value = operand(rule, arguments[index], type, false);
+  statement->value = operand(rule, arguments[index], type, false, is_float);
   if (!statement->value) return error_value();
   ++index;
   at(location);
@@ -107,10 +116,10 @@ Value Atomics::call_interlocked(const AtomicRule& rule, std::vector<Value>& argu
     report(CheckId::kAtomicType, target.location, {std::string(rule.name), to_string(type)});
     return error_value();
   }
-  if (exchanges_float && target.kind != ValueKind::kMemory) {
-    report(
-        CheckId::kUnsupported, target.location,
-        {"'" + std::string(rule.name) + "' on a float that is not in a structured or raw buffer"});
+  if (exchanges_float && rule.has_compare && target.kind == ValueKind::kTyped &&
+      target.expr->type->resource != ir::ResourceKind::kRWBuffer) {
+    report(CheckId::kUnsupported, target.location,
+           {"'" + std::string(rule.name) + "' on a texel of a texture"});
     return error_value();
   }
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kAtomic);

@@ -24,8 +24,9 @@ class Atomics : LowerPart {
   const Type* any_integer(const Type* given, uint32_t bytes);
 
  private:
+  // Floats in memory are exchanged `as_bits`.
   const ir::Expr* operand(const AtomicRule& rule, const Value& argument, const Type* type,
-                          bool is_compared);
+                          bool is_compared, bool as_bits);
 };
 
 }  // namespace kaamos::hlsl
