@@ -66,6 +66,8 @@ D3D_SHADER_INPUT_TYPE input_type(const rtapi::ShaderBindingInfo& binding) {
   switch (binding.Type) {
     case T::kConstantBuffer:
       return D3D_SIT_CBUFFER;
+    case T::kTextureBuffer:
+      return D3D_SIT_TBUFFER;
     case T::kSampler:
     case T::kComparisonSampler:
       return D3D_SIT_SAMPLER;
@@ -83,6 +85,7 @@ D3D_SHADER_INPUT_TYPE input_type(const rtapi::ShaderBindingInfo& binding) {
 D3D_SRV_DIMENSION dimension(rtapi::ShaderResourceType type) {
   using T = rtapi::ShaderResourceType;
   switch (type) {
+    case T::kTextureBuffer:
     case T::kByteAddressBuffer:
     case T::kStructuredBuffer:
     case T::kBuffer:
@@ -251,17 +254,22 @@ UINT ReflectedVariable::GetInterfaceSlot(UINT) {
 }
 
 ReflectedBuffer::ReflectedBuffer(const rtapi::ShaderBindingInfo& binding) : name_(binding.Name) {
-  const bool is_constant = binding.Type == rtapi::ShaderResourceType::kConstantBuffer;
-  desc_.Type = is_constant ? D3D_CT_CBUFFER : D3D_CT_RESOURCE_BIND_INFO;
-  desc_.Size = is_constant ? (binding.SizeInBytes + 15) / 16 * 16 : binding.SizeInBytes;
+  using T = rtapi::ShaderResourceType;
+  const bool is_texture_buffer = binding.Type == T::kTextureBuffer;
+  const bool has_rows = is_texture_buffer || binding.Type == T::kConstantBuffer;
+  desc_.Type = is_texture_buffer ? D3D_CT_TBUFFER
+               : has_rows        ? D3D_CT_CBUFFER
+                                 : D3D_CT_RESOURCE_BIND_INFO;
+  desc_.Size = has_rows ? (binding.SizeInBytes + 15) / 16 * 16 : binding.SizeInBytes;
   if (binding.IsCBuffer) {
     for (const rtapi::ShaderVariableInfo& member : binding.Element.Members) {
       variables_.push_back(std::make_unique<ReflectedVariable>(member, this));
     }
   } else {
-    // ConstantBuffer<T> has one variable of its own name, a structured buffer "$Element".
+    // ConstantBuffer<T> has one variable of its own name, and so has TextureBuffer<T>; a structured
+    // buffer has "$Element".
     variables_.push_back(std::make_unique<ReflectedVariable>(
-        rtapi::ShaderVariableInfo{is_constant ? binding.Name : "$Element", 0, binding.SizeInBytes,
+        rtapi::ShaderVariableInfo{has_rows ? binding.Name : "$Element", 0, binding.SizeInBytes,
                                   binding.Element},
         this));
   }
@@ -311,6 +319,7 @@ ReflectedResources::ReflectedResources(const rtapi::ShaderReflection& reflection
       if (binding.RegisterClass != register_class) continue;
       bindings_.push_back(bind_desc(binding, id++));
       if (binding.Type == rtapi::ShaderResourceType::kConstantBuffer ||
+          binding.Type == rtapi::ShaderResourceType::kTextureBuffer ||
           binding.Type == rtapi::ShaderResourceType::kStructuredBuffer) {
         buffers_.push_back(std::make_unique<ReflectedBuffer>(binding));
       }

@@ -102,6 +102,25 @@ TEST(LibraryReflection, BindingsAreDescribed) {
   EXPECT_NE(functions["Draw"]->GetResourceBindingDescByName("more", &desc), S_OK);
 }
 
+TEST(LibraryReflection, TextureBuffersAreBuffersOfRows) {
+  const auto library = reflect<ID3D12LibraryReflection>(
+      "tbuffer Frame : register(t2) { float2 scale; float list[3]; };\n"
+      "struct Payload { float color; };\n"
+      "[shader(\"miss\")] void Sky(inout Payload p) { p.color = list[1]; }\n",
+      "lib_6_5", IID_ID3D12LibraryReflection);
+  auto* sky = functions_of(library.Get())["Sky"];
+  D3D12_SHADER_INPUT_BIND_DESC desc = {};
+  ASSERT_EQ(sky->GetResourceBindingDescByName("Frame", &desc), S_OK);
+  EXPECT_EQ(desc.Type, D3D_SIT_TBUFFER);
+  EXPECT_EQ(desc.Dimension, D3D_SRV_DIMENSION_BUFFER);
+  EXPECT_EQ(desc.BindPoint, 2u);
+  D3D12_SHADER_BUFFER_DESC buffer = {};
+  ASSERT_EQ(sky->GetConstantBufferByName("Frame")->GetDesc(&buffer), S_OK);
+  EXPECT_EQ(buffer.Type, D3D_CT_TBUFFER);
+  EXPECT_EQ(buffer.Variables, 2u);
+  EXPECT_EQ(buffer.Size, 64u);
+}
+
 TEST(LibraryReflection, ConstantBuffersHaveVariables) {
   const auto library =
       reflect<ID3D12LibraryReflection>(kLibrary, "lib_6_5", IID_ID3D12LibraryReflection);

@@ -68,6 +68,7 @@ enum class ShaderResourceType : uint32_t {
   kSampler,
   kComparisonSampler,
   kAccelerationStructure,
+  kTextureBuffer,
 };
 
 /// A resource that a source declares and a shader of it can reach.
@@ -80,8 +81,8 @@ struct ShaderBindingInfo {
   uint32_t Register = 0;                                          ///< the first register
   uint32_t Space = 0;                                             ///< of the register
   uint32_t Count = 1;                                             ///< 0xFFFFFFFF: unbounded
-  uint32_t SizeInBytes = 0;  ///< constant buffers; structured buffers: of an element
-  bool IsCBuffer = false;    ///< declared by `cbuffer`, or the buffer "$Globals" of globals
+  uint32_t SizeInBytes = 0;  ///< constant and texture buffers; structured buffers: of an element
+  bool IsCBuffer = false;    ///< declared by `cbuffer` or `tbuffer`, or "$Globals"
   ShaderTypeInfo Element;    ///< T of ConstantBuffer<T>, Texture2D<T>, ...; cbuffer: its members
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtapi/src/shaders/shader_reflection.h"
 
+#include "runtime/hlsl/ir/builtin_types.h"
 #include "runtime/hlsl/ir/layout.h"
 
 namespace rtapi::detail {
@@ -88,6 +89,8 @@ ShaderResourceType resource_of(ir::ResourceKind kind) {
   switch (kind) {
     case K::kConstantBuffer:
       return T::kConstantBuffer;
+    case K::kTextureBuffer:
+      return T::kTextureBuffer;
     case K::kByteAddressBuffer:
     case K::kRWByteAddressBuffer:
       return T::kByteAddressBuffer;
@@ -135,9 +138,9 @@ ShaderResourceType resource_of(ir::ResourceKind kind) {
   return T::kConstantBuffer;
 }
 
-// A `cbuffer` has a structure of its own, which has its name.
+// A `cbuffer` or `tbuffer` has a structure of its own, which has its name.
 bool is_cbuffer(const ir::Binding& binding) {
-  if (binding.type->resource != ir::ResourceKind::kConstantBuffer) return false;
+  if (!kaamos::hlsl::has_members(binding.type->resource)) return false;
   const std::string& name = binding.type->element->structure->name;
   const size_t colon = name.rfind(':');
   return name.substr(colon == std::string::npos ? 0 : colon + 1) == binding.name;
@@ -155,10 +158,9 @@ ShaderBindingInfo describe(const ir::Binding& binding) {
   out.SizeInBytes = binding.size_bytes;
   out.IsCBuffer = is_cbuffer(binding);
   if (binding.type->element != nullptr) {
-    const bool is_constant = out.Type == ShaderResourceType::kConstantBuffer;
-    out.Element =
-        describe(binding.type->element,
-                 is_constant ? ir::Layout::kConstantBuffer : ir::Layout::kStructured, false);
+    const bool has_rows = kaamos::hlsl::has_members(binding.type->resource);
+    out.Element = describe(binding.type->element,
+                           has_rows ? ir::Layout::kConstantBuffer : ir::Layout::kStructured, false);
   }
   return out;
 }

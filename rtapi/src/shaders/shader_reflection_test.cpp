@@ -133,6 +133,34 @@ TEST(ShaderReflection, ConstantBuffersHaveTheirLayout) {
   EXPECT_EQ(sun->Element.Name, "Light");
 }
 
+TEST(ShaderReflection, TextureBuffersHaveTheLayoutOfConstantBuffers) {
+  const auto compiled = check(
+      "struct Light { float3 position; float2 size; };\n"
+      "tbuffer Frame : register(t2, space1) { float2 scale; float list[3]; };\n"
+      "TextureBuffer<Light> lights[4];\n"
+      "RWBuffer<float> target;\n"
+      "[shader(\"compute\")] [numthreads(1, 1, 1)] void Fill() {\n"
+      "  target[0] = list[1] + lights[2].size.y;\n}\n",
+      "lib_6_7");
+  ASSERT_EQ(testing::MessageOf(compiled.Status), "ok");
+  const ShaderBindingInfo* frame = find(compiled, "Frame");
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->Type, ShaderResourceType::kTextureBuffer);
+  EXPECT_EQ(frame->RegisterClass, 't');
+  EXPECT_EQ(frame->Register, 2u);
+  EXPECT_TRUE(frame->IsCBuffer);
+  EXPECT_EQ(frame->SizeInBytes, 52u);
+  ASSERT_EQ(frame->Element.Members.size(), 2u);
+  EXPECT_EQ(frame->Element.Members[1].OffsetInBytes, 16u);
+  const ShaderBindingInfo* lights = find(compiled, "lights");
+  ASSERT_NE(lights, nullptr);
+  EXPECT_EQ(lights->RegisterClass, 't');
+  EXPECT_EQ(lights->Count, 4u);
+  EXPECT_FALSE(lights->IsCBuffer);
+  ASSERT_EQ(lights->Element.Members.size(), 2u);
+  EXPECT_EQ(lights->Element.Members[1].OffsetInBytes, 16u);
+}
+
 TEST(ShaderReflection, VertexShadersHaveTheirInputs) {
   const auto compiled = check(R"(
 float4 Main(float3 position : POSITION, uint2 cell : CELL3, out float fade : FADE) : SV_Position {

@@ -66,6 +66,7 @@ ResourceClass class_of(ResourceKind kind) {
       return {DescriptorKind::kStructuredBuffer, DescriptorAccess::kShaderResource};
     case ResourceKind::kRWStructuredBuffer:
       return {DescriptorKind::kStructuredBuffer, DescriptorAccess::kUnorderedAccess};
+    case ResourceKind::kTextureBuffer:
     case ResourceKind::kBuffer:
       return {DescriptorKind::kTypedBuffer, DescriptorAccess::kShaderResource};
     case ResourceKind::kRWBuffer:

@@ -4,6 +4,7 @@
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
 #include "runtime/hlsl/cpp/emitter.h"
+#include "runtime/hlsl/ir/builtin_types.h"
 #include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
@@ -102,8 +103,7 @@ bool CppEmitter::declare_in_place(const Stmt& stmt) {
   const bool element = from->kind == ExprKind::kLoadElement;
   if (!element && from->kind != ExprKind::kLoad) return false;
   const ResourceKind resource = from->operands[0]->type->resource;
-  const bool is_read_only =
-      resource == ResourceKind::kConstantBuffer || resource == ResourceKind::kStructuredBuffer;
+  const bool is_read_only = has_members(resource) || resource == ResourceKind::kStructuredBuffer;
   if (!is_read_only || from->type->kind != TypeKind::kStruct ||
       bytes_in_place(from->type, from->layout) < kLeastInPlace) {
     return false;

@@ -49,6 +49,7 @@ const char* binding_type(ResourceKind kind) {
     case ResourceKind::kStructuredBuffer:
     case ResourceKind::kRWStructuredBuffer:
       return "kStructuredBuffer";
+    case ResourceKind::kTextureBuffer:
     case ResourceKind::kBuffer:
     case ResourceKind::kRWBuffer:
       return "kTypedBuffer";

@@ -38,6 +38,8 @@ const char* resource_name(ResourceKind kind) {
   switch (kind) {
     case ResourceKind::kConstantBuffer:
       return "ConstantBuffer";
+    case ResourceKind::kTextureBuffer:
+      return "TextureBuffer";
     case ResourceKind::kByteAddressBuffer:
       return "ByteAddressBuffer";
     case ResourceKind::kRWByteAddressBuffer:

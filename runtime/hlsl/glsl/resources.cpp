@@ -19,6 +19,7 @@ constexpr const char* kConstantNames[] = {"source", "offset", "index", "count"};
 bool is_buffer(const Type* resource) {
   switch (resource->resource) {
     case ResourceKind::kConstantBuffer:
+    case ResourceKind::kTextureBuffer:
     case ResourceKind::kByteAddressBuffer:
     case ResourceKind::kRWByteAddressBuffer:
     case ResourceKind::kStructuredBuffer:

@@ -68,6 +68,7 @@ shader::BindingType binding_type_of(ir::ResourceKind kind) {
     case ir::ResourceKind::kStructuredBuffer:
     case ir::ResourceKind::kRWStructuredBuffer:
       return shader::BindingType::kStructuredBuffer;
+    case ir::ResourceKind::kTextureBuffer:
     case ir::ResourceKind::kBuffer:
     case ir::ResourceKind::kRWBuffer:
       return shader::BindingType::kTypedBuffer;

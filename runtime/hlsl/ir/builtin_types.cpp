@@ -12,6 +12,7 @@ using E = ElementRule;
 // In the order of ir::ResourceKind.
 constexpr ResourceTraits kTraits[] = {
     {"ConstantBuffer", K::kConstantBuffer, E::kStruct, 2, 0, false, false},
+    {"TextureBuffer", K::kTextureBuffer, E::kStruct, 0, 0, false, false},
     {"ByteAddressBuffer", K::kByteAddressBuffer, E::kNone, 0, 0, false, false},
     {"RWByteAddressBuffer", K::kRWByteAddressBuffer, E::kNone, 1, 0, false, true},
     {"StructuredBuffer", K::kStructuredBuffer, E::kStruct, 0, 0, false, false},
@@ -50,11 +51,15 @@ struct Unsupported {
 };
 
 constexpr Unsupported kUnsupported[] = {
-    {"FeedbackTexture2D", "sampler feedback"},  {"FeedbackTexture2DArray", "sampler feedback"},
-    {"TextureBuffer", "texture buffers"},       {"InputPatch", "hull and domain shaders"},
-    {"OutputPatch", "hull and domain shaders"}, {"PointStream", "geometry shaders"},
-    {"LineStream", "geometry shaders"},         {"TriangleStream", "geometry shaders"},
-    {"DispatchNodeInputRecord", "work graphs"}, {"NodeOutput", "work graphs"},
+    {"FeedbackTexture2D", "sampler feedback"},
+    {"FeedbackTexture2DArray", "sampler feedback"},
+    {"InputPatch", "hull and domain shaders"},
+    {"OutputPatch", "hull and domain shaders"},
+    {"PointStream", "geometry shaders"},
+    {"LineStream", "geometry shaders"},
+    {"TriangleStream", "geometry shaders"},
+    {"DispatchNodeInputRecord", "work graphs"},
+    {"NodeOutput", "work graphs"},
 };
 
 }  // namespace

@@ -38,6 +38,10 @@ const ResourceTraits* find_resource(std::string_view name);
 // Why a type that HLSL has is not supported, as text to print. Empty if there is no such type.
 std::string_view unsupported_type(std::string_view name);
 
+// A struct in rows of 16 bytes, whose members are read by their names.
+inline bool has_members(ir::ResourceKind kind) {
+  return kind == ir::ResourceKind::kConstantBuffer || kind == ir::ResourceKind::kTextureBuffer;
+}
 inline bool is_texture(ir::ResourceKind kind) {
   return kind >= ir::ResourceKind::kTexture1D && kind <= ir::ResourceKind::kRWTexture3D;
 }

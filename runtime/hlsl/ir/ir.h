@@ -43,6 +43,7 @@ enum class TypeKind : uint8_t { kVoid, kScalar, kVector, kMatrix, kArray, kStruc
 
 enum class ResourceKind : uint8_t {
   kConstantBuffer,  // cbuffer blocks and ConstantBuffer<T>; element is the struct
+  kTextureBuffer,   // the same for tbuffer: its bytes are those of a typed buffer
   kByteAddressBuffer,
   kRWByteAddressBuffer,
   kStructuredBuffer,
@@ -172,7 +173,7 @@ enum class ExprKind : uint8_t {
   kBinding,  // resource value of binding `index`; operands[0]: array index (uint32), if an array
   kHeapResource,  // ResourceDescriptorHeap[operands[0]] or SamplerDescriptorHeap[..] by type
   // Memory. Offsets are uint32 bytes. Out of bounds reads zero.
-  kLoad,         // operands: resource, byte offset. raw and constant buffers
+  kLoad,         // operands: resource, byte offset. raw, constant and texture buffers
   kLoadElement,  // operands: resource, element index, byte offset in it. structured buffers
   kTypedLoad,    // operands: Buffer/RWBuffer/texture, coordinates (int or uint scalar/vector),
                  // [mip level (textures that have them)], [offset: int vector]

@@ -8,6 +8,7 @@
 #include "runtime/hlsl/check/names/mangle.h"
 #include "runtime/hlsl/check/names/signatures.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
+#include "runtime/hlsl/ir/builtin_types.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -127,7 +128,7 @@ Value Calls::call_method(const MemberExpr* callee, const CallExpr* call_expr) {
   if (object.type->is_query())
     return lower_.ray_queries.call_query_method(object, part, arguments, location);
   if (object.type->is_resource()) {
-    if (object.type->resource != ir::ResourceKind::kConstantBuffer) {
+    if (!has_members(object.type->resource)) {
       return lower_.resources.call_resource_method(object, part, arguments, location);
     }
     object = memory(lower_.places.load(object), nullptr, build_.uint32(0), object.type->element,

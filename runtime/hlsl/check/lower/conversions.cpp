@@ -131,8 +131,7 @@ ConversionRank Conversions::rank(const Type* from, const Type* to) {
     if (result.possible && has_elements && !same_type(from->element, to->element)) result.cost = 1;
     return result;
   }
-  if (from->is_resource() && from->resource == ir::ResourceKind::kConstantBuffer &&
-      to->is_struct()) {
+  if (from->is_resource() && has_members(from->resource) && to->is_struct()) {
     result = rank(from->element, to);
     ++result.cost;
   }
@@ -281,8 +280,8 @@ const ir::Expr* Conversions::convert(const Value& value, const Type* to, SourceL
   if (from->is_resource() && to->is_resource()) {
     return from->ir == to->ir ? lower_.places.load(value) : refuse();
   }
-  if (from->is_resource() && from->resource == ir::ResourceKind::kConstantBuffer &&
-      to->is_struct() && rank(from->element, to).possible) {
+  if (from->is_resource() && has_members(from->resource) && to->is_struct() &&
+      rank(from->element, to).possible) {
     const ir::Expr* resource = lower_.places.load(value);
     if (!resource) return nullptr;
     return convert(memory(resource, nullptr, build_.uint32(0), from->element,

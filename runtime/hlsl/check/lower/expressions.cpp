@@ -292,7 +292,7 @@ Value Expressions::member_of(const Value& base, const QualifiedName& name) {
   }
   const Type* type = base.type;
   if (type->is_resource()) {
-    if (type->resource == ir::ResourceKind::kConstantBuffer) {
+    if (has_members(type->resource)) {
       const ir::Expr* resource = lower_.places.load(base);
       if (!resource) return error_value();
       return member_of(memory(resource, nullptr, build_.uint32(0), type->element,

@@ -55,7 +55,7 @@ VariableInfo* Bindings::make_binding(const std::string& name, const Type* type,
   binding->type = element;
   binding->resource = element->ir;
   binding->register_class = traits_of(element->resource).register_class;
-  if (element->resource == ir::ResourceKind::kConstantBuffer) {
+  if (has_members(element->resource)) {
     binding->size_bytes = layout_of(element->element, ir::Layout::kConstantBuffer).size;
   } else if (has_elements(element->resource)) {
     constexpr uint32_t kMaxElementBytes = 2048;
@@ -84,9 +84,8 @@ void Bindings::declare_binding(const VariableDecl* decl, const Type* type, Scope
 }
 
 void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
-  if (decl->is_texture_buffer) {
-    report(CheckId::kUnsupported, decl->location, {"'tbuffer' (texture buffers)"});
-  }
+  const ir::ResourceKind kind = decl->is_texture_buffer ? ir::ResourceKind::kTextureBuffer
+                                                        : ir::ResourceKind::kConstantBuffer;
   StructInfo* structure = parts_.structs.make_struct(nullptr, scope, std::string(decl->name));
   structure->complete = true;
   BindingInfo* binding = &program_.bindings.emplace_back();
@@ -94,9 +93,9 @@ void Bindings::declare_buffer(const BufferDecl* decl, Scope* scope) {
   binding->name = decl->name;
   binding->place = decl->location.raw;
   binding->automatic_space = program_.options->automatic_space;
-  binding->register_class = 2;
+  binding->register_class = traits_of(kind).register_class;
   // Set before the members, because the size of an array may (wrongly) name one of them.
-  binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
+  binding->type = types_.resource(kind, structure->type);
   binding->resource = binding->type->ir;
   apply_register(binding, decl->annotations);
   std::vector<BufferMember> members;

@@ -341,11 +341,10 @@ const Type* Resolver::resolve_resource(const ResourceTraits& traits, const NameP
   // The number of samples, which nothing depends on.
   if (arguments.size() == 2 && !value_argument(arguments[1], scope)) return types_.error();
   const bool texel = traits.element != ElementRule::kStruct;
-  const bool fits = texel ? (element->is_scalar() || element->is_vector())
-                    : traits.kind == ir::ResourceKind::kConstantBuffer
-                        ? element->is_struct()
-                        : (element->is_numeric() || element->is_struct() || element->is_enum() ||
-                           element->is_array());
+  const bool fits = texel                      ? (element->is_scalar() || element->is_vector())
+                    : has_members(traits.kind) ? element->is_struct()
+                                               : (element->is_numeric() || element->is_struct() ||
+                                                  element->is_enum() || element->is_array());
   if (!fits || contains_resource(element)) {
     report(CheckId::kElementType, arguments[0].location,
            {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});

@@ -25,7 +25,7 @@ struct k_Window {
 //@ k_buffer_bytes
 uint64_t k_buffer_bytes(k_Descriptor d) {
   uint kind = d.kind_access & 0xFFFFu;
-  return kind >= 1u && kind <= 3u ? d.size : 0UL;  // constant, raw, structured
+  return kind >= 1u && kind <= 4u ? d.size : 0UL;  // constant, raw, structured, typed
 }
 // Memory without bounds (a root descriptor) stays without: then the compiler sees a constant and
 // removes every comparison with it.

@@ -28,7 +28,7 @@ enum class DescriptorKind : uint16_t {
   kConstantBuffer = 1,
   kRawBuffer = 2,         // (RW)ByteAddressBuffer
   kStructuredBuffer = 3,  // stride_bytes comes from the view
-  kTypedBuffer = 4,       // (RW)Buffer<T>: format is a DXGI_FORMAT
+  kTypedBuffer = 4,       // (RW)Buffer<T>, TextureBuffer<T>: format is a DXGI_FORMAT
   kTexture = 5,           // address: the backend's view object
   kSampler = 6,           // address: the backend's sampler object
   kAccelerationStructure = 7,

@@ -67,7 +67,8 @@ struct Window {
 constexpr uint64_t buffer_bytes(const Descriptor& buffer) {
   const bool is_buffer = buffer.kind == DescriptorKind::kRawBuffer ||
                          buffer.kind == DescriptorKind::kStructuredBuffer ||
-                         buffer.kind == DescriptorKind::kConstantBuffer;
+                         buffer.kind == DescriptorKind::kConstantBuffer ||
+                         buffer.kind == DescriptorKind::kTypedBuffer;  // TextureBuffer<T>
   return is_buffer ? buffer.size_bytes : 0;
 }
 
