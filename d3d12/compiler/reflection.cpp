@@ -58,7 +58,9 @@ D3D_NAME system_value(const std::string& semantic) {
                              {"sv_isfrontface", D3D_NAME_IS_FRONT_FACE},
                              {"sv_barycentrics", D3D_NAME_BARYCENTRICS},
                              {"sv_target", D3D_NAME_TARGET},
-                             {"sv_depth", D3D_NAME_DEPTH}};
+                             {"sv_depth", D3D_NAME_DEPTH},
+                             {"sv_depthgreaterequal", D3D_NAME_DEPTH_GREATER_EQUAL},
+                             {"sv_depthlessequal", D3D_NAME_DEPTH_LESS_EQUAL}};
   std::string lower = semantic;
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const Name& name : kNames) {

@@ -67,6 +67,19 @@ ColorAndDepth OwnDepth() {
   return result;
 }
 
+// The same, within what the triangle allows.
+[shader("pixel")]
+float4 NoLessDepth(out float depth : SV_DepthGreaterEqual) : SV_Target0 {
+  depth = tint.x;
+  return tint;
+}
+
+[shader("pixel")]
+float4 NoMoreDepth(out float depth : SV_DepthLessEqual) : SV_Target0 {
+  depth = tint.x;
+  return tint;
+}
+
 struct TwoColors {
   float4 first : SV_Target0;
   float4 second : SV_Target1;

@@ -137,6 +137,14 @@ void depth_stays_in_the_viewport(Context& t) {
   t.equal("SV_Depth 0.9", with(own, 0.9f, 0.5f), 0.5f);
   t.equal("SV_Depth 0.1", with(own, 0.1f, 0.5f), 0.25f);
   t.equal("SV_Depth 0.375", with(own, 0.375f, 0.5f), 0.375f);
+  desc.PS = screen.shader("NoLessDepth");
+  const PipelineState rises = screen.make(desc);
+  desc.PS = screen.shader("NoMoreDepth");
+  const PipelineState falls = screen.make(desc);
+  t.equal("SV_DepthGreaterEqual above", with(rises, 0.4375f, 0.5f), 0.4375f);
+  t.equal("SV_DepthGreaterEqual below", with(rises, 0.3125f, 0.5f), 0.375f);
+  t.equal("SV_DepthLessEqual above", with(falls, 0.4375f, 0.5f), 0.375f);
+  t.equal("SV_DepthLessEqual below", with(falls, 0.3125f, 0.5f), 0.3125f);
   t.equal("z 1.5", with(place, 0, 1.5f), 0.5f);
   t.equal("z 1.5: SV_Position.z", screen.texel<float>(4, 4, 2), 0.625f);
   t.equal("z -1", with(place, 0, -1), 0.25f);

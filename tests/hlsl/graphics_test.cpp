@@ -165,6 +165,36 @@ void main(float4 p : SV_Position, uint id : SV_PrimitiveID, bool front : SV_IsFr
          EXPECT_EQ(run.out("SV_Target", 2, 1), all_bits(1));
          EXPECT_EQ(run.floats("SV_Depth", 0), all(0.25f));
        }},
+      // The depth that a shader gives is bounded by the pixel's own.
+      {"DepthThatRises", "ps_6_6", R"(
+float4 main(float a : A, out float depth : SV_DepthGreaterEqual) : SV_Target {
+  depth = a;
+  return a;
+})",
+       [](GraphicsRunner& run) {
+         run.set("A", 0, 0, {0.25f, 0.5f, 0.75f, 1, -1, kNan, 0.4f, 0.6f});
+         run.set("SV_Position", 0, 2, all(0.5f));
+         run.run();
+         EXPECT_EQ(run.floats("SV_DepthGreaterEqual", 0),
+                   (Floats{0.5f, 0.5f, 0.75f, 1, 0.5f, 0.5f, 0.5f, 0.6f}));
+         EXPECT_EQ(run.floats("SV_Target", 0, 0)[4], -1.0f);
+       }},
+      {"DepthThatFalls", "ps_6_6", R"(
+struct Out { float depth : SV_DepthLessEqual; float4 color : SV_Target; };
+Out main(float a : A, float4 p : SV_Position) {
+  Out o;
+  o.depth = a;
+  o.color = p;
+  return o;
+})",
+       [](GraphicsRunner& run) {
+         EXPECT_EQ(run.graphics().input_count, 2u);
+         run.set("A", 0, 0, {0.25f, 0.5f, 0.75f, 1, -1, 0.1f, 0.4f, 0.6f});
+         run.set("SV_Position", 0, 2, all(0.5f));
+         run.run();
+         EXPECT_EQ(run.floats("SV_DepthLessEqual", 0),
+                   (Floats{0.25f, 0.5f, 0.5f, 0.5f, -1, 0.1f, 0.4f, 0.5f}));
+       }},
       // RAS-85, RAS-86
       {"DiscardEndsEffects", "ps_6_6", R"(
 RWByteAddressBuffer r : register(u0);

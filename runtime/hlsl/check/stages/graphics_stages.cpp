@@ -84,6 +84,7 @@ class GraphicsSignature : StagePart {
 
   std::vector<ir::SignatureElement> elements;
   bool failed = false;
+  GraphicsSignature* inputs = nullptr;  // of the outputs of a pixel shader
 
   // An input's value, made of parameters of the wrapper; null after an error.
   const ir::Expr* read(const Type* type, Name& name, const Source& source) {
@@ -237,9 +238,42 @@ class GraphicsSignature : StagePart {
     if (!value) return build_.convert(build_.read(variable), plain_scalar(type->scalar));
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
     statement->place = build_.read(variable);
-    statement->value = build_.convert(value, plain_scalar(scalar));
+    statement->value = bounded(*name.semantic, build_.convert(value, plain_scalar(scalar)));
     lower_.body.emit(statement);
     return nullptr;
+  }
+
+  // SV_DepthGreaterEqual never lowers the pixel's depth, SV_DepthLessEqual never raises it.
+  const ir::Expr* bounded(const Semantic& semantic, const ir::Expr* value) {
+    const bool rises = same_letters(semantic.base, "SV_DepthGreaterEqual");
+    if (!rises && !same_letters(semantic.base, "SV_DepthLessEqual")) return value;
+    return build_.intrinsic(rises ? Intrinsic::max : Intrinsic::min, value->type,
+                            {value, inputs->depth_of_pixel()});
+  }
+
+  // SV_Position.z, which becomes the last input if it is none yet.
+  const ir::Expr* depth_of_pixel() {
+    for (size_t i = 0; i < elements.size(); ++i) {
+      if (elements[i].system_value == SystemValue::kPosition) {
+        return build_.swizzle(build_.read(wrapper_.parameters[i]), {2});
+      }
+    }
+    ir::SignatureElement element;
+    element.semantic = "SV_Position";
+    element.system_value = SystemValue::kPosition;
+    element.type = ColumnType::kFloat;
+    element.interpolation = Interpolation::kLinear;
+    element.components = 4;
+    if (!elements.empty()) {
+      element.first_column = elements.back().first_column + elements.back().components;
+    }
+    ir::Variable* variable = build_.variable("position", build_.vector_type(Scalar::kFloat32, 4),
+                                             ir::Storage::kParameter);
+    variable->mode = ir::ParameterMode::kIn;
+    wrapper_.parameters.insert(
+        wrapper_.parameters.begin() + static_cast<std::ptrdiff_t>(elements.size()), variable);
+    elements.push_back(std::move(element));
+    return build_.swizzle(build_.read(variable), {2});
   }
 
   // SV_Coverage says of a pixel's one sample, as an input, whether it is covered; as an output,
@@ -290,8 +324,10 @@ class GraphicsSignature : StagePart {
       return false;
     }
     for (const ir::SignatureElement& other : elements) {
-      if (other.semantic_index == element.semantic_index &&
-          same_letters(other.semantic, element.semantic)) {
+      const bool two_depths =
+          rule.value == SystemValue::kDepth && other.system_value == SystemValue::kDepth;
+      if (two_depths || (other.semantic_index == element.semantic_index &&
+                         same_letters(other.semantic, element.semantic))) {
         fail(CheckId::kSemanticTwice, source.location,
              {is_output_ ? "outputs" : "inputs", shader(),
               element.semantic + std::to_string(element.semantic_index)});
@@ -360,6 +396,7 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   if (!read_waves_of_helpers(*function, entry)) return false;
   GraphicsSignature inputs(program_, lower_, entry, false, *wrapper, live);
   GraphicsSignature outputs(program_, lower_, entry, true, *wrapper, live);
+  outputs.inputs = &inputs;
   const auto name_of_value = [](const Semantic* semantic) {
     return GraphicsSignature::Name{semantic, semantic ? semantic->index : 0};
   };
