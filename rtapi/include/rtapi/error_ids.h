@@ -558,6 +558,7 @@ inline constexpr ErrorId kPackOverlap{2547};  ///< packoffset of '{0}' overlaps 
 inline constexpr ErrorId kPackOffsetPlace{2548};  ///< packoffset of '{0}' is ignored: it is for members of a constant buffer
 inline constexpr ErrorId kElementSize{2549};  ///< an element of '{0}' has {1} bytes; D3D12 allows 2048
 inline constexpr ErrorId kGroupsharedSize{2550};  ///< the groupshared variables of '{0}' take {1} bytes; D3D12 allows 32768
+inline constexpr ErrorId kConstantSpace{2551};  ///< '{0}' is in the constant buffer of globals, whose members have no register space
 inline constexpr ErrorId kShaderAttribute{2560};  ///< [shader()] takes "raygeneration", "intersection", "anyhit", "closesthit", "miss", "callable", "compute", "vertex" or "pixel", not {0}
 inline constexpr ErrorId kSkippedStage{2561};  ///< '{0}' is skipped: {1} shaders are not supported yet
 inline constexpr ErrorId kNoEntryPoint{2562};  ///< entry point '{0}' not found

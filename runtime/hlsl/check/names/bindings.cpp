@@ -258,6 +258,10 @@ void Bindings::declare_uniform(const VariableDecl* decl, const Type* type, Scope
     return;
   }
   open_globals_buffer(decl->location);
+  for (const RegisterBinding& written : decl->annotations.registers) {
+    if (!written.has_space) continue;
+    report(CheckId::kConstantSpace, written.location, {std::string(decl->name)});
+  }
   if (decl->initializer) {
     report(CheckId::kUniformInitialiser, decl->location, {std::string(decl->name)});
   }
