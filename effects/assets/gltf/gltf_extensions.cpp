@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "effects/assets/gltf/gltf_webp.h"
+
 namespace kaamos::effects {
 namespace {
 
@@ -18,6 +20,23 @@ constexpr std::array<std::string_view, 11> kRead = {"EXT_mesh_gpu_instancing",
                                                     "KHR_mesh_quantization",
                                                     "KHR_texture_transform",
                                                     "MSFT_lod"};
+
+/// Extensions that optional libraries read.
+struct Optional {
+  std::string_view name;
+  std::string_view package;  // Debian's name of the library
+  bool (*can_read)();
+};
+
+constexpr std::array kOptional = {
+    Optional{"EXT_texture_webp", "libwebp-dev", &can_read_webp},
+};
+
+const Optional* optional_of(std::string_view name) {
+  const auto row = std::find_if(kOptional.begin(), kOptional.end(),
+                                [&](const Optional& optional) { return optional.name == name; });
+  return row == kOptional.end() ? nullptr : &*row;
+}
 
 struct Unread {
   std::string_view name;
@@ -48,7 +67,14 @@ constexpr std::array kUnread = {
 }  // namespace
 
 bool is_gltf_extension_read(std::string_view name) {
+  if (const Optional* optional = optional_of(name)) return optional->can_read();
   return std::find(kRead.begin(), kRead.end(), name) != kRead.end();
+}
+
+std::string gltf_remedy(std::string_view name) {
+  const Optional* optional = optional_of(name);
+  if (!optional || optional->can_read()) return {};
+  return " (install " + std::string(optional->package) + " and build Kaamos again to read it)";
 }
 
 Status check_required_extensions(const std::vector<std::string>& required) {
@@ -56,7 +82,8 @@ Status check_required_extensions(const std::vector<std::string>& required) {
     // A mesh has a material whether it has variants or not.
     if (!is_gltf_extension_read(name) && name != "KHR_materials_variants")
       return make_error(ErrorId::kGltf, "requires the extension " + name +
-                                            ", which is not supported: export the file without it");
+                                            ", which is not supported" + gltf_remedy(name) +
+                                            ": export the file without it");
   return {};
 }
 
@@ -70,7 +97,8 @@ void warn_of_extensions(const std::vector<std::string>& used, std::vector<std::s
                                   [&](const Unread& unread) { return unread.name == name; });
     warnings.push_back(
         "the extension " + name + " is not read: " +
-        (row == kUnread.end() ? "what it describes is left out" : std::string(row->loss)));
+        (row == kUnread.end() ? "what it describes is left out" : std::string(row->loss)) +
+        gltf_remedy(name));
   }
 }
 

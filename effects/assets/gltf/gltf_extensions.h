@@ -13,6 +13,10 @@ namespace kaamos::effects {
 /// True if the loader reads what the extension says.
 bool is_gltf_extension_read(std::string_view name);
 
+/// What follows the name of an extension that the build has no library for: " (install ...)", with
+/// Debian's name of the library. Empty where the extension is read, or none would help.
+std::string gltf_remedy(std::string_view name);
+
 /// Refuses a file that requires an extension which is not read.
 /// @errors KA3020.
 Status check_required_extensions(const std::vector<std::string>& required);

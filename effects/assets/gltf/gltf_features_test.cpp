@@ -116,9 +116,9 @@ TEST(GltfExtensions, PicturesOfOtherKindsAreNamed) {
       std::search(bytes.begin(), bytes.end(), png.begin(), png.end(),
                   [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
   ASSERT_NE(start, bytes.end());
-  const std::string webp = "RIFF____WEBPVP8 ";
-  std::copy(webp.begin(), webp.end(), start);
-  expect_error(load(bytes), "is a WebP picture (EXT_texture_webp), PNG and JPEG are read");
+  const std::string ktx2 = "\xABKTX 20\xBB";
+  std::copy(ktx2.begin(), ktx2.end(), start);
+  expect_error(load(bytes), "is a KTX2 picture (KHR_texture_basisu), PNG and JPEG are read");
 }
 
 TEST(GltfDocument, VersionsThatAreNotSupportedAreRefused) {

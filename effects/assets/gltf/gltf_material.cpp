@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "effects/assets/gltf/gltf_accessor.h"
+#include "effects/assets/gltf/gltf_extensions.h"
 #include "effects/assets/gltf/gltf_reader.h"
+#include "effects/assets/gltf/gltf_webp.h"
 
 namespace kaamos::effects {
 namespace {
@@ -139,12 +141,21 @@ void read_glossiness(const tinygltf::Value& from, MaterialConstants& to) {
   to.specular = to.dielectric_f0 = 1.0f;
 }
 
-/// The kind of a picture that is neither PNG nor JPEG, by its first bytes; empty: unknown.
+/// The image of a texture; below 0: none that can be read. A PNG or JPEG comes before a WebP
+/// picture that stands for the same. [EXT_texture_webp]
+int source_of(const tinygltf::Texture& texture) {
+  const auto webp = texture.extensions.find("EXT_texture_webp");
+  if (texture.source >= 0 || !can_read_webp() || webp == texture.extensions.end() ||
+      !webp->second.IsObject())
+    return texture.source;
+  return static_cast<int>(std::clamp(member(webp->second, "source", 0, -1.0), -1.0, 1e9));
+}
+
+/// The kind of a picture that is not read, by its first bytes; empty: unknown.
 std::string picture_kind(std::span<const std::uint8_t> bytes) {
   const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
                                std::min<std::size_t>(bytes.size(), 16));
-  if (start.starts_with("RIFF") && start.substr(8).starts_with("WEBP"))
-    return "a WebP picture (EXT_texture_webp)";
+  if (is_webp(bytes) && !can_read_webp()) return "a WebP picture (EXT_texture_webp)";
   if (start.starts_with("\xABKTX 20")) return "a KTX2 picture (KHR_texture_basisu)";
   if (start.starts_with("DDS ")) return "a DDS picture (MSFT_texture_dds)";
   if (start.substr(std::min<std::size_t>(4, start.size())).starts_with("ftypavif"))
@@ -209,13 +220,31 @@ Result<TextureImage> MaterialReader::decode(int source, const std::string& where
       static_cast<int>(std::min<std::size_t>(bytes.size(), std::numeric_limits<int>::max()));
   int width = 0, height = 0, channels = 0;
   if (const std::string kind = picture_kind(bytes); !kind.empty())
-    return make_error(ErrorId::kGltf, place + ": is " + kind + ", PNG and JPEG are read");
-  if (size == 0 || !stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
+    return make_error(ErrorId::kGltf, place + ": is " + kind + ", PNG and JPEG are read" +
+                                          (is_webp(bytes) ? gltf_remedy("EXT_texture_webp") : ""));
+  if (is_webp(bytes)) {
+    const std::optional<WebpHeader> header = read_webp_header(bytes);
+    if (!header) return make_error(ErrorId::kGltf, place + ": is damaged (WebP)");
+    if (header->is_animated)
+      return make_error(ErrorId::kGltf,
+                        place + ": is an animated WebP picture, still ones are read");
+    width = header->width;
+    height = header->height;
+  } else if (size == 0 || !stbi_info_from_memory(bytes.data(), size, &width, &height, &channels)) {
     return make_error(ErrorId::kGltf, place + ": is neither a readable PNG nor a readable JPEG");
+  }
   if (width > kMaxImageSide || height > kMaxImageSide)
     return make_error(ErrorId::kGltf, place + ": is " + std::to_string(width) + " x " +
                                           std::to_string(height) + " pixels, a side of " +
                                           std::to_string(kMaxImageSide) + " is allowed");
+  TextureImage to;
+  to.name = !from.name.empty()  ? from.name
+            : !from.uri.empty() ? from.uri
+                                : "image " + std::to_string(id);
+  if (is_webp(bytes)) {
+    if (!decode_webp(bytes, to)) return make_error(ErrorId::kGltf, place + ": is damaged (WebP)");
+    return to;
+  }
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
   if (!pixels) {
@@ -223,10 +252,6 @@ Result<TextureImage> MaterialReader::decode(int source, const std::string& where
     return make_error(ErrorId::kGltf,
                       place + ": is damaged (" + (reason ? reason : "no reason given") + ")");
   }
-  TextureImage to;
-  to.name = !from.name.empty()  ? from.name
-            : !from.uri.empty() ? from.uri
-                                : "image " + std::to_string(id);
   to.width = static_cast<std::uint32_t>(width);
   to.height = static_cast<std::uint32_t>(height);
   to.mips.emplace_back(pixels.get(), pixels.get() + std::size_t{to.width} * to.height * 4);
@@ -300,20 +325,22 @@ Result<std::optional<MaterialReader::ImageUse>> MaterialReader::image_of(int id,
                                           std::to_string(model_.textures.size()));
   const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(id)];
   const std::string place = where + ", texture " + std::to_string(id);
-  if (texture.source < 0) {
+  const int source = source_of(texture);
+  if (source < 0) {
     std::string kind;
-    for (const auto& [name, value] : texture.extensions) kind += (kind.empty() ? "" : ", ") + name;
+    for (const auto& [name, value] : texture.extensions)
+      kind += (kind.empty() ? "" : ", ") + name + gltf_remedy(name);
     reader_.warn(place + ": has no PNG or JPEG source" + (kind.empty() ? "" : ", only " + kind) +
                  "; the texture is left out");
     return std::optional<ImageUse>();
   }
-  if (static_cast<std::size_t>(texture.source) >= model_.images.size())
-    return make_error(ErrorId::kGltf, place + ": names image " + std::to_string(texture.source) +
-                                          " of " + std::to_string(model_.images.size()));
+  if (static_cast<std::size_t>(source) >= model_.images.size())
+    return make_error(ErrorId::kGltf, place + ": names image " + std::to_string(source) + " of " +
+                                          std::to_string(model_.images.size()));
   if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) >= model_.samplers.size())
     return make_error(ErrorId::kGltf, place + ": names sampler " + std::to_string(texture.sampler) +
                                           " of " + std::to_string(model_.samplers.size()));
-  const Result<std::int32_t> decoded = image(texture.source, srgb, place);
+  const Result<std::int32_t> decoded = image(source, srgb, place);
   if (!decoded.ok()) return decoded.error();
   return std::optional(ImageUse{
       decoded.value(), texture.sampler < 0 ? 0 : static_cast<std::uint32_t>(texture.sampler) + 1});
@@ -393,11 +420,11 @@ Status MaterialReader::glossiness(const tinygltf::Material& from, const std::str
                                   MaterialConstants& to) {
   const tinygltf::TextureInfo info = texture_of(from, kGlossiness, "specularGlossinessTexture");
   if (info.index < 0 || to.image[kSpecularColorTexture] == kNoTexture) return {};
-  const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(info.index)];
+  const int source = source_of(model_.textures[static_cast<std::size_t>(info.index)]);
   const float glossiness = 1.0f - to.roughness;
-  const auto [found, is_new] = roughness_ids_.try_emplace({texture.source, glossiness}, 0);
+  const auto [found, is_new] = roughness_ids_.try_emplace({source, glossiness}, 0);
   if (is_new) {
-    Result<TextureImage> picture = decode(texture.source, where);
+    Result<TextureImage> picture = decode(source, where);
     if (!picture.ok()) return picture.error();
     picture.value().name += " (roughness)";
     picture.value().srgb = false;

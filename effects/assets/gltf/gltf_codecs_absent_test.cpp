@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A build without the optional libraries names what it cannot read, and what to install.
+#include <gtest/gtest.h>
+
+#include "effects/assets/gltf/gltf_extensions.h"
+#include "effects/assets/gltf/gltf_test_support.h"
+
+namespace kaamos::effects {
+namespace {
+
+TEST(GltfCodecsAbsent, RequiredExtensionsNameTheirPackage) {
+  for (const auto& [name, package] : {std::pair("EXT_texture_webp", "libwebp-dev")}) {
+    EXPECT_FALSE(is_gltf_extension_read(name));
+    const std::string list = std::string("[\"") + name + "\"]";
+    GltfFile file;
+    file.more = ",\"extensionsRequired\":" + list + ",\"extensionsUsed\":" + list;
+    expect_error(load(file.bytes()), std::string("requires the extension ") + name +
+                                         ", which is not supported (install " + package +
+                                         " and build Kaamos again to read it)");
+    file.more = ",\"extensionsUsed\":" + list;
+    expect_warning(load(file.bytes()), std::string("the extension ") + name + " is not read: ");
+    expect_warning(load(file.bytes()), std::string("(install ") + package);
+  }
+}
+
+TEST(GltfCodecsAbsent, WebpPicturesAreRefusedByName) {
+  GltfFile file;
+  file.add(std::vector<std::uint8_t>{'R', 'I', 'F', 'F', 4, 0, 0, 0, 'W', 'E', 'B', 'P'}, 5121,
+           "SCALAR", 1);
+  file.primitive = R"(,"material":0)";
+  const std::string images = R"(,"images":[{"bufferView":2,"mimeType":"image/webp"}],"textures":[)";
+  const std::string materials =
+      R"(],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])";
+  file.more = images + R"({"source":0})" + materials;
+  expect_error(load(file.bytes()),
+               "image 0: is a WebP picture (EXT_texture_webp), PNG and JPEG are read (install "
+               "libwebp-dev and build Kaamos again to read it)");
+  file.more = images + R"({"extensions":{"EXT_texture_webp":{"source":0}}})" + materials;
+  expect_warning(load(file.bytes()),
+                 "has no PNG or JPEG source, only EXT_texture_webp (install libwebp-dev");
+}
+
+}  // namespace
+}  // namespace kaamos::effects
