@@ -9,7 +9,8 @@ namespace kaamos::effects {
 namespace {
 
 TEST(GltfCodecsAbsent, RequiredExtensionsNameTheirPackage) {
-  for (const auto& [name, package] : {std::pair("EXT_texture_webp", "libwebp-dev")}) {
+  for (const auto& [name, package] : {std::pair("EXT_texture_webp", "libwebp-dev"),
+                                      std::pair("KHR_draco_mesh_compression", "libdraco-dev")}) {
     EXPECT_FALSE(is_gltf_extension_read(name));
     const std::string list = std::string("[\"") + name + "\"]";
     GltfFile file;
@@ -38,6 +39,19 @@ TEST(GltfCodecsAbsent, WebpPicturesAreRefusedByName) {
   file.more = images + R"({"extensions":{"EXT_texture_webp":{"source":0}}})" + materials;
   expect_warning(load(file.bytes()),
                  "has no PNG or JPEG source, only EXT_texture_webp (install libwebp-dev");
+}
+
+TEST(GltfCodecsAbsent, DracoMeshesWithAPlainCopyAreReadFromIt) {
+  GltfFile file;
+  file.more = R"(,"extensionsUsed":["KHR_draco_mesh_compression"])";
+  file.primitive = R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}})";
+  expect_warning(load(file.bytes()), "KHR_draco_mesh_compression is not read: the uncompressed");
+  EXPECT_EQ(scene_of(load(file.bytes())).meshes.at(0).triangle_count(), 2u);
+  file.attributes =
+      R"("POSITION":)" + file.accessor(R"("componentType":5126,"count":4,"type":"VEC3")");
+  expect_error(load(file.bytes()),
+               "is compressed by KHR_draco_mesh_compression, which is not supported (install "
+               "libdraco-dev and build Kaamos again to read it), and has no uncompressed copy");
 }
 
 }  // namespace

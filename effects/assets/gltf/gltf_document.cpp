@@ -48,6 +48,8 @@ constexpr std::array kMesh = {Member{"primitives", Kind::kList, true}};
 constexpr std::array kPrimitive = {
     Member{"attributes", Kind::kObject, true}, Member{"indices", Kind::kWhole},
     Member{"material", Kind::kWhole}, Member{"mode", Kind::kWhole}, Member{"targets", Kind::kList}};
+constexpr std::array kDraco = {Member{"bufferView", Kind::kWhole, true},
+                               Member{"attributes", Kind::kObject, true}};
 constexpr std::array kNode = {Member{"mesh", Kind::kWhole}, Member{"camera", Kind::kWhole},
                               Member{"skin", Kind::kWhole}, Member{"children", Kind::kWholes}};
 constexpr std::array kSkin = {Member{"joints", Kind::kWholes, true},
@@ -117,6 +119,7 @@ class Checker {
       : root_(root), binary_bytes_(binary_bytes) {}
   Status run(std::vector<std::string>& warnings);
   std::vector<HiddenIndices> hidden;
+  std::vector<DracoPrimitive> draco_primitives;
   std::vector<std::size_t> named_bytes;
   bool changed = false;
 
@@ -134,6 +137,7 @@ class Checker {
   Status accessor(Json& accessor, const std::string& where);
   Status buffer(Json& buffer, std::size_t id, const std::string& where);
   Status primitive(Json& primitive, std::size_t mesh, std::size_t id, const std::string& where);
+  Status draco(Json& primitive, std::size_t mesh, std::size_t id, const std::string& where);
   Status camera(Json& camera, const std::string& where);
   Status animation(Json& animation, const std::string& where);
   Status lights();
@@ -399,18 +403,46 @@ bool Checker::has_view(const Json& id) const {
   return view && view->get<std::int64_t>() >= 0;
 }
 
+// Checks what a primitive says of its stream, and keeps it for the decoder.
+Status Checker::draco(Json& primitive, std::size_t mesh, std::size_t id, const std::string& where) {
+  const std::string name = "KHR_draco_mesh_compression";
+  const auto all = primitive.find("extensions");
+  if (all == primitive.end() || !all->is_object()) return {};
+  const auto found = all->find(name);
+  if (found == all->end()) return {};
+  if (!can_read_draco()) {
+    const Json* position = find(primitive["attributes"], "POSITION");
+    return !position || has_view(*position)
+               ? Status()
+               : fail(where, "is compressed by " + name + ", which is not supported" +
+                                 gltf_remedy(name) +
+                                 ", and has no uncompressed copy: export the file without it");
+  }
+  const std::string place = where + ", " + name;
+  Status status = object(*found, place, kDraco);
+  if (status.ok()) status = names(*found, "bufferView", "bufferViews", "bufferView", place);
+  if (!status.ok()) return status;
+  const Json* mode = find(primitive, "mode");
+  if (mode && *mode != 4 && *mode != 5)
+    return fail(place, "the primitive's mode is " + std::to_string(mode->get<std::int64_t>()) +
+                           ", 4 and 5 (triangles and strips) are allowed");
+  DracoPrimitive out{mesh, id, (*found)["bufferView"].get<int>(), {}, place};
+  for (auto& [attribute, in_stream] : (*found)["attributes"].items()) {
+    if (!is_kind(in_stream, Kind::kWhole) || in_stream.get<std::int64_t>() < 0 ||
+        in_stream.get<std::int64_t>() > 0xFFFFFFFF)
+      return fail(place, "attribute " + attribute + " is not a whole number from 0 to 4294967295");
+    out.attributes[attribute] = in_stream.get<std::uint32_t>();
+  }
+  draco_primitives.push_back(std::move(out));
+  return {};
+}
+
 Status Checker::primitive(Json& primitive, std::size_t mesh, std::size_t id,
                           const std::string& where) {
   for (auto& [name, accessor] : primitive["attributes"].items())
     if (!is_kind(accessor, Kind::kWhole))
       return fail(where, "attribute " + name + " is not a whole number");
-  const Json* all = find(primitive, "extensions");
-  const Json* position = find(primitive["attributes"], "POSITION");
-  if (all && all->is_object() && find(*all, "KHR_draco_mesh_compression") && position &&
-      !has_view(*position))
-    return fail(where,
-                "is compressed by KHR_draco_mesh_compression, which is not supported, and has no "
-                "uncompressed copy: export the file without it");
+  if (Status status = draco(primitive, mesh, id, where); !status.ok()) return status;
   if (const auto targets = primitive.find("targets"); targets != primitive.end()) {
     for (std::size_t t = 0; t < targets->size(); ++t) {
       const std::string place = where + ", morph target " + std::to_string(t);
@@ -550,6 +582,7 @@ Result<GltfDocument> check_gltf_document(std::string_view json,
   if (!status.ok()) return status.error();
   GltfDocument out;
   out.hidden = std::move(checker.hidden);
+  out.draco = std::move(checker.draco_primitives);
   out.named_bytes = std::move(checker.named_bytes);
   if (checker.changed) out.json = root.dump();
   return out;

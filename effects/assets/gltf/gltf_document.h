@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "effects/assets/common/errors.h"
+#include "effects/assets/gltf/gltf_draco.h"
 
 namespace kaamos::effects {
 
@@ -25,6 +26,7 @@ struct HiddenIndices {
 struct GltfDocument {
   std::optional<std::string> json;    // none: the file's own
   std::vector<HiddenIndices> hidden;  // to be put back into what the parser made
+  std::vector<DracoPrimitive> draco;  // to be decoded; empty where the build has no Draco
   // byteLength of the buffers that lie in files of their own, which may be longer, in their order.
   std::vector<std::size_t> named_bytes;
 };

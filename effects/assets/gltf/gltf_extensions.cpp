@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "effects/assets/gltf/gltf_draco.h"
 #include "effects/assets/gltf/gltf_webp.h"
 
 namespace kaamos::effects {
@@ -29,6 +30,7 @@ struct Optional {
 };
 
 constexpr std::array kOptional = {
+    Optional{"KHR_draco_mesh_compression", "libdraco-dev", &can_read_draco},
     Optional{"EXT_texture_webp", "libwebp-dev", &can_read_webp},
 };
 

@@ -90,15 +90,6 @@ TEST(GltfExtensions, VariantsMayBeRequired) {
 }
 
 TEST(GltfExtensions, CompressionIsRefusedByName) {
-  GltfFile file;
-  file.more = R"(,"extensionsUsed":["KHR_draco_mesh_compression"])";
-  file.primitive = R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}})";
-  expect_warning(load(file.bytes()), "KHR_draco_mesh_compression is not read: the uncompressed");
-  file.attributes =
-      R"("POSITION":)" + file.accessor(R"("componentType":5126,"count":4,"type":"VEC3")");
-  expect_error(load(file.bytes()), "is compressed by KHR_draco_mesh_compression");
-  file.more += R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
-  expect_error(load(file.bytes()), "requires the extension KHR_draco_mesh_compression");
   expect_error(load_text(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":9},)"
                          R"({"byteLength":9,"extensions":{"EXT_meshopt_compression":)"
                          R"({"fallback":true}}}]})"),

@@ -243,7 +243,7 @@ Status parse_gltf(std::span<const std::uint8_t> bytes, const std::string& folder
   for (const HiddenIndices& hidden : document.value().hidden)
     model.meshes[hidden.mesh].primitives[hidden.primitive].indices = hidden.accessor;
   images.resize(model.images.size());
-  return {};
+  return decode_draco(model, document.value().draco, warnings);
 }
 
 }  // namespace kaamos::effects

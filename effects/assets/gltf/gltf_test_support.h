@@ -28,12 +28,15 @@ class Glb {
   }
   std::size_t size() const { return data_.size(); }
 
-  /// `body` is the JSON object without asset, buffers and its outer braces.
-  std::vector<std::uint8_t> bytes(const std::string& body) const {
+  /// `body` is the JSON object without asset, buffers and its outer braces. `more_buffers` are
+  /// objects behind that of buffer 0, each preceded by a comma.
+  std::vector<std::uint8_t> bytes(const std::string& body,
+                                  const std::string& more_buffers = "") const {
     std::vector<std::uint8_t> data = data_;
     data.resize((data.size() + 3) / 4 * 4, 0);
     std::string json = "{\"asset\":{\"version\":\"2.0\"}," + body +
-                       ",\"buffers\":[{\"byteLength\":" + std::to_string(data.size()) + "}]}";
+                       ",\"buffers\":[{\"byteLength\":" + std::to_string(data.size()) + "}" +
+                       more_buffers + "]}";
     while (json.size() % 4 != 0) json += ' ';
     std::vector<std::uint8_t> out;
     const auto word = [&](std::uint32_t v) {
@@ -136,13 +139,25 @@ class GltfFile {
   template <class T>
   std::string add(const std::vector<T>& values, int component_type, const std::string& type,
                   std::size_t components, bool normalized = false) {
-    const std::size_t at = glb_.add(values);
-    append(views_, R"({"buffer":0,"byteOffset":)" + std::to_string(at) + R"(,"byteLength":)" +
-                       std::to_string(values.size() * sizeof(T)) + "}");
-    return accessor(R"("bufferView":)" + std::to_string(count_views_++) + R"(,"componentType":)" +
+    return accessor(R"("bufferView":)" + add_view(values) + R"(,"componentType":)" +
                     std::to_string(component_type) + R"(,"count":)" +
                     std::to_string(values.size() / components) + R"(,"type":")" + type + "\"" +
                     (normalized ? R"(,"normalized":true)" : ""));
+  }
+  /// Returns the number of a bufferView of these values, as text.
+  template <class T>
+  std::string add_view(const std::vector<T>& values) {
+    return view(R"("buffer":0,"byteOffset":)" + std::to_string(add_bytes(values)) +
+                R"(,"byteLength":)" + std::to_string(values.size() * sizeof(T)));
+  }
+  /// Returns where the values begin in buffer 0.
+  template <class T>
+  std::size_t add_bytes(const std::vector<T>& values) {
+    return glb_.add(values);
+  }
+  std::string view(const std::string& members) {
+    append(views_, "{" + members + "}");
+    return std::to_string(count_views_++);
   }
   std::string accessor(const std::string& members) {
     append(accessors_, "{" + members + "}");
@@ -154,12 +169,14 @@ class GltfFile {
   std::string mesh;       // of the mesh
   std::string nodes = R"({"mesh":0})";
   std::string more;  // of the file
+  std::string more_buffers;
 
   std::vector<std::uint8_t> bytes() const {
     return glb_.bytes("\"accessors\":[" + accessors_ + "],\"bufferViews\":[" + views_ +
-                      R"(],"meshes":[{"primitives":[{"attributes":{)" + attributes +
-                      R"(},"indices":)" + indices + primitive + "}]" + mesh + R"(}],"nodes":[)" +
-                      nodes + "]" + more);
+                          R"(],"meshes":[{"primitives":[{"attributes":{)" + attributes +
+                          R"(},"indices":)" + indices + primitive + "}]" + mesh +
+                          R"(}],"nodes":[)" + nodes + "]" + more,
+                      more_buffers);
   }
 
  private:
