@@ -9,8 +9,10 @@ namespace kaamos::effects {
 namespace {
 
 TEST(GltfCodecsAbsent, RequiredExtensionsNameTheirPackage) {
-  for (const auto& [name, package] : {std::pair("EXT_texture_webp", "libwebp-dev"),
-                                      std::pair("KHR_draco_mesh_compression", "libdraco-dev")}) {
+  for (const auto& [name, package] :
+       {std::pair("EXT_texture_webp", "libwebp-dev"),
+        std::pair("KHR_draco_mesh_compression", "libdraco-dev"),
+        std::pair("EXT_meshopt_compression", "libmeshoptimizer-dev")}) {
     EXPECT_FALSE(is_gltf_extension_read(name));
     const std::string list = std::string("[\"") + name + "\"]";
     GltfFile file;
@@ -52,6 +54,29 @@ TEST(GltfCodecsAbsent, DracoMeshesWithAPlainCopyAreReadFromIt) {
   expect_error(load(file.bytes()),
                "is compressed by KHR_draco_mesh_compression, which is not supported (install "
                "libdraco-dev and build Kaamos again to read it), and has no uncompressed copy");
+}
+
+TEST(GltfCodecsAbsent, MeshoptViewsWithAPlainCopyAreReadFromIt) {
+  // Buffer 1 has four indices, and the stream of its view would be in buffer 0.
+  const auto with = [](const std::string& uri) {
+    GltfFile file;
+    file.indices = file.accessor(
+        R"("bufferView":)" +
+        file.view(
+            R"("buffer":1,"byteLength":3,"extensions":{"EXT_meshopt_compression":{"buffer":0,)"
+            R"("byteLength":9,"byteStride":2,"count":3,"mode":"INDICES"}})") +
+        R"(,"componentType":5121,"type":"SCALAR","count":3)");
+    file.more = R"(,"extensionsUsed":["EXT_meshopt_compression"])";
+    file.more_buffers = R"(,{"byteLength":3)" + uri +
+                        R"(,"extensions":{"EXT_meshopt_compression":{"fallback":true}}})";
+    return file.bytes();
+  };
+  const auto loaded = load(with(R"(,"uri":"data:application/octet-stream;base64,AAEC")"));
+  expect_warning(loaded, "EXT_meshopt_compression is not read: the uncompressed copy is read");
+  EXPECT_EQ(scene_of(loaded).meshes.at(0).triangle_count(), 1u);
+  expect_error(load(with("")),
+               "buffer 1: is compressed by EXT_meshopt_compression, which is not "
+               "supported (install libmeshoptimizer-dev");
 }
 
 }  // namespace

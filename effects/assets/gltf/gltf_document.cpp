@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "effects/assets/gltf/gltf_accessor.h"
 #include "effects/assets/gltf/gltf_extensions.h"
 #include "effects/assets/gltf/gltf_reader.h"
 
@@ -44,6 +45,13 @@ constexpr std::array kBuffer = {Member{"byteLength", Kind::kWhole, true},
 constexpr std::array kBufferView = {
     Member{"buffer", Kind::kWhole, true}, Member{"byteLength", Kind::kWhole, true},
     Member{"byteOffset", Kind::kWhole}, Member{"byteStride", Kind::kWhole}};
+constexpr std::array kMeshopt = {Member{"buffer", Kind::kWhole, true},
+                                 Member{"byteLength", Kind::kWhole, true},
+                                 Member{"byteStride", Kind::kWhole, true},
+                                 Member{"count", Kind::kWhole, true},
+                                 Member{"mode", Kind::kText, true},
+                                 Member{"byteOffset", Kind::kWhole},
+                                 Member{"filter", Kind::kText}};
 constexpr std::array kMesh = {Member{"primitives", Kind::kList, true}};
 constexpr std::array kPrimitive = {
     Member{"attributes", Kind::kObject, true}, Member{"indices", Kind::kWhole},
@@ -113,6 +121,24 @@ std::string text(const Json& object, const char* key) {
   return value && value->is_string() ? value->get<std::string>() : std::string();
 }
 
+/// An extension of an object; none: it does not have it.
+Json* extension_of(Json& object, const char* name) {
+  const auto all = object.find("extensions");
+  if (all == object.end() || !all->is_object()) return nullptr;
+  const auto found = all->find(name);
+  return found == all->end() ? nullptr : &*found;
+}
+
+constexpr char kMeshoptName[] = "EXT_meshopt_compression";
+
+/// True for a buffer whose views are all compressed, so that nothing of it is needed.
+bool is_fallback(Json& buffer) {
+  const Json* extension = extension_of(buffer, kMeshoptName);
+  if (!extension || !extension->is_object()) return false;
+  const Json* fallback = find(*extension, "fallback");
+  return fallback && fallback->is_boolean() && fallback->get<bool>();
+}
+
 class Checker {
  public:
   Checker(Json& root, std::optional<std::size_t> binary_bytes)
@@ -120,6 +146,7 @@ class Checker {
   Status run(std::vector<std::string>& warnings);
   std::vector<HiddenIndices> hidden;
   std::vector<DracoPrimitive> draco_primitives;
+  std::vector<MeshoptView> meshopt_views;
   std::vector<std::size_t> named_bytes;
   bool changed = false;
 
@@ -142,7 +169,9 @@ class Checker {
   Status animation(Json& animation, const std::string& where);
   Status lights();
   Status image(Json& image, const std::string& where);
-  Status view(const Json& view, const std::string& where) const;
+  Status view(Json& view, std::size_t id, const std::string& where);
+  Status meshopt(Json& extension, std::size_t id, std::int64_t view_bytes,
+                 const std::string& where);
   Status names(const Json& object, const char* member, const char* list, const char* noun,
                const std::string& where) const;
   bool has_view(const Json& id) const;
@@ -319,14 +348,19 @@ Status Checker::buffer(Json& buffer, std::size_t id, const std::string& where) {
     return fail(where, "byteLength is " + std::to_string(wanted) + ", its data has " +
                            std::to_string(bytes) + " bytes");
   };
+  if (can_read_meshopt() && is_fallback(buffer)) {
+    // The parser wants bytes of every buffer.
+    buffer["uri"] = std::string(kBufferPrefix) + "AA==";
+    buffer["byteLength"] = 1;
+    changed = true;
+    return {};
+  }
   if (!uri) {
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-      const Json* all = find(buffer, "extensions");
-      if (all && all->is_object() && find(*all, name))
-        return fail(where, std::string("is compressed by ") + name +
-                               ", which is not supported, and has no uncompressed copy: export the "
-                               "file without it");
-    }
+    for (const char* name : {kMeshoptName, "KHR_meshopt_compression"})
+      if (extension_of(buffer, name))
+        return fail(where, std::string("is compressed by ") + name + ", which is not supported" +
+                               gltf_remedy(name) +
+                               ", and has no uncompressed copy: export the file without it");
     if (id != 0 || !binary_bytes_)
       return fail(where, "has no uri, and is not the binary chunk of a .glb");
     if (static_cast<std::size_t>(wanted) > *binary_bytes_) return has_too_few(*binary_bytes_);
@@ -363,14 +397,95 @@ Status Checker::names(const Json& object, const char* member, const char* list, 
                          std::to_string(count));
 }
 
-Status Checker::view(const Json& view, const std::string& where) const {
+// What to make of a stream, in words that it uses.
+bool is_mode(const std::string& name, MeshoptMode& mode) {
+  mode = name == "TRIANGLES" ? MeshoptMode::kTriangles
+         : name == "INDICES" ? MeshoptMode::kIndices
+                             : MeshoptMode::kAttributes;
+  return mode != MeshoptMode::kAttributes || name == "ATTRIBUTES";
+}
+
+bool is_filter(const std::string& name, MeshoptFilter& filter) {
+  filter = name == "OCTAHEDRAL"    ? MeshoptFilter::kOctahedral
+           : name == "QUATERNION"  ? MeshoptFilter::kQuaternion
+           : name == "EXPONENTIAL" ? MeshoptFilter::kExponential
+                                   : MeshoptFilter::kNone;
+  return filter != MeshoptFilter::kNone || name.empty() || name == "NONE";
+}
+
+// The strides that a stream may have; empty: this is one of them.
+std::string allowed_strides(const MeshoptView& view) {
+  const std::size_t stride = view.stride;
+  if (view.mode != MeshoptMode::kAttributes) return stride == 2 || stride == 4 ? "" : "2 and 4 are";
+  if (view.filter == MeshoptFilter::kOctahedral)
+    return stride == 4 || stride == 8 ? "" : "4 and 8 are";
+  if (view.filter == MeshoptFilter::kQuaternion) return stride == 8 ? "" : "8 is";
+  return stride >= 4 && stride <= 256 && stride % 4 == 0 ? "" : "multiples of 4 from 4 to 256 are";
+}
+
+// Checks what a bufferView says of its stream, and keeps it for the decoder.
+Status Checker::meshopt(Json& from, std::size_t id, std::int64_t view_bytes,
+                        const std::string& where) {
+  Status status = object(from, where, kMeshopt);
+  if (status.ok()) status = names(from, "buffer", "buffers", "buffer", where);
+  if (!status.ok()) return status;
+  MeshoptView out{};
+  const auto whole = [&](const char* member, std::size_t& to) -> Status {
+    const Json* value = find(from, member);
+    const std::int64_t number = value ? value->get<std::int64_t>() : 0;
+    if (number < 0)
+      return fail(where,
+                  std::string(member) + " is " + std::to_string(number) + ", which is negative");
+    to = static_cast<std::size_t>(number);
+    return {};
+  };
+  status = whole("byteOffset", out.offset_bytes);
+  if (status.ok()) status = whole("byteLength", out.size_bytes);
+  if (status.ok()) status = whole("byteStride", out.stride);
+  if (status.ok()) status = whole("count", out.count);
+  if (!status.ok()) return status;
+  if (out.count > kMaxAccessorElements)
+    return fail(where, "count is " + std::to_string(out.count) + ", 0 to " +
+                           std::to_string(kMaxAccessorElements) + " are allowed");
+  if (!is_mode(text(from, "mode"), out.mode))
+    return fail(where, "mode is \"" + text(from, "mode") +
+                           "\", ATTRIBUTES, TRIANGLES and INDICES are allowed");
+  if (!is_filter(text(from, "filter"), out.filter))
+    return fail(where, "filter is \"" + text(from, "filter") +
+                           "\", NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL are allowed");
+  if (out.mode != MeshoptMode::kAttributes && out.filter != MeshoptFilter::kNone)
+    return fail(where, "has a filter, which only ATTRIBUTES may have");
+  if (const std::string allowed = allowed_strides(out); !allowed.empty())
+    return fail(where, "byteStride is " + std::to_string(out.stride) + ", " + allowed + " allowed");
+  if (out.mode == MeshoptMode::kTriangles && out.count % 3 != 0)
+    return fail(where, "count is " + std::to_string(out.count) + ", multiples of 3 are allowed");
+  if (out.count * out.stride != static_cast<std::size_t>(view_bytes))
+    return fail(where, "count times byteStride are " + std::to_string(out.count * out.stride) +
+                           " bytes, the bufferView has " + std::to_string(view_bytes));
+  out.view = id;
+  out.buffer = from["buffer"].get<int>();
+  out.where = where;
+  meshopt_views.push_back(std::move(out));
+  return {};
+}
+
+Status Checker::view(Json& view, std::size_t id, const std::string& where) {
   if (const Json* stride = find(view, "byteStride")) {
     const auto bytes = stride->get<std::int64_t>();
     if (bytes < 0 || bytes > 252 || bytes % 4 != 0)
       return fail(where, "byteStride is " + std::to_string(bytes) +
                              ", multiples of 4 from 4 to 252 are allowed");
   }
-  return names(view, "buffer", "buffers", "buffer", where);
+  const Status status = names(view, "buffer", "buffers", "buffer", where);
+  if (!status.ok() || !can_read_meshopt()) return status;
+  if (Json* extension = extension_of(view, kMeshoptName))
+    return meshopt(*extension, id, view["byteLength"].get<std::int64_t>(),
+                   where + ", " + kMeshoptName);
+  const auto buffer = view["buffer"].get<std::size_t>();
+  if (is_fallback(root_["buffers"][buffer]))
+    return fail(where, std::string("has no ") + kMeshoptName + ", and buffer " +
+                           std::to_string(buffer) + " only stands in for compressed ones");
+  return {};
 }
 
 // Any media type will do: the first bytes of a picture say what it is.
@@ -406,10 +521,8 @@ bool Checker::has_view(const Json& id) const {
 // Checks what a primitive says of its stream, and keeps it for the decoder.
 Status Checker::draco(Json& primitive, std::size_t mesh, std::size_t id, const std::string& where) {
   const std::string name = "KHR_draco_mesh_compression";
-  const auto all = primitive.find("extensions");
-  if (all == primitive.end() || !all->is_object()) return {};
-  const auto found = all->find(name);
-  if (found == all->end()) return {};
+  Json* found = extension_of(primitive, name.c_str());
+  if (!found) return {};
   if (!can_read_draco()) {
     const Json* position = find(primitive["attributes"], "POSITION");
     return !position || has_view(*position)
@@ -514,9 +627,10 @@ Status Checker::run(std::vector<std::string>& warnings) {
                     return buffer(item, id, where);
                   });
   if (status.ok())
-    status =
-        each("bufferViews", "bufferView", kBufferView,
-             [&](Json& item, std::size_t, const std::string& where) { return view(item, where); });
+    status = each("bufferViews", "bufferView", kBufferView,
+                  [&](Json& item, std::size_t id, const std::string& where) {
+                    return view(item, id, where);
+                  });
   if (status.ok())
     status = each(
         "accessors", "accessor", kAccessor,
@@ -582,6 +696,7 @@ Result<GltfDocument> check_gltf_document(std::string_view json,
   if (!status.ok()) return status.error();
   GltfDocument out;
   out.hidden = std::move(checker.hidden);
+  out.meshopt = std::move(checker.meshopt_views);
   out.draco = std::move(checker.draco_primitives);
   out.named_bytes = std::move(checker.named_bytes);
   if (checker.changed) out.json = root.dump();

@@ -11,6 +11,7 @@
 
 #include "effects/assets/common/errors.h"
 #include "effects/assets/gltf/gltf_draco.h"
+#include "effects/assets/gltf/gltf_meshopt.h"
 
 namespace kaamos::effects {
 
@@ -27,6 +28,7 @@ struct GltfDocument {
   std::optional<std::string> json;    // none: the file's own
   std::vector<HiddenIndices> hidden;  // to be put back into what the parser made
   std::vector<DracoPrimitive> draco;  // to be decoded; empty where the build has no Draco
+  std::vector<MeshoptView> meshopt;   // likewise, before them
   // byteLength of the buffers that lie in files of their own, which may be longer, in their order.
   std::vector<std::size_t> named_bytes;
 };

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "effects/assets/gltf/gltf_draco.h"
+#include "effects/assets/gltf/gltf_meshopt.h"
 #include "effects/assets/gltf/gltf_webp.h"
 
 namespace kaamos::effects {
@@ -30,6 +31,7 @@ struct Optional {
 };
 
 constexpr std::array kOptional = {
+    Optional{"EXT_meshopt_compression", "libmeshoptimizer-dev", &can_read_meshopt},
     Optional{"KHR_draco_mesh_compression", "libdraco-dev", &can_read_draco},
     Optional{"EXT_texture_webp", "libwebp-dev", &can_read_webp},
 };

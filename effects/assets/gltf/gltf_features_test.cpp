@@ -91,12 +91,12 @@ TEST(GltfExtensions, VariantsMayBeRequired) {
 
 TEST(GltfExtensions, CompressionIsRefusedByName) {
   expect_error(load_text(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":9},)"
-                         R"({"byteLength":9,"extensions":{"EXT_meshopt_compression":)"
+                         R"({"byteLength":9,"extensions":{"KHR_meshopt_compression":)"
                          R"({"fallback":true}}}]})"),
                "has no uri");
   expect_error(load_text(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":9,)"
-                         R"("extensions":{"EXT_meshopt_compression":{"fallback":true}}}]})"),
-               "is compressed by EXT_meshopt_compression");
+                         R"("extensions":{"KHR_meshopt_compression":{"fallback":true}}}]})"),
+               "is compressed by KHR_meshopt_compression");
 }
 
 TEST(GltfExtensions, PicturesOfOtherKindsAreNamed) {

@@ -243,6 +243,8 @@ Status parse_gltf(std::span<const std::uint8_t> bytes, const std::string& folder
   for (const HiddenIndices& hidden : document.value().hidden)
     model.meshes[hidden.mesh].primitives[hidden.primitive].indices = hidden.accessor;
   images.resize(model.images.size());
+  if (const Status status = decode_meshopt(model, document.value().meshopt); !status.ok())
+    return status;
   return decode_draco(model, document.value().draco, warnings);
 }
 
