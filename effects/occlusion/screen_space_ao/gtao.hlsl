@@ -14,8 +14,8 @@ struct GtaoConstants {
   float falloff_range;      // last part of the radius over which occluders fade; 0: a hard end
   float sample_power;       // above 1: more steps near the pixel
   float thin_occluder;      // 0..0.7: occluders deeper than wide count less
-  float final_power;        // on visibility
-  float least;              // visibility
+  float final_power;        // on visibility, by occlusion_filter.hlsl
+  float least;              // visibility, by the same
   float least_pixels;       // that the first step goes
   float level_offset;       // larger: finer levels of the depth picture
   float normal_flattening;  // part by which slices that the normal leaves are made up for
@@ -171,6 +171,7 @@ void GroundTruthOcclusion(uint3 id : SV_DispatchThreadID) {
     const float weight = lerp(projected.length, 1.0, gtao.normal_flattening);
     visibility += weight * SliceVisibility(-SafeAcos(cosine0), SafeAcos(cosine1), projected.gamma);
   }
-  visibility = pow(saturate(visibility / float(slices)), gtao.final_power);
-  raw[pixel] = max(visibility, gtao.least);
+  // On an open plane that is seen aslant one slice is above 1 and another below: only their mean is
+  // a visibility. What is done to that is done behind the filter.
+  raw[pixel] = visibility / float(slices);
 }

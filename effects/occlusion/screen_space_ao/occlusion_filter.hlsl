@@ -10,6 +10,8 @@ struct FilterConstants {
   uint edge_aware;  // 0: blurs over edges
   uint from;        // 0: reads raw, 1: reads filtered
   uint to;          // 0: writes raw, 1: writes filtered, 2: writes the result
+  float power;      // on the result
+  float least;      // of the result
 };
 ConstantBuffer<FilterConstants> filter : register(b0, space3);
 
@@ -53,5 +55,7 @@ void FilterOcclusion(uint3 id : SV_DispatchThreadID) {
   }
   if (filter.to == 0) raw[pixel] = visibility;
   if (filter.to == 1) filtered[pixel] = visibility;
-  if (filter.to == 2) result[pixel] = float4(visibility, visibility, visibility, 1.0);
+  if (filter.to != 2) return;
+  visibility = max(pow(saturate(visibility), filter.power), filter.least);
+  result[pixel] = float4(visibility, visibility, visibility, 1.0);
 }

@@ -8,6 +8,7 @@
 #include <shaders/occlusion_filter.h>
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include "effects/engine/picture.h"
@@ -27,6 +28,8 @@ struct FilterConstants {
   std::uint32_t edge_aware;
   std::uint32_t from;
   std::uint32_t to;
+  float power = 1;
+  float least = 0;
 };
 constexpr std::uint32_t kToResult = 2;
 
@@ -138,9 +141,13 @@ void ScreenSpaceAo::record(rtapi::CommandList& list, const Frame& frame,
   technique_.dispatch(list, frame, constants, arguments, frame.width(), frame.height());
   // One pass at least, which reaches no other pixel where none is asked for: it writes the result.
   const std::uint32_t passes = words[0];
+  GtaoConstants gtao{.final_power = 1, .least = 0};
+  if (kind_ == ScreenSpaceAoKind::kGtao)
+    std::memcpy(static_cast<void*>(&gtao), words.data(), sizeof gtao);
   const bool is_tile = kind_ != ScreenSpaceAoKind::kGtao;  // of noise, 4 x 4 pixels
   for (std::uint32_t i = 0; i < std::max(passes, 1u); ++i) {
-    FilterConstants filter = {2, is_tile ? 1 : 2, 1, i % 2, 1 - i % 2};
+    FilterConstants filter = {2,         is_tile ? 1 : 2,  1,         i % 2,
+                              1 - i % 2, gtao.final_power, gtao.least};
     if (passes == 0) filter.before = filter.behind = 0;
     if (i + 1 >= passes) filter.to = kToResult;
     filter_.dispatch(list, frame, constants, PassArguments(*views_, filter), frame.width(),
