@@ -15,6 +15,11 @@ namespace {
 
 constexpr int kMaxFunctionDepth = 200;
 
+bool names_a_resource(const Value& value) {
+  return value.type && value.type->is_resource() && value.kind == ValueKind::kExpr && value.expr &&
+         value.expr->kind == ir::ExprKind::kBinding;
+}
+
 }  // namespace
 
 Value Calls::lower_call(const CallExpr* expr) {
@@ -279,6 +284,9 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
     } else if (parameter.is_out && i >= provided) {
       // Nothing reads what comes back.
       if (!by_reference(argument, parameter.type, parameter.is_in, false, i)) return error_value();
+    } else if (parameter.is_in && parameter.is_out && names_a_resource(argument)) {
+      // A resource's name cannot be assigned, but the function may write to the resource.
+      if (!by_reference(argument, parameter.type, true, false, i)) return error_value();
     } else if (parameter.is_out) {
       const std::string purpose = std::string("an argument of ") +
                                   (parameter.is_in ? "inout" : "out") + " parameter '" +
