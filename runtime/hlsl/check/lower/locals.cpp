@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/lower/locals.h"
 
-#include <functional>
+#include <set>
 
 #include "runtime/hlsl/check/lower/lowerer.h"
+#include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
 
@@ -141,22 +142,19 @@ void Locals::lower_local_static(const VariableDecl* decl, const Type* type) {
   symbol->variable->sequence = names_.view().visible;
   lower_.initialisers.initialise(symbol->variable);
   const ir::Variable* variable = symbol->variable->variable;
-  if (!symbol->variable->start_up.empty()) {
-    report(CheckId::kUnsupported, decl->location,
-           {"the initialiser of a local static variable that calls a function"});
-  } else if (variable && variable->initialiser) {
-    const std::function<bool(const ir::Expr*)> uses_local = [&](const ir::Expr* expr) {
-      if (expr->kind == ir::ExprKind::kVariable &&
-          (expr->variable->storage == ir::Storage::kLocal ||
-           expr->variable->storage == ir::Storage::kParameter)) {
-        return true;
-      }
-      return std::any_of(expr->operands.begin(), expr->operands.end(), uses_local);
-    };
-    if (uses_local(variable->initialiser)) {
-      report(CheckId::kStaticUsesLocal, decl->location, {std::string(decl->name)});
-    }
-  }
+  // The initialiser's own variables are those that it declares.
+  std::set<const ir::Variable*> own;
+  bool uses_local = false;
+  const auto look_at = [&](const ir::Expr& expr) {
+    if (expr.kind != ir::ExprKind::kVariable || own.contains(expr.variable)) return;
+    uses_local = uses_local || expr.variable->storage == ir::Storage::kLocal ||
+                 expr.variable->storage == ir::Storage::kParameter;
+  };
+  ir::visit(symbol->variable->start_up, look_at, [&](const ir::Stmt& stmt) {
+    if (stmt.kind == ir::StmtKind::kDeclare) own.insert(stmt.variable);
+  });
+  if (variable) ir::visit_expr(variable->initialiser, look_at);
+  if (uses_local) report(CheckId::kStaticUsesLocal, decl->location, {std::string(decl->name)});
 }
 
 }  // namespace kaamos::hlsl
