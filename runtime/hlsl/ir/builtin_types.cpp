@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/ir/builtin_types.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace kaamos::hlsl {
@@ -48,11 +49,12 @@ constexpr std::string_view kOrdered = "RasterizerOrdered";
 struct Unsupported {
   std::string_view name;
   std::string_view reason;
+  bool is_stage = true;
 };
 
 constexpr Unsupported kUnsupported[] = {
-    {"FeedbackTexture2D", "sampler feedback"},
-    {"FeedbackTexture2DArray", "sampler feedback"},
+    {"FeedbackTexture2D", "sampler feedback", false},
+    {"FeedbackTexture2DArray", "sampler feedback", false},
     {"InputPatch", "hull and domain shaders"},
     {"OutputPatch", "hull and domain shaders"},
     {"PointStream", "geometry shaders"},
@@ -98,6 +100,11 @@ std::string_view unsupported_type(std::string_view name) {
     if (entry.name == name) return entry.reason;
   }
   return {};
+}
+
+bool is_of_other_stage(std::string_view name) {
+  return std::any_of(std::begin(kUnsupported), std::end(kUnsupported),
+                     [&](const Unsupported& one) { return one.name == name && one.is_stage; });
 }
 
 const BuiltinConstant kBuiltinConstants[] = {

@@ -37,6 +37,8 @@ bool is_ordered_view(std::string_view name);
 const ResourceTraits* find_resource(std::string_view name);
 // Why a type that HLSL has is not supported, as text to print. Empty if there is no such type.
 std::string_view unsupported_type(std::string_view name);
+// Whether it is not supported because its stage is not.
+bool is_of_other_stage(std::string_view name);
 
 // A struct in rows of 16 bytes, whose members are read by their names.
 inline bool has_members(ir::ResourceKind kind) {

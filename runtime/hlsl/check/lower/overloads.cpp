@@ -112,6 +112,11 @@ FunctionInfo* Overloads::resolve_overload(const std::vector<FunctionInfo*>& cand
                                 notes);
     return nullptr;
   }
+  for (const FunctionInfo* candidate : candidates) {
+    if (!candidate->other_stage) continue;
+    names_.resolve_type(candidate->other_stage, candidate->scope);
+    return nullptr;
+  }
   for (FunctionInfo* candidate : candidates) {
     if (notes.size() == 8) break;
     const bool hidden = candidate->sequence > names_.view().visible;

@@ -45,6 +45,13 @@ void Functions::resolve_signature(FunctionInfo* function) {
   for (const ParameterDecl* parameter : decl->parameters) {
     ParameterInfo& info = function->parameters.emplace_back();
     info.name = parameter->name;
+    if (parts_.resolver.is_of_other_stage(parameter->type, function->scope)) {
+      function->other_stage = parameter->type;
+      function->signature_failed = true;
+      info.type = types_.error();
+      info.decl = parameter;
+      continue;
+    }
     info.type = parts_.resolver.resolve_type(parameter->type, function->scope);
     info.is_out = (parameter->modifiers & kModOut) != 0;
     info.is_in = !info.is_out || (parameter->modifiers & kModIn) != 0;

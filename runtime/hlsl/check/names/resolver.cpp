@@ -203,6 +203,12 @@ const Type* Resolver::unsigned_twin(const TypeSyntax* syntax, const Type* type) 
   }
 }
 
+bool Resolver::is_of_other_stage(const TypeSyntax* syntax, Scope* scope) {
+  if (syntax->kind != TypeSyntaxKind::kNamed || !syntax->name->is_simple()) return false;
+  return hlsl::is_of_other_stage(syntax->name->last().identifier) &&
+         !resolve_name(*syntax->name, scope, true);
+}
+
 const Type* Resolver::resolve_named(const TypeSyntax* syntax, Scope* scope) {
   const QualifiedName& name = *syntax->name;
   Symbol* symbol = resolve_name(name, scope, true);

@@ -23,6 +23,8 @@ class Resolver : NamesPart {
   const Type* type_argument(const TemplateArgument& argument, Scope* scope);
   std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope,
                                         const Type** type = nullptr);
+  // Whether a type belongs to a stage that is not offered, as TriangleStream does.
+  bool is_of_other_stage(const TypeSyntax* syntax, Scope* scope);
   // Whether `#pragma pack_matrix` at the place of a matrix's name decides on its order.
   bool lacks_matrix_order(const TypeSyntax* syntax, Scope* scope);
 

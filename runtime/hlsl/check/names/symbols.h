@@ -95,6 +95,9 @@ struct FunctionInfo : FunctionFacts {
   uint32_t sequence = 0;
   uint32_t body_sequence = 0;
   bool signature_failed = false;
+  // A type of a stage that is not offered, such as TriangleStream: an error once something uses the
+  // function.
+  const TypeSyntax* other_stage = nullptr;
 
   bool is_template = false;
   std::unordered_map<std::string, FunctionInfo*> instances;

@@ -107,6 +107,7 @@ void EntryPoints::check_entry_point(FunctionInfo* function, uint32_t stage,
   }
   if (function->owner || function->signature_failed) {
     if (function->owner) report(CheckId::kEntryIsMethod, location, {function->qualified});
+    if (function->other_stage) lower_.names.resolve_type(function->other_stage, function->scope);
     return;
   }
   ir::EntryPoint entry;
