@@ -81,6 +81,22 @@ FunctionInfo* Functions::same_signature(Symbol* symbol, const FunctionInfo& func
   return nullptr;
 }
 
+bool Functions::join_template(Symbol* symbol, const FunctionInfo& function) {
+  for (FunctionInfo* other : symbol->functions) {
+    if (!other->is_template || other->scope != function.scope || other->announced ||
+        (other->definition && function.definition) ||
+        !are_written_alike(*other->decl, *function.decl)) {
+      continue;
+    }
+    if (function.definition) {
+      other->announced = other->decl;
+      other->decl = other->definition = function.definition;
+    }
+    return true;
+  }
+  return false;
+}
+
 void Functions::declare_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner) {
   if (decl->qualifier) {
     if (decl->is_template) {
@@ -167,6 +183,7 @@ void Functions::declare_function(const FunctionDecl* decl, Scope* scope, StructI
     report(CheckId::kNoSuchMethod, decl->location, {owner->name, std::string(decl->name)});
     return;
   }
+  if (symbol && function->is_template && join_template(symbol, *function)) return;
   if (!symbol)
     symbol = scopes_.add_symbol(scope, SymbolKind::kFunctions, decl->name, decl->location);
   symbol->functions.push_back(function);

@@ -16,6 +16,8 @@ class Functions : NamesPart {
   void resolve_signature(FunctionInfo* function);
 
  private:
+  // Returns whether a template of the symbol is the same one; one of the two has no body.
+  bool join_template(Symbol* symbol, const FunctionInfo& function);
   FunctionInfo* same_signature(Symbol* symbol, const FunctionInfo& function);
 };
 

@@ -12,6 +12,8 @@ namespace kaamos::hlsl {
 // Returns whether the types and directions agree.
 bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other);
 // As in messages: "float f(inout Payload)".
+// Whether two function templates declare the same one.
+bool are_written_alike(const FunctionDecl& one, const FunctionDecl& other);
 std::string describe(const FunctionInfo& function);
 
 }  // namespace kaamos::hlsl

@@ -85,7 +85,8 @@ struct FunctionInfo : FunctionFacts {
   std::string qualified;
   const FunctionDecl* decl = nullptr;
   const FunctionDecl* definition = nullptr;
-  Scope* scope = nullptr;  // what its parameters' types and its body can see
+  const FunctionDecl* announced = nullptr;  // a template's declaration before its definition
+  Scope* scope = nullptr;                   // what its parameters' types and its body can see
   StructInfo* owner = nullptr;
   bool is_static = false;
   bool is_const_method = false;

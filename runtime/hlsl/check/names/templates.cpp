@@ -252,7 +252,14 @@ FunctionInfo* Templates::instantiate_function(FunctionInfo* function,
                                               Scope* use_scope,
                                               const std::vector<Value>& arguments) {
   const FunctionDecl* decl = function->decl;
-  const auto parameters = decl->template_parameters;
+  std::vector<TemplateParameter> parameters(decl->template_parameters.begin(),
+                                            decl->template_parameters.end());
+  // The first declaration may be the one that has the default arguments.
+  for (size_t i = 0; function->announced && i < parameters.size(); ++i) {
+    const TemplateParameter& first = function->announced->template_parameters[i];
+    if (!parameters[i].default_type) parameters[i].default_type = first.default_type;
+    if (!parameters[i].default_value) parameters[i].default_value = first.default_value;
+  }
   TemplateValues values;
   messages_.mute();
   bool fits = arguments.size() <= decl->parameters.size() &&
@@ -285,6 +292,10 @@ FunctionInfo* Templates::instantiate_function(FunctionInfo* function,
       const uint32_t visible = scopes_.visible;
       scopes_.visible = ~0u;
       parts_.functions.resolve_signature(slot);
+      for (size_t i = 0; function->announced && i < slot->parameters.size(); ++i) {
+        const Expr*& value = slot->parameters[i].default_value;
+        if (!value) value = function->announced->parameters[i]->default_value;
+      }
       scopes_.visible = visible;
       --template_depth_;
     }
