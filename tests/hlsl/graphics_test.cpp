@@ -123,6 +123,25 @@ float4 main(uint id : SV_VertexID, out uint4 a : A, out uint4 b : B) : SV_Positi
          EXPECT_EQ(run.out("B", 0, 3), (Lanes{0, 0, 1, 1, 1, 1, 1, 1}));
          EXPECT_EQ(run.floats("SV_Position", 0, 1), (Floats{1, 2, 3, 4, 5, 6, 7, 8}));
        }},
+      // There is one view, so its number is no input.
+      {"ViewOfVertex", "vs_6_6", R"(
+float4 main(uint view : SV_ViewID, uint id : SV_VertexID) : SV_Position { return view + id; })",
+       [](GraphicsRunner& run) {
+         EXPECT_EQ(run.graphics().input_count, 1u);
+         run.in("SV_VertexID", 0) = {0, 1, 2, 3, 4, 5, 6, 7};
+         run.run();
+         EXPECT_EQ(run.floats("SV_Position", 0, 1), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
+       }},
+      {"SampleViewAndRate", "ps_6_6", R"(
+float4 main(float4 a : A, uint sample : SV_SampleIndex, uint view : SV_ViewID,
+            int rate : SV_ShadingRate) : SV_Target {
+  return a + sample + 10 * view + 100 * rate;
+})",
+       [](GraphicsRunner& run) {
+         run.set("A", 0, 2, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.run();
+         EXPECT_EQ(run.floats("SV_Target", 0, 2), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
+       }},
       {"HalfInputs", "vs_6_6", R"(
 float4 main(half2 a : A, int16_t b : B, out uint16_t c : C) : SV_Position {
   c = uint16_t(b) + uint16_t(1);

@@ -112,7 +112,18 @@ constexpr std::string_view kTypes[] = {
     "LineStream",
     "TriangleStream",
     "DispatchNodeInputRecord",
+    "RWDispatchNodeInputRecord",
+    "GroupNodeInputRecords",
+    "RWGroupNodeInputRecords",
+    "ThreadNodeInputRecord",
+    "RWThreadNodeInputRecord",
+    "EmptyNodeInput",
     "NodeOutput",
+    "NodeOutputArray",
+    "EmptyNodeOutput",
+    "EmptyNodeOutputArray",
+    "ThreadNodeOutputRecords",
+    "GroupNodeOutputRecords",
 };
 
 struct SubobjectName {

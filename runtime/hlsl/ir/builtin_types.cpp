@@ -61,7 +61,18 @@ constexpr Unsupported kUnsupported[] = {
     {"LineStream", "geometry shaders"},
     {"TriangleStream", "geometry shaders"},
     {"DispatchNodeInputRecord", "work graphs"},
+    {"RWDispatchNodeInputRecord", "work graphs"},
+    {"GroupNodeInputRecords", "work graphs"},
+    {"RWGroupNodeInputRecords", "work graphs"},
+    {"ThreadNodeInputRecord", "work graphs"},
+    {"RWThreadNodeInputRecord", "work graphs"},
+    {"EmptyNodeInput", "work graphs"},
     {"NodeOutput", "work graphs"},
+    {"NodeOutputArray", "work graphs"},
+    {"EmptyNodeOutput", "work graphs"},
+    {"EmptyNodeOutputArray", "work graphs"},
+    {"ThreadNodeOutputRecords", "work graphs"},
+    {"GroupNodeOutputRecords", "work graphs"},
 };
 
 }  // namespace

@@ -220,6 +220,9 @@ class GraphicsSignature : StagePart {
     element.semantic = std::string(name.semantic->base);
     element.semantic_index = name.next++;
     element.location = locate(source.location);
+    if (find_semantic(element.semantic, point_).meaning == SemanticMeaning::kZero) {
+      return zero_input(type, *name.semantic, source);
+    }
     if (!describe(element, type, *name.semantic, source)) return nullptr;
     if (element.system_value == SystemValue::kCoverage) return cover(type, source, value);
     const Scalar scalar = element.type == ColumnType::kFloat ? Scalar::kFloat32
@@ -274,6 +277,13 @@ class GraphicsSignature : StagePart {
         wrapper_.parameters.begin() + static_cast<std::ptrdiff_t>(elements.size()), variable);
     elements.push_back(std::move(element));
     return build_.swizzle(build_.read(variable), {2});
+  }
+
+  const ir::Expr* zero_input(const Type* type, const Semantic& semantic, const Source& source) {
+    if (type->is_scalar() && is_integer(type->scalar)) return build_.zero(type->ir);
+    fail(CheckId::kSystemValueType, source.location,
+         {std::string(semantic.text), "uint", to_string(type)});
+    return nullptr;
   }
 
   // SV_Coverage says of a pixel's one sample, as an input, whether it is covered; as an output,

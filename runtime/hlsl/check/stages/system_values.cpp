@@ -12,7 +12,8 @@ using shader::SystemValue;
 struct Row {
   std::string_view name;
   SystemValue value;
-  // For each SignaturePoint: '.' not there, 'a' arbitrary, 's' system value, 'n' not offered.
+  // For each SignaturePoint: '.' not there, 'a' arbitrary, 's' system value, 'z' an input that is
+  // always 0, 'n' not offered.
   std::string_view points;
 };
 
@@ -33,10 +34,10 @@ constexpr Row kRows[] = {
     {"SV_DepthLessEqual", SystemValue::kDepth, "...s"},
     {"SV_Coverage", SystemValue::kCoverage, "..ss"},
     {"SV_StencilRef", SystemValue::kNone, "...n"},
-    {"SV_SampleIndex", SystemValue::kNone, "..n."},
+    {"SV_SampleIndex", SystemValue::kNone, "..z."},
     {"SV_InnerCoverage", SystemValue::kNone, "..n."},
-    {"SV_ViewID", SystemValue::kNone, "n.n."},
-    {"SV_ShadingRate", SystemValue::kNone, ".nn."},
+    {"SV_ViewID", SystemValue::kNone, "z.z."},
+    {"SV_ShadingRate", SystemValue::kNone, ".nz."},
     {"SV_CullPrimitive", SystemValue::kNone, "..n."},
     {"SV_StartVertexLocation", SystemValue::kNone, "n..."},
     {"SV_StartInstanceLocation", SystemValue::kNone, "n..."},
@@ -59,6 +60,8 @@ SemanticRule find_semantic(std::string_view base, SignaturePoint point) {
         return {SemanticMeaning::kArbitrary, SystemValue::kNone};
       case 's':
         return {SemanticMeaning::kSystemValue, row.value};
+      case 'z':
+        return {SemanticMeaning::kZero, SystemValue::kNone};
       case 'n':
         return {SemanticMeaning::kNotOffered, SystemValue::kNone};
       default:

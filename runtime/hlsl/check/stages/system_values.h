@@ -15,6 +15,7 @@ enum class SignaturePoint : uint8_t { kVertexIn, kVertexOut, kPixelIn, kPixelOut
 enum class SemanticMeaning : uint8_t {
   kArbitrary,  // a name like any other
   kSystemValue,
+  kZero,        // an input that is 0: one sample, one view, a shading rate of 1 x 1
   kNotOffered,  // HLSL has it there, Kaamos does not
   kNotThere,    // nor does HLSL
 };
