@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "effects/assets/gltf/gltf_accessor.h"
 #include "effects/assets/gltf/gltf_extensions.h"
 #include "effects/assets/gltf/gltf_reader.h"
+#include "effects/assets/gltf/gltf_streams.h"
 
 namespace kaamos::effects {
 namespace {
@@ -397,75 +397,15 @@ Status Checker::names(const Json& object, const char* member, const char* list, 
                          std::to_string(count));
 }
 
-// What to make of a stream, in words that it uses.
-bool is_mode(const std::string& name, MeshoptMode& mode) {
-  mode = name == "TRIANGLES" ? MeshoptMode::kTriangles
-         : name == "INDICES" ? MeshoptMode::kIndices
-                             : MeshoptMode::kAttributes;
-  return mode != MeshoptMode::kAttributes || name == "ATTRIBUTES";
-}
-
-bool is_filter(const std::string& name, MeshoptFilter& filter) {
-  filter = name == "OCTAHEDRAL"    ? MeshoptFilter::kOctahedral
-           : name == "QUATERNION"  ? MeshoptFilter::kQuaternion
-           : name == "EXPONENTIAL" ? MeshoptFilter::kExponential
-                                   : MeshoptFilter::kNone;
-  return filter != MeshoptFilter::kNone || name.empty() || name == "NONE";
-}
-
-// The strides that a stream may have; empty: this is one of them.
-std::string allowed_strides(const MeshoptView& view) {
-  const std::size_t stride = view.stride;
-  if (view.mode != MeshoptMode::kAttributes) return stride == 2 || stride == 4 ? "" : "2 and 4 are";
-  if (view.filter == MeshoptFilter::kOctahedral)
-    return stride == 4 || stride == 8 ? "" : "4 and 8 are";
-  if (view.filter == MeshoptFilter::kQuaternion) return stride == 8 ? "" : "8 is";
-  return stride >= 4 && stride <= 256 && stride % 4 == 0 ? "" : "multiples of 4 from 4 to 256 are";
-}
-
 // Checks what a bufferView says of its stream, and keeps it for the decoder.
 Status Checker::meshopt(Json& from, std::size_t id, std::int64_t view_bytes,
                         const std::string& where) {
   Status status = object(from, where, kMeshopt);
   if (status.ok()) status = names(from, "buffer", "buffers", "buffer", where);
   if (!status.ok()) return status;
-  MeshoptView out{};
-  const auto whole = [&](const char* member, std::size_t& to) -> Status {
-    const Json* value = find(from, member);
-    const std::int64_t number = value ? value->get<std::int64_t>() : 0;
-    if (number < 0)
-      return fail(where,
-                  std::string(member) + " is " + std::to_string(number) + ", which is negative");
-    to = static_cast<std::size_t>(number);
-    return {};
-  };
-  status = whole("byteOffset", out.offset_bytes);
-  if (status.ok()) status = whole("byteLength", out.size_bytes);
-  if (status.ok()) status = whole("byteStride", out.stride);
-  if (status.ok()) status = whole("count", out.count);
-  if (!status.ok()) return status;
-  if (out.count > kMaxAccessorElements)
-    return fail(where, "count is " + std::to_string(out.count) + ", 0 to " +
-                           std::to_string(kMaxAccessorElements) + " are allowed");
-  if (!is_mode(text(from, "mode"), out.mode))
-    return fail(where, "mode is \"" + text(from, "mode") +
-                           "\", ATTRIBUTES, TRIANGLES and INDICES are allowed");
-  if (!is_filter(text(from, "filter"), out.filter))
-    return fail(where, "filter is \"" + text(from, "filter") +
-                           "\", NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL are allowed");
-  if (out.mode != MeshoptMode::kAttributes && out.filter != MeshoptFilter::kNone)
-    return fail(where, "has a filter, which only ATTRIBUTES may have");
-  if (const std::string allowed = allowed_strides(out); !allowed.empty())
-    return fail(where, "byteStride is " + std::to_string(out.stride) + ", " + allowed + " allowed");
-  if (out.mode == MeshoptMode::kTriangles && out.count % 3 != 0)
-    return fail(where, "count is " + std::to_string(out.count) + ", multiples of 3 are allowed");
-  if (out.count * out.stride != static_cast<std::size_t>(view_bytes))
-    return fail(where, "count times byteStride are " + std::to_string(out.count * out.stride) +
-                           " bytes, the bufferView has " + std::to_string(view_bytes));
-  out.view = id;
-  out.buffer = from["buffer"].get<int>();
-  out.where = where;
-  meshopt_views.push_back(std::move(out));
+  Result<MeshoptView> out = read_meshopt_view(from, id, view_bytes, where);
+  if (!out.ok()) return out.error();
+  meshopt_views.push_back(std::move(out.value()));
   return {};
 }
 
@@ -535,18 +475,14 @@ Status Checker::draco(Json& primitive, std::size_t mesh, std::size_t id, const s
   Status status = object(*found, place, kDraco);
   if (status.ok()) status = names(*found, "bufferView", "bufferViews", "bufferView", place);
   if (!status.ok()) return status;
-  const Json* mode = find(primitive, "mode");
-  if (mode && *mode != 4 && *mode != 5)
-    return fail(place, "the primitive's mode is " + std::to_string(mode->get<std::int64_t>()) +
-                           ", 4 and 5 (triangles and strips) are allowed");
-  DracoPrimitive out{mesh, id, (*found)["bufferView"].get<int>(), {}, place};
-  for (auto& [attribute, in_stream] : (*found)["attributes"].items()) {
-    if (!is_kind(in_stream, Kind::kWhole) || in_stream.get<std::int64_t>() < 0 ||
-        in_stream.get<std::int64_t>() > 0xFFFFFFFF)
-      return fail(place, "attribute " + attribute + " is not a whole number from 0 to 4294967295");
-    out.attributes[attribute] = in_stream.get<std::uint32_t>();
-  }
-  draco_primitives.push_back(std::move(out));
+  for (auto& [attribute, in_stream] : (*found)["attributes"].items())
+    if (!is_kind(in_stream, Kind::kWhole))
+      return fail(place, "attribute " + attribute + " is not a whole number");
+  Result<DracoPrimitive> out = read_draco_primitive(primitive, *found, place);
+  if (!out.ok()) return out.error();
+  out.value().mesh = mesh;
+  out.value().primitive = id;
+  draco_primitives.push_back(std::move(out.value()));
   return {};
 }
 

@@ -229,6 +229,8 @@ TEST(GltfDraco, WhatIsWrongIsNamed) {
   expect_error(load(file_of(model, good, {.more_attributes = R"(,"POSITION":99)"})),
                place + ", POSITION: names attribute 99, which the stream does not have");
   expect_error(load(file_of(model, good, {.more_attributes = R"(,"POSITION":-1)"})),
+               place + ": attribute POSITION is -1, 0 to 4294967295 are allowed");
+  expect_error(load(file_of(model, good, {.more_attributes = R"(,"POSITION":"x")"})),
                place + ": attribute POSITION is not a whole number");
   expect_error(load(file_of(model, good, {.more_attributes = R"(,"POSITION":3)"})),
                place + ", POSITION: has 2 components in the stream, 3 in its accessor");
