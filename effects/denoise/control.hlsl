@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reflection denoiser of Control in three stages: clamp fireflies, accumulate over frames,
-// filter twice in rows and columns. [Control; survey: Table 1]
+// filter twice in rows and columns. What is taken from fireflies goes to their neighbours, unless
+// keep_energy is 0: Control loses it. [Control; survey: Table 1]
 //
 // The accumulation is that of svgf.hlsl with the history clipped to the neighbours. Contact shadows
 // and indirect light use the same stages with lobe_scale 0: a fixed radius, and no hit distances.
@@ -62,6 +63,37 @@ void ClampFireflies(uint3 id : SV_DispatchThreadID) {
   const float luminance = Luminance(color);
   if (!is_mirror && brightest >= 0.0 && luminance > brightest) color *= brightest / luminance;
   result[pixel] = float4(color, distance);
+}
+
+// The share of the light that is taken from `other` and goes to the pixel `offset` away from it.
+float SpreadWeight(Guide guide, int2 other, int2 offset, int2 size) {
+  if (all(offset == 0)) return 1.0;
+  if (!IsInside(other + offset, size)) return 0.0;
+  return GuideWeight(guide, other + offset, offset);
+}
+
+// Gives what ClampFireflies took to the 3 x 3 pixels around, as far as they show the same surface.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void SpreadFireflies(uint3 id : SV_DispatchThreadID) {
+  const int2 pixel = int2(id.xy);
+  const int2 size = SizeOf(result);
+  if (!IsInside(pixel, size)) return;
+  float3 sum = clamped[pixel].rgb;
+  for (int i = 0; i < 9 && guides[pixel].w != 0.0; ++i) {
+    const int2 to_other = int2(i % 3 - 1, i / 3 - 1);
+    const int2 other = pixel + to_other;
+    if (!IsInside(other, size) || guides[other].w == 0.0) continue;
+    const float3 taken = FiniteOrZero(source[other].rgb) - clamped[other].rgb;
+    if (!any(taken > 0.0)) continue;
+    const Guide guide = LoadGuide(other, size);
+    float weights = 0.0;
+    for (int k = 0; k < 9; ++k) {
+      weights += SpreadWeight(guide, other, int2(k % 3 - 1, k / 3 - 1), size);
+    }
+    sum += taken * (SpreadWeight(guide, other, -to_other, size) / weights);
+  }
+  result[pixel] = float4(sum, clamped[pixel].w);
 }
 
 // One row or column of the filter: `radius` taps to each side within the lobe's footprint.

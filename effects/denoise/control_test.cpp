@@ -43,16 +43,48 @@ class ControlDenoiseTest : public DenoiseFixture {
   }
 };
 
+// The sources' own clamp: what is bright and alone is gone, with its light.
 TEST_F(ControlDenoiseTest, FirefliesGo) {
   set_roughness([](auto) { return 0.5f; });
   const auto value = [](auto x, auto y) { return x % 16 == 8 && y % 16 == 8 ? 1000.0f : 0.5f; };
   for (const bool reflections : {true, false}) {
-    Denoiser denoiser =
-        make(reflections ? of_reflections() : default_denoise(DenoiseMethod::kControl));
+    DenoiseDesc desc = reflections ? of_reflections() : default_denoise(DenoiseMethod::kControl);
+    desc.constants.keep_energy = 0;
+    Denoiser denoiser = make(desc);
     const FloatImage out = run(denoiser, value, 10);
     double brightest = 0;
     for_surface([&](auto x, auto y) { brightest = std::max<double>(brightest, out.at(x, y)); });
     EXPECT_LT(brightest, 0.51);
+  }
+}
+
+// One ray a pixel finds light only now and then. What filters make of it is as bright, and the
+// sources' clamps of fireflies and history lose a good part of it.
+TEST_F(ControlDenoiseTest, SparseLightKeepsItsEnergy) {
+  set_roughness([](auto) { return 0.5f; });
+  for (const DenoiseMethod method : {DenoiseMethod::kTemporal, DenoiseMethod::kControl}) {
+    for (const bool keeps : {true, false}) {
+      DenoiseDesc desc = default_denoise(method);
+      desc.constants.keep_energy = keeps ? 1 : 0;
+      Denoiser denoiser = make(desc);
+      std::mt19937 random(11);
+      std::uniform_real_distribution<float> uniform;
+      double sum = 0, count = 0;
+      for (int frame = 0; frame < 120; ++frame) {
+        const FloatImage out = run(
+            denoiser, [&](auto, auto) { return uniform(random) < 0.0625f ? 16.0f : 0.0f; }, 10);
+        if (frame < 20) continue;
+        for_surface([&](auto x, auto y) {
+          sum += out.at(x, y);
+          ++count;
+        });
+      }
+      if (keeps) {
+        EXPECT_NEAR(sum / count, 1, 0.03) << static_cast<int>(method);
+      } else {
+        EXPECT_LT(sum / count, 0.8) << static_cast<int>(method);
+      }
+    }
   }
 }
 

@@ -255,10 +255,7 @@ rtapi::Status Denoiser::add_temporal(const Recorder& to) {
   if (const auto s = add_guides(to); !s) return s;
   if (is_control) {
     for (const Channel& channel : channels_) {
-      const auto s = add(to, kClampFireflies,
-                         {{0, &channel.signal}, {1, &channel.clamped}, {3, &guides_[to.parity]}},
-                         desc_.constants);
-      if (!s) return s;
+      if (const auto s = add_fireflies(to, channel); !s) return s;
     }
   }
   const Pictures accumulated = pictures(&Channel::accumulated);
@@ -283,6 +280,19 @@ rtapi::Status Denoiser::add_temporal(const Recorder& to) {
     if (const auto s = add_lobe_filter(to, channel); !s) return s;
   }
   return {};
+}
+
+rtapi::Status Denoiser::add_fireflies(const Recorder& to, const Channel& channel) {
+  const Texture& guides = guides_[to.parity];
+  const bool spreads = desc_.constants.keep_energy != 0;
+  // Accumulation writes there later.
+  const Texture& cut = spreads ? channel.accumulated : channel.clamped;
+  const auto s =
+      add(to, kClampFireflies, {{0, &channel.signal}, {1, &cut}, {3, &guides}}, desc_.constants);
+  if (!s || !spreads) return s;
+  return add(to, kSpreadFireflies,
+             {{0, &channel.signal}, {1, &channel.clamped}, {2, &cut}, {3, &guides}},
+             desc_.constants);
 }
 
 rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, const Channel& channel) {

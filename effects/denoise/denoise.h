@@ -45,8 +45,13 @@ struct DenoiseConstants {
   std::uint32_t lobes = 0;         ///< set by Denoiser
   std::uint32_t changes = 0;       ///< set by Denoiser
   std::uint32_t pixel_offset = 0;  ///< set by SumLoad [PassConstants::pixel_offset]
+  /// 1: light that comes in few bright samples is not lost: what kControl takes from fireflies goes
+  /// to the pixels around them, and history is only clipped where it is off by more than samples
+  /// vary over time. 0: fireflies and history are cut to what 3 x 3 pixels of one frame show, as
+  /// the sources do.
+  std::uint32_t keep_energy = 1;
 };
-static_assert(sizeof(DenoiseConstants) == 84);
+static_assert(sizeof(DenoiseConstants) == 88);
 
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
@@ -228,6 +233,7 @@ class Denoiser {
       kBilateralExact{kSpatialLibrary, "BilateralExact"},
       kTemporal{kSvgfLibrary, "TemporalAccumulation"}, kVariance{kSvgfLibrary, "EstimateVariance"},
       kAtrous{kSvgfLibrary, "Atrous"}, kClampFireflies{kControlLibrary, "ClampFireflies"},
+      kSpreadFireflies{kControlLibrary, "SpreadFireflies"},
       kFilterLobe{kControlLibrary, "FilterLobe"};
 
   rtapi::Status create_pictures(const rtapi::Device& device, const Frame& frame);
@@ -236,6 +242,7 @@ class Denoiser {
   rtapi::Status add_guides(const Recorder& to);
   rtapi::Status add_spatial(const Recorder& to, const Channel& channel);
   rtapi::Status add_temporal(const Recorder& to);
+  rtapi::Status add_fireflies(const Recorder& to, const Channel& channel);
   rtapi::Status add_lobe_filter(const Recorder& to, const Channel& channel);
   rtapi::Status add_wavelet(const Recorder& to);
   rtapi::Status add_copy(const Recorder& to, const Pictures& from, const Pictures& into);

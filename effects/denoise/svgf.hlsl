@@ -189,9 +189,21 @@ Reprojected Reproject(Past past, int s) {
   return result;
 }
 
+// With fewer frames than this, the variance comes from 7 x 7 pixels of the same surface instead.
+static const float kEnoughFrames = 4.0;
+// Light that varies by chance is rarely farther off. Less would clip more below than above, since
+// bright samples are few.
+static const float kSureDeviations = 3.0;
+
 // Clips the history to mean and deviation of the new light in 3 x 3 pixels, so that outdated light
 // is dropped.
-float3 ClipToNeighbours(float3 color, int2 pixel, int2 size, int s) {
+float3 ClipToNeighbours(Reprojected before, int2 pixel, int2 size, int s) {
+  // Nine pixels of a frame miss light that comes in few bright samples, mostly; history would lose
+  // some of it in every frame. It is only wrong where it is off by more than samples vary in time.
+  const float2 past = before.moments.xy;
+  const float over_time = sqrt(max(past.y - past.x * past.x, 0.0));
+  const bool keeps_energy = denoise.keep_energy != 0;
+  if (keeps_energy && before.moments.z < kEnoughFrames) return before.color.rgb;
   float3 sum = float3(0, 0, 0);
   float3 squares = float3(0, 0, 0);
   float count = 0.0;
@@ -207,7 +219,9 @@ float3 ClipToNeighbours(float3 color, int2 pixel, int2 size, int s) {
   }
   const float3 mean = sum / count;
   const float3 deviation = sqrt(max(squares / count - mean * mean, float3(0, 0, 0)));
-  return clamp(color, mean - denoise.clip_gamma * deviation, mean + denoise.clip_gamma * deviation);
+  float3 allowed = denoise.clip_gamma * deviation;
+  if (keeps_energy) allowed = max(allowed, kSureDeviations * over_time);
+  return clamp(before.color.rgb, mean - allowed, mean + allowed);
 }
 
 // 0: light is as it was; 1: none of it is. [Schied et al. 2018]
@@ -228,7 +242,7 @@ void Accumulate(int2 pixel, int2 size, Past past, float instance, int s) {
     return;
   }
   if (denoise.clip_gamma > 0.0) {
-    before.color.rgb = ClipToNeighbours(before.color.rgb, pixel, size, s);
+    before.color.rgb = ClipToNeighbours(before, pixel, size, s);
   }
   const float change = ChangeOf(pixel, s);
   const float longer = min(before.moments.z + 1.0, float(denoise.max_history));
@@ -265,9 +279,6 @@ void TemporalAccumulation(uint3 id : SV_DispatchThreadID) {
     Accumulate(pixel, size, own, instance, s);
   }
 }
-
-// With fewer frames than this, the variance comes from 7 x 7 pixels of the same surface instead.
-static const float kEnoughFrames = 4.0;
 
 [shader("compute")]
 [numthreads(8, 8, 1)]
