@@ -13,7 +13,7 @@
 namespace kaamos::test {
 
 std::string compile_input(const Corpus& corpus, const std::vector<std::string>& include_folders,
-                          const Input& input, uint64_t choice) {
+                          const Input& input, uint64_t number, uint64_t choice, CppBatch* batch) {
   // Includes come from memory only: a damaged #include must not open files on the disk.
   hlsl::MemoryFileLoader loader(corpus.texts);
   hlsl::SourceManager sources(loader);
@@ -34,6 +34,7 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (flag(4)) options.target = "lib_6_7";
   if (flag(16)) options.target = "cs_6_0";
   if (flag(16)) options.exports = "Main;main=Other";
+  options.check_access = flag(8);
   hlsl::DiagnosticEngine diagnostics({.strict = options.strict});
   const std::shared_ptr<const hlsl::ir::Module> module =
       hlsl::compile_to_ir(options, sources, diagnostics);
@@ -47,9 +48,16 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (!violations.empty()) return "the module breaks rules of ir.h:\n" + violations;
   if (hlsl::dump(*module).empty()) return "an empty dump";
   if (hlsl::reflect_json(*module).empty()) return "no reflection";
-  if (hlsl::emit_cpp(*module, {}).empty()) return "no C++";
-  const std::string interpreted = interpret_input(module);
-  if (!interpreted.empty()) return interpreted;
+  hlsl::EmitCppOptions cpp_options;
+  if (flag(2)) cpp_options.wide = hlsl::WideThreads::kAlways;
+  if (batch != nullptr) cpp_options.entry_point = batch->next_name();
+  std::string cpp = hlsl::emit_cpp(*module, cpp_options);
+  if (cpp.empty()) return "no C++";
+  if (batch != nullptr) batch->add(number, std::move(cpp));
+  if (!options.check_access) {
+    const std::string interpreted = interpret_input(module);
+    if (!interpreted.empty()) return interpreted;
+  }
   return hlsl::compile_spirv(*module).error.message();
 }
 

@@ -39,18 +39,21 @@ constexpr size_t kTextBytes = 8u << 20;
 
 constexpr char kUsage[] =
     "hlsl_fuzz [--seed N] [--seconds S | --long S] [--out FOLDER] [--first N] [--replay PATH] "
-    "SOURCE...\n"
+    "[--compile N] SOURCE...\n"
     "  SOURCE          folders with the HLSL files to damage\n"
     "  --seed N        which sequence of inputs (default 1)\n"
     "  --seconds S     how long (default 3)\n"
     "  --long S        like --seconds, but KAAMOS_FUZZ_SECONDS in the environment overrides it\n"
     "  --first N       begin with input N of the sequence (default 0)\n"
     "  --out FOLDER    where to write failing inputs (default .)\n"
-    "  --replay PATH   compile this file, or the .hlsl files of this folder, unchanged\n";
+    "  --replay PATH   compile this file, or the .hlsl files of this folder, unchanged\n"
+    "  --compile N     have the C++ of one in N inputs read by the host's compiler (default 0: "
+    "none)\n";
 
 struct Arguments {
   uint64_t seed = 1;
   uint64_t first = 0;
+  uint64_t compile = 0;
   double seconds = 3;
   std::string out = ".";
   std::string replay;
@@ -61,6 +64,7 @@ struct Arguments {
 struct Shared {
   std::atomic<uint64_t> number;    // of the current input
   std::atomic<uint64_t> finished;  // inputs done by all children
+  std::atomic<uint64_t> compiled;  // libraries that the C++ compiler took
   std::atomic<uint64_t> bytes;
   char text[kTextBytes];
   char path[4096];
@@ -81,6 +85,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
       out.seed = std::strtoull(value.c_str(), nullptr, 0);
     } else if (word == "--first") {
       out.first = std::strtoull(value.c_str(), nullptr, 0);
+    } else if (word == "--compile") {
+      out.compile = std::strtoull(value.c_str(), nullptr, 0);
     } else if (word == "--seconds") {
       out.seconds = std::strtod(value.c_str(), nullptr);
     } else if (word == "--long") {
@@ -148,24 +154,53 @@ void copy_text(char* to, size_t room, const std::string& text) {
   to[bytes] = '\0';
 }
 
+// Of the C++ that the host's compiler reads.
+fs::path cpp_folder(const Arguments& arguments) {
+  return fs::path(arguments.out) / ("fuzz_cpp_" + std::to_string(arguments.seed));
+}
+
+// What the parent writes if the child ends before the next input.
+Input begin(const Inputs& inputs, uint64_t number, Shared& shared) {
+  Input input = inputs.get(number);
+  copy_text(shared.text, kTextBytes, input.text);
+  copy_text(shared.path, sizeof(shared.path), input.path);
+  shared.bytes = std::min(input.text.size(), kTextBytes);
+  shared.number = number;
+  return input;
+}
+
+// Ends the child if a library of the batch does not compile.
+void check(CppBatch& batch, const Inputs& inputs, Shared& shared) {
+  const size_t size = batch.size();
+  const auto failure = batch.check();
+  if (!failure) {
+    shared.compiled += size;
+    return;
+  }
+  begin(inputs, failure->input, shared);
+  copy_text(shared.broken, sizeof(shared.broken), failure->messages);
+  std::_Exit(1);
+}
+
 [[noreturn]] void child(const Arguments& arguments, const Inputs& inputs, Shared& shared,
                         Clock::time_point start) {
+  std::optional<CppBatch> batch;
+  if (arguments.compile != 0) batch.emplace(cpp_folder(arguments));
   for (uint64_t number = shared.number; !inputs.ends_before(number, start); ++number) {
-    const Input input = inputs.get(number);
-    copy_text(shared.text, kTextBytes, input.text);
-    copy_text(shared.path, sizeof(shared.path), input.path);
-    shared.bytes = std::min(input.text.size(), kTextBytes);
-    shared.number = number;
+    const Input input = begin(inputs, number, shared);
     for (uint64_t i = 0; i < inputs.choices(); ++i) {
       const uint64_t choice = (number + 1) * 0x9e3779b97f4a7c15u + i * 0x632be59bd9b4e019u;
       const std::string broken =
-          compile_input(inputs.corpus(), arguments.folders, input, choice >> 16);
+          compile_input(inputs.corpus(), arguments.folders, input, number, choice >> 16,
+                        batch && number % arguments.compile == 0 ? &*batch : nullptr);
       if (broken.empty()) continue;
       copy_text(shared.broken, sizeof(shared.broken), broken);
       std::_Exit(1);
     }
+    if (batch && batch->is_full()) check(*batch, inputs, shared);
     ++shared.finished;
   }
+  if (batch) check(*batch, inputs, shared);
   std::_Exit(0);
 }
 
@@ -253,10 +288,15 @@ int fuzz(const Arguments& arguments) {
     if (++findings == kMaxFindings) break;
     ++shared.number;
   }
+  if (arguments.compile != 0) {
+    std::error_code ignored;
+    fs::remove_all(cpp_folder(arguments), ignored);
+  }
   const std::chrono::duration<double> seconds = Clock::now() - start;
-  std::printf("hlsl_fuzz: seed %llu, %llu inputs in %.0f s, %d findings\n",
+  std::printf("hlsl_fuzz: seed %llu, %llu inputs in %.0f s, %llu compiled as C++, %d findings\n",
               static_cast<unsigned long long>(arguments.seed),
-              static_cast<unsigned long long>(shared.finished.load()), seconds.count(), findings);
+              static_cast<unsigned long long>(shared.finished.load()), seconds.count(),
+              static_cast<unsigned long long>(shared.compiled.load()), findings);
   return findings == 0 ? 0 : 1;
 }
 
