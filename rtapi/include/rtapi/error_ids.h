@@ -478,6 +478,7 @@ inline constexpr ErrorId kFunctionRedefined{2445};  ///< '{0}' already has a bod
 inline constexpr ErrorId kSizeof{2446};  ///< '{0}' has no size
 inline constexpr ErrorId kUnsignedBase{2447};  ///< 'unsigned {0}' is no type: only signed integers have a twin
 inline constexpr ErrorId kNormType{2448};  ///< '{0}' has no effect on '{1}': it is for floating-point numbers
+inline constexpr ErrorId kCoherentType{2449};  ///< '{0}' of type '{1}' cannot be globallycoherent, which is for resources that are written
 inline constexpr ErrorId kNotATemplate{2450};  ///< '{0}' takes no template arguments
 inline constexpr ErrorId kTemplateCount{2451};  ///< '{0}' takes at most {1} template arguments; {2} given
 inline constexpr ErrorId kTemplateArguments{2452};  ///< the template arguments do not match the parameters of '{0}'

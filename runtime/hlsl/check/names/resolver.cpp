@@ -140,7 +140,16 @@ const Type* Resolver::resolve_type(const TypeSyntax* syntax, Scope* scope) {
 }
 
 const Type* Resolver::resolve_variable_type(const VariableDecl* decl, Scope* scope) {
-  if (decl->type->kind != TypeSyntaxKind::kAuto) return resolve_type(decl->type, scope);
+  if (decl->type->kind != TypeSyntaxKind::kAuto) {
+    const Type* type = resolve_type(decl->type, scope);
+    const Type* element = type;
+    while (element->is_array()) element = element->element;
+    const bool is_written = element->is_resource() && traits_of(element->resource).is_writable;
+    if ((decl->modifiers & kModGloballyCoherent) && !element->is_error() && !is_written) {
+      report(CheckId::kCoherentType, decl->location, {std::string(decl->name), to_string(type)});
+    }
+    return type;
+  }
   Value value;
   if (decl->initializer) {
     value = parts_.evaluator.value_of(decl->initializer, scope);
