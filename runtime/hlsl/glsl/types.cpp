@@ -13,6 +13,12 @@ namespace kaamos::hlsl {
 
 using namespace ir;
 
+namespace {
+
+constexpr uint32_t kMostWrittenZeros = 1u << 16;
+
+}  // namespace
+
 namespace glsl {
 
 std::string scalar_name(Scalar scalar) {
@@ -175,15 +181,33 @@ std::string GlslEmitter::zero(const Type* t) {
     return scalar_literal(t->scalar, 0);
   }
   const std::string name = type(t);
+  if (t->kind == TypeKind::kResource && !t->is_query()) return "k_null";
   if (t->kind == TypeKind::kVector) {
     return t->columns == 1 ? scalar_literal(t->scalar, 0)
                            : name + "(" + scalar_literal(t->scalar, 0) + ")";
   }
-  auto& constant = generated_[name];
-  if (constant.empty()) {
-    constant = "g_zero_" + std::to_string(generated_.size());
-    declarations_ += "const " + name + " " + constant + " = {};\n";
+  if (const auto found = generated_.find(name); found != generated_.end()) return found->second;
+  // glslang crashes where a constant takes a part of `{}`, so that is only for what is too large to
+  // be written out.
+  std::string parts;
+  const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
+  if (glsl::words(t) <= kMostWrittenZeros) {
+    if (t->kind == TypeKind::kMatrix) {
+      const std::string row = glsl::vector_name(t->scalar, t->columns);
+      for (uint32_t i = 0; i < t->rows; ++i) add(row + "(" + scalar_literal(t->scalar, 0) + ")");
+      parts = row + "[" + std::to_string(t->rows) + "](" + parts + ")";
+    } else if (t->kind == TypeKind::kArray) {
+      const std::string part = zero(t->element);
+      for (uint32_t i = 0; i < t->count; ++i) add(part);
+    } else if (t->kind == TypeKind::kStruct) {
+      for (const Field& field : t->structure->fields) add(zero(field.type));
+      if (t->structure->fields.empty()) parts = "0u";
+    }
   }
+  const std::string value = parts.empty() ? "{}" : name + "(" + parts + ")";
+  const std::string constant = "g_zero_" + std::to_string(generated_.size() + 1);
+  generated_[name] = constant;
+  declarations_ += "const " + name + " " + constant + " = " + value + ";\n";
   return constant;
 }
 
