@@ -8,6 +8,15 @@
 
 namespace kaamos::effects {
 
+template <class Reads>
+bool LightStage::any_rendered(Reads reads) const {
+  const FrameSettings& settings = context_.settings;
+  return std::any_of(context_.effects.begin(), context_.effects.end(), [&](const Effect& effect) {
+    return reads(effect.needs) &&
+           is_rendered(context_.scene, settings, context_.effects, effect.name);
+  });
+}
+
 rtapi::Result<Outcome> LightStage::create(const Needs& needs, const Progress& progress) {
   has_main_ = needs.main;
   leaves_out_strongest_ = needs.main && needs.strongest;
@@ -20,11 +29,14 @@ rtapi::Status LightStage::create_lighting() {
   const Frame& frame = context_.frame;
   const ShaderLibraries& libraries = context_.libraries;
   const std::uint32_t lights = count_local_lights(context_.scene);
+  reads_maps_ = has_main_ || any_rendered([](const EffectNeeds& needs) {
+                  return needs.lights || needs.volume || needs.strongest_lights;
+                });
   const auto lighting =
       Lighting::create(device, frame, context_.gpu, libraries.at("light/lights/lighting"), lights);
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
-  if (context_.settings.light_maps == LightMaps::kDrawn) {
+  if (context_.settings.light_maps == LightMaps::kDrawn && reads_maps_) {
     const auto s = lighting_->draw_maps(device, frame, context_.scene, context_.gpu,
                                         libraries.at("light/lights/light_map_draws"));
     if (!s) return s;
@@ -39,7 +51,7 @@ rtapi::Status LightStage::create_lighting() {
   list_left_out(lights);
   // Baking reads the shadow maps.
   const auto updated = context_.runner.execute(
-      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame); });
+      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame, reads_maps_); });
   if (!updated) return updated.error();
   return {};
 }
@@ -47,6 +59,9 @@ rtapi::Status LightStage::create_lighting() {
 void LightStage::list_left_out(std::uint32_t lights) {
   if (!has_main_ && lights == 0) {
     context_.left_out.push_back("local lights and contact shadows: the scene has no local light");
+  }
+  if (!reads_maps_ && lights > 0) {
+    context_.left_out.push_back("shadow maps of local lights: no effect reads them");
   }
   const FrameSettings& settings = context_.settings;
   for (const Effect& effect : context_.effects) {
@@ -59,12 +74,8 @@ void LightStage::list_left_out(std::uint32_t lights) {
 }
 
 bool LightStage::reads_volume() const {
-  const FrameSettings& settings = context_.settings;
-  return settings.whole_frame &&
-         std::any_of(context_.effects.begin(), context_.effects.end(), [&](const Effect& effect) {
-           return effect.needs.volume &&
-                  is_rendered(context_.scene, settings, context_.effects, effect.name);
-         });
+  return context_.settings.whole_frame &&
+         any_rendered([](const EffectNeeds& needs) { return needs.volume; });
 }
 
 rtapi::Result<Outcome> LightStage::create_volume(const Progress& progress) {
@@ -125,7 +136,7 @@ void LightStage::begin_frame() {
 
 void LightStage::record(rtapi::CommandList& list) {
   lighting_->see(context_.moment.camera.position());
-  lighting_->update(list, context_.frame);
+  lighting_->update(list, context_.frame, reads_maps_);
   if (direct_) {
     direct_->dispatch(list, context_.frame, leaves_out_strongest_, context_.settings.light_culling);
   }

@@ -235,6 +235,35 @@ double mean_radiance(FrameRenderer& renderer) {
   return sum / static_cast<double>(picture.values.size());
 }
 
+// A frame whose only effect looks at the picture traces no map of a lamp, and says so.
+TEST(Registry, MapsThatNothingReadsAreNotTraced) {
+  const Scene scene = make_room();
+  FrameSettings settings = small_settings({"gtao"});
+  settings.primary = Primary::kRaster;
+  const auto rays_of = [&](const FrameSettings& of, bool is_said) {
+    rtapi::DeviceDesc desc;
+    desc.CollectStatistics = true;
+    const rtapi::Device device = rtapi::CreateDevice(desc).value();
+    const auto renderer = FrameRenderer::create(device, scene, of).value();
+    renderer->render().value();
+    const auto& said = renderer->context().left_out;
+    EXPECT_EQ(std::any_of(said.begin(), said.end(),
+                          [](const std::string& line) {
+                            return line.find("shadow maps of local lights") != std::string::npos;
+                          }),
+              is_said);
+    std::uint64_t rays = 0;
+    for (const PassStatistics& pass : renderer->runner().passes()) {
+      rays += pass.rays.TraceRayCalls;
+    }
+    return rays;
+  };
+  EXPECT_EQ(rays_of(settings, true), 0u);
+  FrameSettings lit = small_settings({"gtao", "local"});
+  lit.primary = Primary::kRaster;
+  EXPECT_GT(rays_of(lit, false), 0u);
+}
+
 TEST(Registry, MatteSurfacesReflectTheLightAroundWithoutRays) {
   Scene scene = make_room();
   for (Material& material : scene.materials) {

@@ -99,9 +99,10 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
   return out;
 }
 
-void Lighting::update(rtapi::CommandList& list, const Frame& frame) const {
+void Lighting::update(rtapi::CommandList& list, const Frame& frame, bool with_maps) const {
   clusters_.dispatch(list, frame, {}, PassArguments(views_), kClusterCells,
                      kClusterCount / kClusterCells);
+  if (!with_maps) return;
   if (draws_) {
     draws_->record(list, views_);
     return;

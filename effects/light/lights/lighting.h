@@ -63,7 +63,8 @@ class Lighting {
   void see(const glm::dvec3& camera_position);
 
   /// Records what makes the lists and the maps for the frame's camera, with the barriers behind it.
-  void update(rtapi::CommandList& list, const Frame& frame) const;
+  /// `with_maps`: false where nobody reads the maps; they are then not made.
+  void update(rtapi::CommandList& list, const Frame& frame, bool with_maps = true) const;
   /// Binds them to a pass whose shaders include hit_lighting.hlsli: registers u16 to u18 of space3.
   /// @errors those of PassViews::set_unordered_access.
   rtapi::Status bind(PassViews& views) const;
