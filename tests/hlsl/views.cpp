@@ -40,6 +40,7 @@ TextureKind kind_of(const std::string& name) {
   }
   if (says("_uint")) kind.format = Format::kR32Uint;
   if (says("_single")) kind.format = Format::kR32Float;
+  if (says("_half")) kind.format = Format::kR16Float;
   if (says("_pairs")) kind.format = says("_signed") ? Format::kR32G32Sint : Format::kR32G32Uint;
   return kind;
 }
@@ -103,6 +104,8 @@ Texture CountingResources::texture(const std::string& name, bool writable) {
       put([mip](uint32_t x, uint32_t y, uint32_t z) {
         return std::array<float, 1>{float(x + 10 * y + 100 * mip + 1000 * z)};
       });
+    } else if (kind.format == Format::kR16Float) {
+      put([](uint32_t, uint32_t, uint32_t) { return std::array<uint16_t, 1>{0x3C00}; });  // 1
     } else if (kind.format != Format::kR32G32B32A32Float) {
       put([mip](uint32_t x, uint32_t y, uint32_t z) {
         return std::array<uint32_t, 2>{x + 10 * y + 100 * mip + 1000 * z, 1};
@@ -137,8 +140,8 @@ void CountingResources::buffer_view(const shader::BindingDesc& b, const Buffer& 
                                     CpuDescriptorHandle handle) {
   const bool raw = b.type == shader::BindingType::kRawBuffer;
   const Format typed = kind_of(b.name != nullptr ? b.name : "").format;
-  const bool named =
-      typed == Format::kR32G32Uint || typed == Format::kR32G32Sint || typed == Format::kR32Float;
+  const bool named = typed == Format::kR32G32Uint || typed == Format::kR32G32Sint ||
+                     typed == Format::kR32Float || typed == Format::kR16Float;
   const Format format = b.type == shader::BindingType::kTypedBuffer
                             ? (named ? typed : Format::kR32Uint)
                         : raw ? Format::kR32Typeless

@@ -116,7 +116,7 @@ struct Float {
   }
   template <int Bits>
   static uint32_t encode(uint32_t value) {
-    return Bits == 16 ? to_half(float_of(value)).bits : value;
+    return Bits == 16 ? to_half_toward_zero(float_of(value)).bits : value;
   }
 };
 
@@ -200,7 +200,8 @@ Texel decode_srgb(const uint8_t* at) {
 // ---------------------------------------------------------------------------------------------
 // Small floats: 5 exponent bits like float16, no sign.
 
-// Negative numbers give 0; finite numbers stay finite. [D3D11.3 3.1.3.3]
+// Negative numbers give 0; others are rounded toward zero, so that what is finite stays finite.
+// [D3D11.3 3.1.3.3, 3.2.2]
 template <int Mantissa>
 uint32_t encode_unsigned_float(uint32_t value) {
   constexpr uint32_t kInfinity = 31u << Mantissa;
@@ -209,11 +210,10 @@ uint32_t encode_unsigned_float(uint32_t value) {
   if (!(x > 0.0f)) return 0;
   if (value == 0x7F800000u) return kInfinity;
   if (x < 0x1p-14f) {
-    return static_cast<uint32_t>(std::nearbyint(x * static_cast<float>(1 << (14 + Mantissa))));
+    return static_cast<uint32_t>(x * static_cast<float>(1 << (14 + Mantissa)));
   }
   constexpr int kShift = 23 - Mantissa;
-  const uint32_t rounded = value + (1u << (kShift - 1)) - 1 + (value >> kShift & 1u);
-  const uint32_t result = (rounded >> kShift) - (112u << Mantissa);
+  const uint32_t result = (value >> kShift) - (112u << Mantissa);
   return result < kInfinity ? result : kInfinity - 1;
 }
 

@@ -129,7 +129,10 @@ TEST(TextureFormats, WritesClamp) {
             0x00FF7F80u);
   EXPECT_EQ(encode(36, {{70000, 5, 0, 0}}), 0x0005FFFFu);
   EXPECT_EQ(encode(25, {{2000, 1023, 0, 9}}), 0xC00FFFFFu);
-  EXPECT_EQ(encode(34, floats(1.0f, 1e9f, 0, 0)), 0x7C003C00u);
+  EXPECT_EQ(encode(34, floats(1.0f, 1e9f, 0, 0)), 0x7BFF3C00u);
+  EXPECT_EQ(encode(34, floats(-kInf, 65520.0f, 0, 0)), 0x7BFFFC00u);
+  EXPECT_EQ(encode(34, floats(0.3f, -0.3f, 0, 0)), 0xB4CC34CCu);  // 0x34CD is nearer
+  EXPECT_EQ(encode(34, floats(1.9e-7f, 5e-8f, 0, 0)), 0x3u);      // 3.2 and 0.8 times 2^-24
 }
 
 TEST(TextureFormats, UnsignedFloats) {
@@ -155,7 +158,7 @@ TEST(TextureFormats, UnsignedFloats) {
       std::frexp(x, &exponent);
       const double step = std::ldexp(1.0, exponent - 1 - mantissa);
       EXPECT_EQ(static_cast<double>(round_trip(x, c)),
-                std::nearbyint(static_cast<double>(x) / step) * step)
+                std::floor(static_cast<double>(x) / step) * step)
           << x;
     }
   }

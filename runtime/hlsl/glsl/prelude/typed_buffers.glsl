@@ -131,10 +131,20 @@ uvec4 k_load_typed(k_Descriptor d, uint element) {
   return k_decode_element(l, words);
 }
 
+// Rounds toward zero, as formats do. [D3D11.3 3.2.2]
+//@ k_encode_half
+uint k_encode_half(uint bits) {
+  uint sign = bits >> 16 & 0x8000u;
+  uint magnitude = bits & 0x7FFFFFFFu;
+  if (magnitude >= 0x7F800000u) return k_f32tof16(uintBitsToFloat(bits));
+  if (magnitude >= 0x477FE000u) return sign | 0x7BFFu;
+  if (magnitude >= 0x38800000u) return sign | (magnitude - 0x38000000u) >> 13;
+  return sign | uint(uintBitsToFloat(magnitude) * 16777216.0);
+}
 // Clamped to the format's range; NaN becomes 0 in normalized formats.
 //@ k_encode_channel
 uint k_encode_channel(uint kind, uint bits, uint value) {
-  if (kind == 4u) return bits == 32u ? value : k_f32tof16(uintBitsToFloat(value));
+  if (kind == 4u) return bits == 32u ? value : k_encode_half(value);
   uint mask = bits == 32u ? 0xFFFFFFFFu : (1u << bits) - 1u;
   if (kind == 2u) return min(value, mask);
   int high = int(mask >> 1);
@@ -149,8 +159,8 @@ uint k_encode_channel(uint kind, uint bits, uint value) {
   precise float scaled = clamp(x, 0.0, 1.0) * float(mask) + 0.5;
   return uint(scaled);
 }
-// Five exponent bits, no sign: negative numbers give 0, and finite numbers stay finite. [D3D11.3
-// 3.1.3.3]
+// Five exponent bits, no sign: negative numbers give 0, and others are rounded toward zero.
+// [D3D11.3 3.1.3.3, 3.2.2]
 //@ k_encode_unsigned_float
 uint k_encode_unsigned_float(uint value, uint mantissa) {
   uint infinity = 31u << mantissa;
@@ -158,10 +168,9 @@ uint k_encode_unsigned_float(uint value, uint mantissa) {
   if (isnan(x)) return infinity | 1u << (mantissa - 1u);
   if (!(x > 0.0)) return 0u;
   if (value == 0x7F800000u) return infinity;
-  if (value < 0x38800000u) return uint(roundEven(x * float(1u << (14u + mantissa))));  // 2^-14
+  if (value < 0x38800000u) return uint(x * float(1u << (14u + mantissa)));  // 2^-14
   uint shift = 23u - mantissa;
-  uint rounded = value + (1u << (shift - 1u)) - 1u + (value >> shift & 1u);
-  return min((rounded >> shift) - (112u << mantissa), infinity - 1u);
+  return min((value >> shift) - (112u << mantissa), infinity - 1u);
 }
 //@ k_encode_element
 uvec4 k_encode_element(uint l, uvec4 texel) {

@@ -253,7 +253,7 @@ KAAMOS_INLINE bool store_short(const Texture& texture, const int4& at, const V& 
     if (uint8_t* texel = texel_in_place(texture, at, kR16G16B16A16Float, 8)) {
       if (!is_writable(texture)) return false;
       uint16_t stored[4];
-      for (int i = 0; i < 4; ++i) stored[i] = to_half(component(value, i)).bits;
+      for (int i = 0; i < 4; ++i) stored[i] = to_half_toward_zero(component(value, i)).bits;
       __builtin_memcpy(texel, stored, sizeof(stored));
       return true;
     }
