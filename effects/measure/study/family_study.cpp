@@ -171,7 +171,7 @@ class PartStudy {
       result.signal = plan_.signal;
       result.about = table.about;
       result.truth = measured.truth ? std::string("path-traced truth")
-                                    : fmt::format("the ray traced effect with {} samples a pixel",
+                                    : fmt::format("ray traced effect with {} samples a pixel",
                                                   options_.measure_reference);
       result.truth_error = measured.truth ? measured.truth_rmse : measured.reference_rmse;
     }
