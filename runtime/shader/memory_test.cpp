@@ -62,7 +62,7 @@ TEST(ShaderMemory, RawStoresAreCutOffPerComponent) {
 TEST(ShaderMemory, OtherKindsHaveNoBytes) {
   for (const DescriptorKind kind :
        {DescriptorKind::kNull, DescriptorKind::kTexture, DescriptorKind::kSampler,
-        DescriptorKind::kTypedBuffer, DescriptorKind::kAccelerationStructure}) {
+        DescriptorKind::kAccelerationStructure}) {
     Buffer b(64, kind, 4);
     EXPECT_EQ(load<uint32_t>(b.descriptor, 0), 0u);
     EXPECT_EQ(load_element<uint32_t>(b.descriptor, 0, 0), 0u);
@@ -70,6 +70,13 @@ TEST(ShaderMemory, OtherKindsHaveNoBytes) {
     EXPECT_EQ(b.words[0], 1u);
     EXPECT_EQ(memory_address<uint32_t>(b.descriptor, 0), nullptr);
   }
+}
+
+// A TextureBuffer reads the bytes of a typed buffer.
+TEST(ShaderMemory, TypedBuffersHaveTheirBytes) {
+  Buffer b(64, DescriptorKind::kTypedBuffer, 4);
+  EXPECT_EQ(load<uint32_t>(b.descriptor, 0), b.words[0]);
+  EXPECT_EQ(load<uint32_t>(b.descriptor, 64), 0u);
 }
 
 TEST(ShaderMemory, BoolTakesFourBytes) {
