@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <glm/trigonometric.hpp>
 #include <string>
 #include <utility>
 
@@ -102,6 +104,16 @@ bool override_materials(const Options& options, Scene& scene) {
     }
   }
   return true;
+}
+
+// Puts the sun where the options want it; a scene without one gets the default one there.
+void place_sun(const Options& options, Scene& scene) {
+  if (!options.sun) return;
+  if (!scene.sun) scene.sun = kaamos::effects::default_sun();
+  const float azimuth = glm::radians(options.sun->first);
+  const float elevation = glm::radians(options.sun->second);
+  scene.sun->direction_to_sun = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                                 std::cos(azimuth) * std::cos(elevation)};
 }
 
 // Estimates how long a pass that is partly done will still take, at the speed that it has had so
@@ -281,6 +293,7 @@ int main(int argc, char** argv) {
   }
   Scene scene;
   if (!load_scene(*options, scene) || !override_materials(*options, scene)) return 1;
+  place_sun(*options, scene);
   if (!options->write_glb.empty()) {
     if (const auto written = kaamos::effects::write_glb(options->write_glb, scene); !written.ok()) {
       say_error(written.error().message);

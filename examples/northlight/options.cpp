@@ -35,6 +35,7 @@ constexpr std::uint32_t kMaxSide = 16384;  // limit of a texture [D3D12: resourc
 // The values of options that are words, kept until all options have been read.
 struct Words {
   std::string size = "1280x720";
+  std::string sun;
   std::vector<std::string> effects = {"ao", "sun"};
   std::string pixel, explain;
   std::string denoise = "svgf";
@@ -96,6 +97,20 @@ std::string parse_pixel(const std::string& text,
     return "\"" + text + "\" is not a pixel: give x and y, as in 12,40";
   }
   pixel = {x, y};
+  return {};
+}
+
+std::string parse_sun(const std::string& text, Options& options) {
+  float azimuth = 0, elevation = 0;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%f,%f%n", &azimuth, &elevation, &end) != 2 ||
+      static_cast<std::size_t>(end) != text.size() || !(std::abs(azimuth) <= 360) ||
+      !(std::abs(elevation) <= 90)) {
+    return "\"" + text +
+           "\" is no place of the sun: give degrees from -360 to 360 and from -90 to 90, as in "
+           "30,50";
+  }
+  options.sun = {azimuth, elevation};
   return {};
 }
 
@@ -329,6 +344,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                                "angular size of the sun, in degrees "
                                "(the real one: 0.53); default: the scene's")
                     ->check(CLI::Range(0.0f, 90.0f));
+  app.add_option("--sun", words.sun,
+                 "AZIMUTH,ELEVATION: where the sun stands, in degrees from +Z towards +X and above "
+                 "the horizon, as in 30,50; default: the scene's, which may have none")
+      ->check(parsed_by(parse_sun, options));
   app.add_option("--denoise", words.denoise,
                  "denoiser for the whole frame: none, gaussian, bilateral, temporal, svgf, "
                  "control, a-svgf (svgf that forgets where light changes)")

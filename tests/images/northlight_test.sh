@@ -37,6 +37,7 @@ expect_error 2 'is not an effect' --effects ao,fog
 expect_error 2 'not in range 1 to 65536' --ao-samples 0
 expect_error 2 'is not a radius' --ao-radius far
 expect_error 2 'not in range' --sun-angle 400
+expect_error 2 'no place of the sun: give degrees' --sun 30
 expect_error 2 'not in range' --denoise-passes 9
 expect_error 2 'not expected' --no-such-option
 expect_error 2 'is not a pixel' --pixel 12

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/northlight/settings.h"
@@ -20,6 +21,9 @@ using Say = std::function<void(const std::string& text)>;
 struct Options {
   std::string scene = "lounge";        // or runner, glass-stack, mirror-hall, a .gltf or .glb file
   std::vector<std::string> materials;  // overrides, NAME:KEY=VALUE[,KEY=VALUE...]
+  // Where the sun stands instead of where the scene has it, or has none: degrees from +Z towards
+  // +X, and above the horizon.
+  std::optional<std::pair<float, float>> sun;
   std::string backend = "embree";
   std::string precision = "robust";  // of ray traversal: fast, robust, exact
   bool checked = false;              // say what checked mode reports

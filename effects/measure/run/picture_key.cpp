@@ -86,13 +86,13 @@ std::string as_key(const Checksum& checksum) {
 
 std::string picture_key(const Options& options, const Scene& scene) {
   // Of the work only how often and how long something is measured: who keeps numbers adds that.
-  const auto& [name, materials, backend, precision, checked, threads, frame, effects, camera_path,
-               frames_per_second, out, say, split, reference, path_samples, bounces, seconds,
-               each_lamp, half, save_seconds, resume, committed, measure, measure_reference,
-               measure_truth, repeats, cpu_clock, families, rows, command, commit, quick, seeds] =
-      options;
+  const auto& [name, materials, sun, backend, precision, checked, threads, frame, effects,
+               camera_path, frames_per_second, out, say, split, reference, path_samples, bounces,
+               seconds, each_lamp, half, save_seconds, resume, committed, measure,
+               measure_reference, measure_truth, repeats, cpu_clock, families, rows, command,
+               commit, quick, seeds] = options;
   Checksum checksum;
-  add_scene(checksum, scene);  // with the materials that were changed
+  add_scene(checksum, scene);  // with the materials and the sun that were changed
   checksum.add(name);          // which committed truth is its own
   checksum.add(backend);
   checksum.add(precision);
