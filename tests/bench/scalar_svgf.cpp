@@ -176,7 +176,13 @@ ScalarSvgf::Reprojected ScalarSvgf::reproject(const SvgfInput& input, int x, int
   return out;
 }
 
-Float4 ScalarSvgf::clip_to_neighbours(const SvgfInput& input, Float4 color, int x, int y) const {
+Float4 ScalarSvgf::clip_to_neighbours(const SvgfInput& input, const Reprojected& before, int x,
+                                      int y) const {
+  Float4 color = before.color;
+  const bool keeps_energy = constants_.keep_energy != 0;
+  if (keeps_energy && before.moments.z < 4.0f) return color;
+  const Float4& past = before.moments;
+  const float over_time = std::sqrt(std::max(past.y - past.x * past.x, 0.0f));
   Float4 sum;
   Float4 squares;
   float count = 0;
@@ -197,8 +203,9 @@ Float4 ScalarSvgf::clip_to_neighbours(const SvgfInput& input, Float4 color, int 
   for (int i = 0; i < 3; ++i) {
     const float mean = sums[i] / count;
     const float deviation = std::sqrt(std::max(sums_of_squares[i] / count - mean * mean, 0.0f));
-    *out[i] = std::min(std::max(*out[i], mean - constants_.clip_gamma * deviation),
-                       mean + constants_.clip_gamma * deviation);
+    float allowed = constants_.clip_gamma * deviation;
+    if (keeps_energy) allowed = std::max(allowed, 3.0f * over_time);
+    *out[i] = std::min(std::max(*out[i], mean - allowed), mean + allowed);
   }
   return color;
 }
@@ -216,7 +223,7 @@ KAAMOS_AS_SHADERS void ScalarSvgf::accumulate(const SvgfInput& input, int x, int
   Reprojected before = reproject(input, x, y);
   if (before.weight == 0) return;
   if (constants_.clip_gamma > 0) {
-    before.color = clip_to_neighbours(input, before.color, x, y);
+    before.color = clip_to_neighbours(input, before, x, y);
   }
   const float frames =
       std::min(before.moments.z + 1.0f, static_cast<float>(constants_.max_history));

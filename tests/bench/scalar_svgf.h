@@ -52,7 +52,7 @@ class ScalarSvgf {
 
   void prepare_guides(const SvgfInput& input, int x, int y);
   Reprojected reproject(const SvgfInput& input, int x, int y) const;
-  Float4 clip_to_neighbours(const SvgfInput& input, Float4 color, int x, int y) const;
+  Float4 clip_to_neighbours(const SvgfInput& input, const Reprojected& before, int x, int y) const;
   void accumulate(const SvgfInput& input, int x, int y);
   void estimate_variance(int x, int y);
   void filter(const std::vector<Float4>& from, std::vector<Float4>& to, int step, int x, int y);

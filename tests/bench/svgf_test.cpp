@@ -35,9 +35,11 @@ TEST(ScalarSvgf, GivesThePicturesOfTheShaders) {
   rtapi::UploadTexture(device, run.queue(), frame.texture(effects::kMotion), 0,
                        std::as_bytes(std::span(motion.values)))
       .value();
-  for (const float clip : {0.0f, 1.5f}) {
+  for (const auto& [clip, keeps_energy] :
+       {std::pair(0.0f, true), std::pair(1.5f, false), std::pair(1.5f, true)}) {
     effects::DenoiseDesc desc = effects::default_denoise(effects::DenoiseMethod::kSvgf);
     desc.constants.clip_gamma = clip;
+    desc.constants.keep_energy = keeps_energy ? 1 : 0;
     effects::Denoiser denoiser =
         effects::Denoiser::create(device, frame, effects::denoise_libraries().value(), "test",
                                   signal, desc)
@@ -63,7 +65,8 @@ TEST(ScalarSvgf, GivesThePicturesOfTheShaders) {
                           std::abs(double{ours.values[4 * i + 1]} - expected.y),
                           std::abs(double{ours.values[4 * i + 2]} - expected.z)});
       }
-      EXPECT_LT(worst, 1e-4) << "frame " << index << ", clipped to " << clip;
+      EXPECT_LT(worst, 1e-4) << "frame " << index << ", clipped to " << clip
+                             << (keeps_energy ? ", with its energy" : "");
     }
   }
 }
