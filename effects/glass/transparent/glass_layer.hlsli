@@ -13,19 +13,22 @@ float Coverage(float opacity) {
   return opacity < 1.0 ? opacity : 1.0;
 }
 
-// Light that a layer sends to the camera, apart from the mirror image. The caller provides the
-// sun's visibility, because an any-hit shader cannot trace a ray.
-float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibility) {
+// Light that a layer sends to the camera, apart from the sun's and the mirror image.
+float3 LayerLight(Surface surface, Brdf brdf, float3 direction) {
   if (surface.is_unlit) return surface.emissive;
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
-  float3 light = surface.emissive;
-  light += LocalLights(brdf, view, surface.position, surface.normal);
-  light += view.diffuse * VolumeIrradianceAt(surface.position, kEveryCell, surface.normal);
-  if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
-    light += frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun) *
-             sun_visibility;
+  return surface.emissive + LocalLights(brdf, view, surface.position, surface.normal) +
+         view.diffuse * VolumeIrradianceAt(surface.position, kEveryCell, surface.normal);
+}
+
+// The sun's light that a layer sends to the camera where nothing is in its way. The caller tells
+// whether that is so, because an any-hit shader cannot trace a ray.
+float3 LayerSunlight(Surface surface, Brdf brdf, float3 direction) {
+  if (surface.is_unlit || !(dot(surface.normal, frame.direction_to_sun) > 0.0)) {
+    return float3(0, 0, 0);
   }
-  return light;
+  const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
+  return frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun);
 }
 
 struct GlassLayer {
@@ -37,7 +40,9 @@ struct GlassLayer {
 GlassLayer LitLayer(Surface surface, float coverage, float3 direction, float sun_visibility) {
   const Brdf brdf = SurfaceBrdf(surface);
   GlassLayer layer;
-  layer.radiance = coverage * Contain(LayerLight(surface, brdf, -direction, sun_visibility));
+  float3 light = LayerLight(surface, brdf, -direction);
+  if (sun_visibility > 0.0) light += LayerSunlight(surface, brdf, -direction) * sun_visibility;
+  layer.radiance = coverage * Contain(light);
   layer.transmittance = float3(1, 1, 1) * (1.0 - coverage);
   return layer;
 }

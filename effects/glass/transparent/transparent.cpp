@@ -21,7 +21,7 @@ RayPassDesc transparent_pass(rtapi::ShaderLibrary library) {
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeSurface] = {"TransparentAnyHit", "TransparentClosestHit"};
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 52;
+  desc.payload_bytes = 80;
   desc.max_recursion_depth = 3;  // a layer, its mirror image, a shadow ray to the sun there
   return desc;
 }

@@ -51,8 +51,33 @@ struct GlassPayload {
   uint instance;         // of the previous layer, which the ray must not hit again
   uint primitive;
   float met;             // distance at which that layer was hit
-  float sun_visibility;  // of the previous layer, because any-hit shaders cannot trace rays
+  float sun_visibility;  // of the last layer that faced the sun; kUnknown: none did
+  // In a blend with unknown visibility, because any-hit shaders cannot trace rays:
+  float3 sunlight;       // the weighted sum of what the sun adds where nothing is in its way
+  float3 sun_origin;     // where a ray to the sun starts, on the nearest layer that faces it
+  float sunlit;          // distance of that layer; negative: none faces it
 };
+
+static const float kUnknown = -1.0;  // visibility
+
+GlassPayload NewPayload(uint kind, float sun_visibility) {
+  GlassPayload payload;
+  payload.radiance = float3(0, 0, 0);
+  payload.distance = -1.0;
+  payload.transmittance = float3(1, 1, 1);
+  payload.weight = 0.0;
+  payload.kind = kind;
+  payload.instance = kNoInstance;
+  payload.primitive = 0;
+  payload.met = -1.0;
+  payload.sun_visibility = sun_visibility;
+  payload.sunlight = float3(0, 0, 0);
+  payload.sun_origin = float3(0, 0, 0);
+  payload.sunlit = -1.0;
+  return payload;
+}
+
+bool SunShines() { return constants.sun != 0 && any(frame.sun_irradiance > 0.0); }
 
 // Coverage of the glass at a hit; 0 where the ray passes: in holes and at the back of single-sided
 // glass.
@@ -138,10 +163,22 @@ void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectio
   if (on_edge) Remember(payload);
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
   const Brdf brdf = SurfaceBrdf(surface);
-  const float3 light =
-      Contain(LayerLight(surface, brdf, -normalize(WorldRayDirection()), payload.sun_visibility));
+  const float3 view = -normalize(WorldRayDirection());
   const float weight = coverage * BlendWeight(coverage, RayTCurrent());
-  payload.radiance += light * weight;
+  float3 light = LayerLight(surface, brdf, view);
+  if (payload.sun_visibility != 0.0) {
+    const float3 sunlight = LayerSunlight(surface, brdf, view);
+    if (payload.sun_visibility > 0.0) {
+      light += sunlight * payload.sun_visibility;
+    } else if (any(sunlight > 0.0)) {
+      payload.sunlight += Contain(sunlight) * weight;
+      if (payload.sunlit < 0.0 || RayTCurrent() < payload.sunlit) {
+        payload.sunlit = RayTCurrent();
+        payload.sun_origin = SurfaceOrigin(surface, frame.direction_to_sun);
+      }
+    }
+  }
+  payload.radiance += Contain(light) * weight;
   payload.weight += weight;
   payload.transmittance.x *= 1.0 - coverage;
   if (payload.distance < 0.0 || RayTCurrent() < payload.distance) payload.distance = RayTCurrent();
@@ -167,16 +204,7 @@ float3 MirrorImage(Surface surface, float3 direction) {
   ray.Direction = mirrored;
   const float longest = Contain(constants.reflection_length, kLongestRay);
   ray.TMax = longest;
-  GlassPayload payload;
-  payload.radiance = float3(0, 0, 0);
-  payload.distance = -1.0;
-  payload.transmittance = float3(1, 1, 1);
-  payload.weight = 0.0;
-  payload.kind = kMirrorRay;
-  payload.instance = kNoInstance;
-  payload.primitive = 0;
-  payload.met = -1.0;
-  payload.sun_visibility = 0.0;
+  GlassPayload payload = NewPayload(kMirrorRay, 0.0);
   TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(surface.roughness), kRayTypeSurface, kRayTypeCount,
            kRayTypeSurface, ray, payload);
   if (payload.distance < 0.0) return payload.radiance;
@@ -203,7 +231,7 @@ void TransparentClosestHit(inout GlassPayload payload,
     return;
   }
   const float3 direction = normalize(WorldRayDirection());
-  if (constants.sun != 0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
+  if (SunShines() && dot(surface.normal, frame.direction_to_sun) > 0.0) {
     payload.sun_visibility = TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
                                              frame.direction_to_sun, kSunDistance);
   }
@@ -244,11 +272,7 @@ RayDesc GlassRay(uint2 pixel) {
 void TransparentRayGen() {
   const uint2 pixel = FramePixel();
   RayDesc ray = GlassRay(pixel);
-  GlassPayload payload;
-  payload.instance = kNoInstance;
-  payload.primitive = 0;
-  payload.met = -1.0;
-  payload.sun_visibility = constants.sun != 0 ? 1.0 : 0.0;
+  GlassPayload payload = NewPayload(kLayerRay, SunShines() ? kUnknown : 0.0);
   float3 sum = float3(0, 0, 0);
   float3 through = float3(1, 1, 1);
   float first = 0.0;
@@ -285,6 +309,10 @@ void TransparentRayGen() {
     TraceRay(scene, RAY_FLAG_NONE, kMaskGlass, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
              payload);
     if (payload.weight > 0.0) {
+      if (payload.sunlit >= 0.0) {
+        payload.radiance += payload.sunlight * TraceVisibility(payload.sun_origin,
+                                                               frame.direction_to_sun, kSunDistance);
+      }
       const float open = payload.transmittance.x;
       sum += through * (payload.radiance / payload.weight) * (1.0 - open);
       through *= open;
@@ -299,16 +327,7 @@ void TransparentRayGen() {
 [shader("raygeneration")]
 void GlassReflectionRayGen() {
   const uint2 pixel = FramePixel();
-  GlassPayload payload;
-  payload.radiance = float3(0, 0, 0);
-  payload.distance = -1.0;
-  payload.transmittance = float3(1, 1, 1);
-  payload.weight = 0.0;
-  payload.kind = kMirrorOfLayerRay;
-  payload.instance = kNoInstance;
-  payload.primitive = 0;
-  payload.met = -1.0;
-  payload.sun_visibility = 0.0;
+  GlassPayload payload = NewPayload(kMirrorOfLayerRay, 0.0);
   TraceRay(scene, RAY_FLAG_NONE, kMaskGlass, kRayTypeSurface, kRayTypeCount, kRayTypeSurface,
            GlassRay(pixel), payload);
   first_mirrored[pixel] = float4(payload.radiance, max(payload.distance, 0.0));

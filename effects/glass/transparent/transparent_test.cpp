@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "effects/assets/built_in/glass_scenes.h"
@@ -15,6 +16,7 @@
 #include "effects/assets/scene/shapes.h"
 #include "effects/composition/composite/composite.h"
 #include "effects/northlight/frame_renderer.h"
+#include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
 namespace {
@@ -27,9 +29,10 @@ struct Seen {
 // Runs all settings on one device, because making pipelines takes most of the time.
 std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstants>& settings,
                        std::uint32_t size = 8, std::uint32_t threads = 0,
-                       const IndirectVolume& volume = {}) {
+                       const IndirectVolume& volume = {}, const std::string& backend = "embree") {
   rtapi::DeviceDesc device_desc;
   device_desc.Threads = threads;
+  device_desc.Backend = backend;
   FrameSettings frame_settings;
   frame_settings.width = size;
   frame_settings.height = size;
@@ -486,6 +489,53 @@ TEST(Transparent, ThePlaceOfTheSceneDoesNotMatter) {
     EXPECT_LE(different, kSize * kSize / 100) << "scale " << row.scale << " angle " << row.angle;
   }
 }
+
+// Panes that do not shine, in a sun on the left that a roof hides from the left half of the view.
+Scene half_shaded(std::vector<Pane> panes) {
+  for (Pane& pane : panes) pane.base_color = glm::vec3(0.8f);
+  Scene scene = make_pane_oracle(panes, glm::vec3(0));
+  scene.sun = Sun{};
+  scene.sun->direction_to_sun = glm::normalize(glm::vec3(-1, 0.5f, 0.25f));
+  scene.cameras[0].vertical_fov = 0.02;
+  Mesh mesh;
+  // A ray from (x, 0, -2) to the sun is at (x - 4, 2, -1).
+  add_shape(mesh, patch({-20, 2, 20}, {16, 0, 0}, {0, 0, -40}, 1, 1), 0);
+  Instance instance;
+  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back(instance);
+  return scene;
+}
+
+class TransparentSun : public test::OnBackends {};
+
+// Layers that any-hit shaders blend, which cannot trace rays: behind a traced one that faces away
+// from the sun, and so does not ask whether it is visible, and without any that is traced.
+TEST_P(TransparentSun, BlendedLayersBelowARoofGetNone) {
+  const Pane turned{.distance = 1, .alpha = 0.5f, .turned = 1.0};
+  const Pane pane{.distance = 2, .alpha = 0.5f};
+  const std::vector<Seen> seen = look(
+      half_shaded({turned, pane}), {plain(0, 8), plain(0, 1), plain(0, 0)}, 8, 0, {}, GetParam());
+  const float sunlit = seen[0].glass.at(7, 3, 0);
+  EXPECT_GT(sunlit, 0.03f);
+  EXPECT_NEAR(seen[1].glass.at(7, 3, 0), sunlit, 1e-5);
+  EXPECT_GT(seen[2].glass.at(7, 3, 0), 0);
+  for (const Seen& each : seen) EXPECT_EQ(each.glass.at(0, 3, 0), 0);
+}
+
+// A single layer has nothing to be blended with.
+TEST(Transparent, OneBlendedLayerIsInTheSunAsATracedOneIs) {
+  const std::vector<Seen> seen =
+      look(half_shaded({{.distance = 2, .alpha = 0.5f}}), {plain(0, 8), plain(0, 0)});
+  EXPECT_GT(seen[0].glass.at(7, 3, 0), 0.06f);
+  EXPECT_EQ(seen[0].glass.at(0, 3, 0), 0);
+  for (std::size_t i = 0; i < seen[0].glass.values.size(); ++i) {
+    ASSERT_NEAR(seen[1].glass.values[i], seen[0].glass.values[i], 1e-5) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, TransparentSun, testing::Values("embree", "vulkan"),
+                         [](const auto& backend) { return backend.param; });
 
 TEST(Transparent, ThreadsDoNotMatter) {
   const Scene scene = make_glass_stack({.panes = 8, .thick = true});
