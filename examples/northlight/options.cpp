@@ -295,9 +295,7 @@ void apply(const Words& words, Options& options) {
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;
-  for (const Effect& effect : northlight_effects()) {
-    options.effects[effect.name] = effect.defaults;
-  }
+  options.effects = default_options().effects;
   Words words;
   std::string radius = "4";
   CLI::App app(

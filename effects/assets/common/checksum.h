@@ -30,6 +30,11 @@ class Checksum {
     static_assert(std::is_trivially_copyable_v<T>);
     add({reinterpret_cast<const std::uint8_t*>(&value), sizeof(T)});
   }
+  /// Adds several values without padding.
+  template <class... Values>
+  void add_each(const Values&... values) {
+    (add_value(values), ...);
+  }
   /// Adds values without padding, and their number.
   template <class T>
   void add_values(const std::vector<T>& values) {

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "effects/assets/gltf/gltf_error.h"
+
 namespace kaamos::effects {
 namespace {
 
@@ -92,10 +94,6 @@ bool is_index_type(int component_type) {
          component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-Error fail(const std::string& where, const std::string& what) {
-  return make_error(ErrorId::kGltf, where + ": " + what);
-}
-
 /// Checks that `view.count` elements from `offset` lie in the buffer view, and points view.data at
 /// the first.
 Status place(const tinygltf::Model& model, int buffer_view, std::size_t offset,
@@ -105,17 +103,17 @@ Status place(const tinygltf::Model& model, int buffer_view, std::size_t offset,
   const std::size_t size = std::size_t{component_size(view.component_type)} * view.components;
   if (view.stride == 0) view.stride = size;
   if (view.stride < size || view.stride > 65536)
-    return fail(where, "the stride of bufferView " + std::to_string(buffer_view) + " is " +
-                           std::to_string(view.stride) + " bytes, " + std::to_string(size) +
-                           "..65536 are allowed");
+    return gltf_error(where, "the stride of bufferView " + std::to_string(buffer_view) + " is " +
+                                 std::to_string(view.stride) + " bytes, " + std::to_string(size) +
+                                 "..65536 are allowed");
   if (view.count == 0) return {};
   const std::size_t needed = (view.count - 1) * view.stride + size;
   if (offset > bytes.value().size() || needed > bytes.value().size() - offset)
-    return fail(where, "needs " + std::to_string(needed) + " bytes from byte " +
-                           std::to_string(offset) + " of bufferView " +
-                           std::to_string(buffer_view) + ", which has " +
-                           std::to_string(bytes.value().size()) +
-                           ": the file is cut or its count, offset or stride is wrong");
+    return gltf_error(where, "needs " + std::to_string(needed) + " bytes from byte " +
+                                 std::to_string(offset) + " of bufferView " +
+                                 std::to_string(buffer_view) + ", which has " +
+                                 std::to_string(bytes.value().size()) +
+                                 ": the file is cut or its count, offset or stride is wrong");
   view.data = bytes.value().data() + offset;
   return {};
 }
@@ -127,12 +125,12 @@ Status locate(const tinygltf::Model& model, int id, const std::string& where, El
   view.count = a.count;
   view.normalized = a.normalized;
   if (component_size(a.componentType) == 0)
-    return fail(where, "component type " + std::to_string(a.componentType) +
-                           " is unknown, 5120..5126 and 5130 are allowed");
+    return gltf_error(where, "component type " + std::to_string(a.componentType) +
+                                 " is unknown, 5120..5126 and 5130 are allowed");
   const std::size_t limit = a.bufferView < 0 ? kMaxZeroElements : kMaxAccessorElements;
   if (a.count > limit)
-    return fail(where, "has " + std::to_string(a.count) + " elements, " + std::to_string(limit) +
-                           " are allowed");
+    return gltf_error(where, "has " + std::to_string(a.count) + " elements, " +
+                                 std::to_string(limit) + " are allowed");
   if (a.bufferView < 0) return {};
   if (static_cast<std::size_t>(a.bufferView) < model.bufferViews.size())
     view.stride = model.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;
@@ -146,14 +144,14 @@ Status apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& a,
   if (!a.sparse.isSparse) return {};
   const std::string place_name = where + ", sparse";
   if (a.sparse.count < 0 || static_cast<std::size_t>(a.sparse.count) > a.count)
-    return fail(place_name, "count is " + std::to_string(a.sparse.count) + ", 0.." +
-                                std::to_string(a.count) + " are allowed");
+    return gltf_error(place_name, "count is " + std::to_string(a.sparse.count) + ", 0.." +
+                                      std::to_string(a.count) + " are allowed");
   if (a.sparse.indices.byteOffset < 0 || a.sparse.values.byteOffset < 0)
-    return fail(place_name, "a byte offset is negative");
+    return gltf_error(place_name, "a byte offset is negative");
   if (!is_index_type(a.sparse.indices.componentType))
-    return fail(place_name, "indices have component type " +
-                                std::to_string(a.sparse.indices.componentType) +
-                                ", 5121, 5123 and 5125 are allowed");
+    return gltf_error(place_name, "indices have component type " +
+                                      std::to_string(a.sparse.indices.componentType) +
+                                      ", 5121, 5123 and 5125 are allowed");
   ElementView indices;
   indices.count = static_cast<std::size_t>(a.sparse.count);
   indices.component_type = a.sparse.indices.componentType;
@@ -174,8 +172,8 @@ Status apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& a,
     const std::uint32_t index =
         index_component(indices.component_type, indices.data + i * indices.stride);
     if (index >= a.count)
-      return fail(place_name, "index " + std::to_string(i) + " is " + std::to_string(index) +
-                                  ", 0.." + std::to_string(a.count - 1) + " are allowed");
+      return gltf_error(place_name, "index " + std::to_string(i) + " is " + std::to_string(index) +
+                                        ", 0.." + std::to_string(a.count - 1) + " are allowed");
     store(index, values.data + i * values.stride);
   }
   return {};
@@ -184,8 +182,8 @@ Status apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& a,
 Result<std::string> accessor_place(const tinygltf::Model& model, int accessor,
                                    const std::string& where) {
   if (accessor < 0 || static_cast<std::size_t>(accessor) >= model.accessors.size())
-    return fail(where, "names accessor " + std::to_string(accessor) + " of " +
-                           std::to_string(model.accessors.size()));
+    return gltf_error(where, "names accessor " + std::to_string(accessor) + " of " +
+                                 std::to_string(model.accessors.size()));
   return where + ", accessor " + std::to_string(accessor);
 }
 
@@ -201,19 +199,19 @@ std::uint32_t accessor_components(const tinygltf::Model& model, int accessor) {
 Result<std::span<const std::uint8_t>> buffer_view_bytes(const tinygltf::Model& model, int id,
                                                         const std::string& where) {
   if (id < 0 || static_cast<std::size_t>(id) >= model.bufferViews.size())
-    return fail(where, "names bufferView " + std::to_string(id) + " of " +
-                           std::to_string(model.bufferViews.size()));
+    return gltf_error(where, "names bufferView " + std::to_string(id) + " of " +
+                                 std::to_string(model.bufferViews.size()));
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(id)];
   if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
-    return fail(where, "bufferView " + std::to_string(id) + " names buffer " +
-                           std::to_string(view.buffer) + " of " +
-                           std::to_string(model.buffers.size()));
+    return gltf_error(where, "bufferView " + std::to_string(id) + " names buffer " +
+                                 std::to_string(view.buffer) + " of " +
+                                 std::to_string(model.buffers.size()));
   const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-    return fail(where,
-                "bufferView " + std::to_string(id) + " spans " + std::to_string(view.byteLength) +
-                    " bytes from byte " + std::to_string(view.byteOffset) + " of buffer " +
-                    std::to_string(view.buffer) + ", which has " + std::to_string(data.size()));
+    return gltf_error(
+        where, "bufferView " + std::to_string(id) + " spans " + std::to_string(view.byteLength) +
+                   " bytes from byte " + std::to_string(view.byteOffset) + " of buffer " +
+                   std::to_string(view.buffer) + ", which has " + std::to_string(data.size()));
   return std::span<const std::uint8_t>(data.data() + view.byteOffset, view.byteLength);
 }
 
@@ -222,8 +220,9 @@ Result<std::vector<float>> read_floats(const tinygltf::Model& model, int accesso
   const Result<std::string> where = accessor_place(model, accessor, user);
   if (!where.ok()) return where.error();
   if (accessor_components(model, accessor) != components)
-    return fail(where.value(), "has " + std::to_string(accessor_components(model, accessor)) +
-                                   " components, " + std::to_string(components) + " are expected");
+    return gltf_error(where.value(), "has " + std::to_string(accessor_components(model, accessor)) +
+                                         " components, " + std::to_string(components) +
+                                         " are expected");
   ElementView view;
   Status status = locate(model, accessor, where.value(), view);
   if (!status.ok()) return status.error();
@@ -249,10 +248,11 @@ Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, in
   Status status = locate(model, accessor, where.value(), view);
   if (!status.ok()) return status.error();
   if (view.components != 1 || !is_index_type(view.component_type))
-    return fail(where.value(), "has component type " + std::to_string(view.component_type) +
-                                   " and " + std::to_string(view.components) +
-                                   " components; indices are 1 component of type 5121, 5123 or "
-                                   "5125");
+    return gltf_error(where.value(),
+                      "has component type " + std::to_string(view.component_type) + " and " +
+                          std::to_string(view.components) +
+                          " components; indices are 1 component of type 5121, 5123 or "
+                          "5125");
   std::vector<std::uint32_t> out(view.count, 0);
   const auto store = [&](std::size_t index, const std::uint8_t* p) {
     out[index] = index_component(view.component_type, p);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "effects/assets/gltf/gltf_accessor.h"
+#include "effects/assets/gltf/gltf_error.h"
 #endif
 
 namespace kaamos::effects {
@@ -42,10 +43,6 @@ namespace {
 /// enough that a file of 200 bytes cannot request any amount of memory.
 constexpr std::size_t kMostTrianglesPerByte = 65536;
 
-Error fail(const std::string& where, const std::string& what) {
-  return make_error(ErrorId::kGltf, where + ": " + what);
-}
-
 /// The sizes that the accessors of a primitive have room for.
 struct Room {
   std::size_t points;
@@ -65,15 +62,16 @@ Status check_start(std::span<const std::uint8_t> bytes, const Room& room,
   draco::DracoHeader header;
   if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok() ||
       header.encoder_type != draco::TRIANGULAR_MESH)
-    return fail(where, "its stream is no Draco mesh");
+    return gltf_error(where, "its stream is no Draco mesh");
   // 2.2 is the only version that the extension allows.
   if (header.version_major != 2 || header.version_minor != 2)
-    return fail(where, "its stream is of Draco's version " + std::to_string(header.version_major) +
-                           "." + std::to_string(header.version_minor) + ", 2.2 is supported");
+    return gltf_error(where, "its stream is of Draco's version " +
+                                 std::to_string(header.version_major) + "." +
+                                 std::to_string(header.version_minor) + ", 2.2 is supported");
   if (header.flags & METADATA_FLAG_MASK) {
     draco::GeometryMetadata metadata;
     if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
-      return fail(where, "the metadata of its stream are damaged");
+      return gltf_error(where, "the metadata of its stream are damaged");
   }
   std::uint8_t traversal = 0;
   std::uint32_t triangles = 0, points = 0;
@@ -85,13 +83,13 @@ Status check_start(std::span<const std::uint8_t> bytes, const Room& room,
   } else {
     is_read = draco::DecodeVarint(&triangles, &buffer) && draco::DecodeVarint(&points, &buffer);
   }
-  if (!is_read) return fail(where, "its stream is cut");
+  if (!is_read) return gltf_error(where, "its stream is cut");
   if (triangles > room.triangles)
-    return fail(where, counted(triangles, "triangles", room.triangles));
-  if (points > room.points) return fail(where, counted(points, "vertices", room.points));
+    return gltf_error(where, counted(triangles, "triangles", room.triangles));
+  if (points > room.points) return gltf_error(where, counted(points, "vertices", room.points));
   if (triangles / kMostTrianglesPerByte > bytes.size())
-    return fail(where, "its stream has " + std::to_string(bytes.size()) + " bytes for " +
-                           std::to_string(triangles) + " triangles");
+    return gltf_error(where, "its stream has " + std::to_string(bytes.size()) + " bytes for " +
+                                 std::to_string(triangles) + " triangles");
   return {};
 }
 
@@ -105,17 +103,18 @@ Result<std::unique_ptr<draco::Mesh> > decode(std::span<const std::uint8_t> bytes
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok())
-      return fail(where, "its stream is damaged (" + decoded.status().error_msg_string() + ")");
+      return gltf_error(where,
+                        "its stream is damaged (" + decoded.status().error_msg_string() + ")");
     std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
     if (mesh->num_faces() > room.triangles)
-      return fail(where, counted(mesh->num_faces(), "triangles", room.triangles));
+      return gltf_error(where, counted(mesh->num_faces(), "triangles", room.triangles));
     if (mesh->num_points() > room.points)
-      return fail(where, counted(mesh->num_points(), "vertices", room.points));
+      return gltf_error(where, counted(mesh->num_points(), "vertices", room.points));
     return mesh;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    return fail(where, std::string("its stream is damaged (") + error.what() + ")");
+    return gltf_error(where, std::string("its stream is damaged (") + error.what() + ")");
   }
 }
 
@@ -161,18 +160,19 @@ Result<std::vector<unsigned char> > values_of(const draco::PointAttribute& from,
                                               std::uint32_t points, std::uint32_t components,
                                               const std::string& where) {
   if (static_cast<std::uint32_t>(from.num_components()) != components)
-    return fail(where, "has " + std::to_string(static_cast<int>(from.num_components())) +
-                           " components in the stream, " + std::to_string(components) +
-                           " in its accessor");
+    return gltf_error(where, "has " + std::to_string(static_cast<int>(from.num_components())) +
+                                 " components in the stream, " + std::to_string(components) +
+                                 " in its accessor");
   const auto size = components * static_cast<std::size_t>(draco::DataTypeLength(from.data_type()));
   const bool is_whole = from.buffer() && from.byte_stride() == static_cast<std::int64_t>(size) &&
                         from.size() <= from.buffer()->data_size() / size &&
                         (from.is_mapping_identity() || from.indices_map_size() >= points);
-  if (!is_whole) return fail(where, "its values in the stream are damaged");
+  if (!is_whole) return gltf_error(where, "its values in the stream are damaged");
   std::vector<unsigned char> out(points * size);
   for (std::uint32_t point = 0; point < points; ++point) {
     const draco::AttributeValueIndex index = from.mapped_index(draco::PointIndex(point));
-    if (index.value() >= from.size()) return fail(where, "its values in the stream are damaged");
+    if (index.value() >= from.size())
+      return gltf_error(where, "its values in the stream are damaged");
     from.GetValue(index, out.data() + point * size);
   }
   return out;
@@ -182,11 +182,11 @@ Status take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, std::uint
                       const std::string& where, int& accessor) {
   const draco::PointAttribute* from = mesh.GetAttributeByUniqueId(id);
   if (!from)
-    return fail(where,
-                "names attribute " + std::to_string(id) + ", which the stream does not have");
+    return gltf_error(where,
+                      "names attribute " + std::to_string(id) + ", which the stream does not have");
   tinygltf::Accessor like = model.accessors[static_cast<std::size_t>(accessor)];
   const int type = component_type_of(from->data_type());
-  if (type == 0) return fail(where, "has a type in the stream that glTF does not have");
+  if (type == 0) return gltf_error(where, "has a type in the stream that glTF does not have");
   Result<std::vector<unsigned char> > values =
       values_of(*from, mesh.num_points(), accessor_components(model, accessor), where);
   if (!values.ok()) return values.error();
@@ -208,8 +208,9 @@ Status take_triangles(tinygltf::Model& model, const draco::Mesh& mesh, const std
     for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(i))) {
       const std::uint32_t index = point.value();
       if (index >= mesh.num_points())
-        return fail(where, "triangle " + std::to_string(i) + " of its stream names vertex " +
-                               std::to_string(index) + " of " + std::to_string(mesh.num_points()));
+        return gltf_error(where, "triangle " + std::to_string(i) + " of its stream names vertex " +
+                                     std::to_string(index) + " of " +
+                                     std::to_string(mesh.num_points()));
       std::memcpy(to, &index, sizeof index);
       to += sizeof index;
     }
@@ -226,12 +227,12 @@ Status take_triangles(tinygltf::Model& model, const draco::Mesh& mesh, const std
 
 Result<std::size_t> count_of(const tinygltf::Model& model, int accessor, const std::string& where) {
   if (accessor < 0 || static_cast<std::size_t>(accessor) >= model.accessors.size())
-    return fail(where, "names accessor " + std::to_string(accessor) + " of " +
-                           std::to_string(model.accessors.size()));
+    return gltf_error(where, "names accessor " + std::to_string(accessor) + " of " +
+                                 std::to_string(model.accessors.size()));
   const std::size_t count = model.accessors[static_cast<std::size_t>(accessor)].count;
   if (count > kMaxAccessorElements)
-    return fail(where, "has " + std::to_string(count) + " elements, " +
-                           std::to_string(kMaxAccessorElements) + " are allowed");
+    return gltf_error(where, "has " + std::to_string(count) + " elements, " +
+                                 std::to_string(kMaxAccessorElements) + " are allowed");
   return count;
 }
 

@@ -7,6 +7,8 @@
 
 #include <utility>
 #include <vector>
+
+#include "effects/assets/gltf/gltf_error.h"
 #endif
 
 namespace kaamos::effects {
@@ -32,10 +34,6 @@ namespace {
 /// The most that a byte of a stream stands for: a two-bit header says of each 16 bytes of a column
 /// that they are equal. Streams of indices have at least a byte for each triangle or index.
 constexpr std::size_t kMostBytesPerByte = 64;
-
-Error fail(const std::string& where, const std::string& what) {
-  return make_error(ErrorId::kGltf, where + ": " + what);
-}
 
 int decode(const MeshoptView& from, std::span<const unsigned char> stream, unsigned char* to) {
   switch (from.mode) {
@@ -66,18 +64,18 @@ Status decode_one(tinygltf::Model& model, const MeshoptView& from) {
   const std::vector<unsigned char>& buffer =
       model.buffers[static_cast<std::size_t>(from.buffer)].data;
   if (from.offset_bytes > buffer.size() || from.size_bytes > buffer.size() - from.offset_bytes)
-    return fail(from.where, "spans " + std::to_string(from.size_bytes) + " bytes from byte " +
-                                std::to_string(from.offset_bytes) + " of buffer " +
-                                std::to_string(from.buffer) + ", which has " +
-                                std::to_string(buffer.size()));
+    return gltf_error(from.where, "spans " + std::to_string(from.size_bytes) + " bytes from byte " +
+                                      std::to_string(from.offset_bytes) + " of buffer " +
+                                      std::to_string(from.buffer) + ", which has " +
+                                      std::to_string(buffer.size()));
   const std::size_t size = from.count * from.stride;
   if (size / kMostBytesPerByte > from.size_bytes)
-    return fail(from.where, "its stream is cut: it has " + std::to_string(from.size_bytes) +
-                                " bytes for " + std::to_string(size));
+    return gltf_error(from.where, "its stream is cut: it has " + std::to_string(from.size_bytes) +
+                                      " bytes for " + std::to_string(size));
   std::vector<unsigned char> bytes(size);
   if (decode(from, std::span(buffer).subspan(from.offset_bytes, from.size_bytes), bytes.data()) !=
       0)
-    return fail(from.where, "its stream is cut or damaged");
+    return gltf_error(from.where, "its stream is cut or damaged");
   apply_filter(from, bytes.data());
   tinygltf::BufferView& view = model.bufferViews[from.view];
   view.buffer = static_cast<int>(model.buffers.size());

@@ -23,14 +23,14 @@ class SceneChecksum {
     checksum_.add_value(sun.has_value());
     if (sun) {
       const auto& [direction_to_sun, irradiance, angular_radius] = *sun;
-      add_values(direction_to_sun, irradiance, angular_radius);
+      checksum_.add_each(direction_to_sun, irradiance, angular_radius);
     }
     add_all(lights);
     add_all(nodes);
     add_all(skins);
     add_all(animations);
     const auto& [zenith, horizon, ground] = sky;
-    add_values(zenith, horizon, ground, exposure);
+    checksum_.add_each(zenith, horizon, ground, exposure);
   }
 
  private:
@@ -40,17 +40,11 @@ class SceneChecksum {
     for (const T& part : parts) add(part);
   }
 
-  // Values without padding.
-  template <class... Values>
-  void add_values(const Values&... values) {
-    (checksum_.add_value(values), ...);
-  }
-
   void add(const Geometry& geometry) {
     const auto& [first_vertex, vertex_count, index_offset, index_count, index_size, material,
                  alpha_tested] = geometry;
-    add_values(first_vertex, vertex_count, index_offset, index_count, index_size, material,
-               alpha_tested);
+    checksum_.add_each(first_vertex, vertex_count, index_offset, index_count, index_size, material,
+                       alpha_tested);
   }
 
   void add(const Mesh& mesh) {
@@ -68,14 +62,14 @@ class SceneChecksum {
 
   void add(const Level& level) {
     const auto& [mesh, coverage] = level;
-    add_values(mesh, coverage);
+    checksum_.add_each(mesh, coverage);
   }
 
   void add(const Instance& instance) {
     const auto& [name, mesh, levels, transform, mask, motion, build_class] = instance;
     const auto& [skin, animation, start, node, morph] = motion;
     add_all(levels);
-    add_values(mesh, transform, mask, skin, animation, start, node, morph, build_class);
+    checksum_.add_each(mesh, transform, mask, skin, animation, start, node, morph, build_class);
   }
 
   void add(const Material& material) {
@@ -87,33 +81,33 @@ class SceneChecksum {
 
   void add(const TextureImage& image) {
     const auto& [name, width, height, srgb, mips] = image;
-    add_values(width, height, srgb, mips.size());
+    checksum_.add_each(width, height, srgb, mips.size());
     for (const auto& mip : mips) checksum_.add_values(mip);
   }
 
   void add(const Sampler& sampler) {
     const auto& [wrap_u, wrap_v, min_filter, mag_filter, mip_filter, mipmapped] = sampler;
-    add_values(wrap_u, wrap_v, min_filter, mag_filter, mip_filter, mipmapped);
+    checksum_.add_each(wrap_u, wrap_v, min_filter, mag_filter, mip_filter, mipmapped);
   }
 
   void add(const Camera& camera) {
     const auto& [name, camera_to_world, vertical_fov, near_plane, half_height] = camera;
-    add_values(camera_to_world, vertical_fov, near_plane, half_height);
+    checksum_.add_each(camera_to_world, vertical_fov, near_plane, half_height);
   }
 
   void add(const Light& light) {
     const auto& [name, type, color, intensity, position, direction, range, inner, outer, radius,
                  baked, projection] = light;
-    add_values(type, color, intensity, position, direction, range, inner, outer, radius, baked,
-               projection.has_value());
+    checksum_.add_each(type, color, intensity, position, direction, range, inner, outer, radius,
+                       baked, projection.has_value());
     if (!projection) return;
     const auto& [image, sampler, up] = *projection;
-    add_values(image, sampler, up);
+    checksum_.add_each(image, sampler, up);
   }
 
   void add(const Node& node) {
     const auto& [name, parent, translation, rotation, scale, matrix, weights] = node;
-    add_values(parent, translation, rotation, scale, matrix.has_value());
+    checksum_.add_each(parent, translation, rotation, scale, matrix.has_value());
     if (matrix) checksum_.add_value(*matrix);
     checksum_.add_values(weights);
   }
@@ -126,7 +120,7 @@ class SceneChecksum {
 
   void add(const Channel& channel) {
     const auto& [node, path, interpolation, times, values, weights] = channel;
-    add_values(node, path, interpolation);
+    checksum_.add_each(node, path, interpolation);
     checksum_.add_values(times);
     checksum_.add_values(values);
     checksum_.add_values(weights);

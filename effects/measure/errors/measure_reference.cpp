@@ -18,7 +18,8 @@ namespace {
 constexpr std::uint32_t kProbeSeed = 0x0B5E55ED;
 constexpr std::uint32_t kPartSeed = 0x5EED0000;  // no other run uses it
 
-// Of the settings, and of what they show: that differs where a scene's files or a driver changed.
+// Returns the key of a reference's file. Two samples of the picture are part of it, so that a
+// driver that renders something else gets references of its own.
 rtapi::Result<std::string> key_of(EffectRuns& runs, Setting setting, std::uint32_t samples) {
   Checksum checksum;
   checksum.add(runs.key(setting));

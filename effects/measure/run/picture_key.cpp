@@ -15,12 +15,6 @@ using namespace kaamos::effects;
 
 namespace {
 
-// Values without padding.
-template <class... Values>
-void add_values(Checksum& checksum, const Values&... values) {
-  (checksum.add_value(values), ...);
-}
-
 template <class T>
 void add_optional(Checksum& checksum, const std::optional<T>& value) {
   checksum.add_value(value.has_value());
@@ -37,13 +31,13 @@ void add_program(Checksum& checksum) {
 void add_volume(Checksum& checksum, const VolumeSettings& volume) {
   const auto& [cell, samples, error, bounces, lights, seed, file, given] = volume;
   add_optional(checksum, cell);
-  add_values(checksum, samples, error, bounces, lights);
+  checksum.add_each(samples, error, bounces, lights);
   add_optional(checksum, seed);
 }
 
 void add_denoise(Checksum& checksum, const DenoiseDesc& denoise) {
   const auto& [method, constants, iterations, iterations_with_history] = denoise;
-  add_values(checksum, method, constants, iterations, iterations_with_history);
+  checksum.add_each(method, constants, iterations, iterations_with_history);
 }
 
 void add_effects(Checksum& checksum, const std::map<std::string, EffectSettings>& effects) {
@@ -59,9 +53,9 @@ void add_frame(Checksum& checksum, const FrameSettings& frame) {
   const auto& [width, height, seed, effects, whole_frame, denoise, volume, light_culling,
                light_maps, contact, taa, moving, order, primary, ray_cones, curvature_to_roughness,
                sun_angular_radius, sun_map, max_pass_views, rows] = frame;
-  add_values(checksum, width, height, seed, whole_frame, light_culling, light_maps, contact, taa,
-             moving, order, primary, ray_cones, curvature_to_roughness, sun_angular_radius, sun_map,
-             max_pass_views, rows);
+  checksum.add_each(width, height, seed, whole_frame, light_culling, light_maps, contact, taa,
+                    moving, order, primary, ray_cones, curvature_to_roughness, sun_angular_radius,
+                    sun_map, max_pass_views, rows);
   add_effects(checksum, effects);
   add_denoise(checksum, denoise);
   add_volume(checksum, volume);
@@ -77,7 +71,7 @@ void add_frame(Checksum& checksum, const FrameSettings& frame) {
 
 void add_settings(Checksum& checksum, const EffectSettings& settings) {
   const auto& [samples, pixel_step, rotates, radius, constants, keep, named, trace_only] = settings;
-  add_values(checksum, samples, pixel_step, rotates, radius, constants, keep, named, trace_only);
+  checksum.add_each(samples, pixel_step, rotates, radius, constants, keep, named, trace_only);
 }
 
 std::string as_key(const Checksum& checksum) {
@@ -85,7 +79,8 @@ std::string as_key(const Checksum& checksum) {
 }
 
 std::string picture_key(const Options& options, const Scene& scene) {
-  // Of the work only how often and how long something is measured: who keeps numbers adds that.
+  // The picture does not depend on how often and how long it is measured; callers that keep numbers
+  // add that to their key.
   const auto& [name, materials, sun, backend, precision, checked, threads, frame, effects,
                camera_path, frames_per_second, out, say, split, reference, path_samples, bounces,
                seconds, each_lamp, half, save_seconds, resume, committed, measure,
@@ -96,7 +91,7 @@ std::string picture_key(const Options& options, const Scene& scene) {
   checksum.add(name);          // which committed truth is its own
   checksum.add(backend);
   checksum.add(precision);
-  add_values(checksum, checked, threads, frames_per_second);
+  checksum.add_each(checked, threads, frames_per_second);
   add_optional(checksum, seconds);
   add_optional(checksum, bounces);
   checksum.add(camera_path);
@@ -112,8 +107,8 @@ std::string volume_key(const Options& options, const Scene& scene) {
   checksum.add(options.precision);
   add_optional(checksum, options.seconds);
   const FrameSettings& frame = options.frame;
-  add_values(checksum, frame.seed, frame.light_maps, frame.ray_cones, frame.sun_angular_radius,
-             frame.sun_map);
+  checksum.add_each(frame.seed, frame.light_maps, frame.ray_cones, frame.sun_angular_radius,
+                    frame.sun_map);
   add_volume(checksum, frame.volume);
   add_program(checksum);
   return as_key(checksum);

@@ -86,7 +86,7 @@ class PartStudy {
     return out;
   }
 
-  // Of all that the numbers depend on, and how they were measured.
+  // Returns the key of the kept numbers: it covers the picture and the way it was measured.
   std::string key() const {
     Checksum checksum;
     checksum.add(picture_key(options_, scene_));

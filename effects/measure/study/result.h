@@ -44,7 +44,7 @@ struct StudyResult {
   std::vector<std::string> about;
   std::vector<StudyRow> rows;
 
-  // Of all rows; those that were not measured are not finite, and so never on a front.
+  // Returns a trade for each row. Rows that were not measured get NaN, which no front takes.
   std::vector<effects::Trade> trades() const;
   bool is_measured() const;  // at least one row is
 };

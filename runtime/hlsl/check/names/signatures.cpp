@@ -66,7 +66,7 @@ class WrittenAlike {
                       });
   }
 
-  // Of values, names and numbers are enough.
+  // Compares names and numbers; other expressions count as different.
   bool values(const Expr* a, const Expr* b) const {
     if (!a || !b) return a == b;
     if (const auto* x = as<NameExpr>(a), *y = as<NameExpr>(b); x && y)
