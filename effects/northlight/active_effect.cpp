@@ -42,6 +42,11 @@ rtapi::Status ActiveEffect::create(const EffectInputs& inputs) {
   return {};
 }
 
+rtapi::Status ActiveEffect::remake() {
+  passes_.clear();
+  return has_passes() ? add_passes(settings_) : rtapi::Status{};
+}
+
 rtapi::Status ActiveEffect::create_pictures() {
   auto created = create_pictures(context_.frame, "");
   if (!created) return created.error();

@@ -44,6 +44,9 @@ class ActiveEffect {
   /// Makes pictures and passes, unless it has none: main lighting. `inputs` must stay.
   /// @errors KA3046 it needs local lights, which are not rendered; those of the device.
   rtapi::Status create(const EffectInputs& inputs);
+  /// Makes the passes again, with their pictures; those for other settings are gone.
+  /// @errors as above.
+  rtapi::Status remake();
   /// The host's work of a frame. [EffectPass::begin_frame]
   /// @errors those of the device.
   rtapi::Status begin_frame();

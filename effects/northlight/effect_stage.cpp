@@ -6,6 +6,13 @@
 
 namespace kaamos::effects {
 
+namespace {
+
+// With so many samples per pixel, what reads the volume has found the cells that count.
+constexpr std::uint32_t kMostReadingSamples = 4;
+
+}  // namespace
+
 void EffectStage::choose() {
   for (const Effect& effect : context_.effects) {
     if (renders(effect.name)) active_.push_back(std::make_unique<ActiveEffect>(context_, effect));
@@ -66,6 +73,26 @@ rtapi::Status EffectStage::forget_radiance() {
   const auto done = context_.runner.execute(
       [&](rtapi::CommandList& list) { kept_->record_nothing(list, context_.frame); });
   if (!done) return done.error();
+  return {};
+}
+
+rtapi::Result<Outcome> EffectStage::read_volume(const Progress& progress) {
+  for (const auto& effect : active_) {
+    if (!effect->has_passes() || !effect->row().needs.volume) continue;
+    SampledWork work = effect->work(nullptr);
+    work.title = "indirect light";
+    work.samples = std::min(work.samples, kMostReadingSamples);
+    work.done = nullptr;
+    if (const auto done = context_.runner.run_samples(work, progress); !is_done(done)) return done;
+  }
+  return Outcome::kDone;
+}
+
+rtapi::Status EffectStage::remake_readers() {
+  for (const auto& effect : active_) {
+    if (!effect->row().needs.volume || effect->rays() != nullptr) continue;
+    if (const auto s = effect->remake(); !s) return s;
+  }
   return {};
 }
 

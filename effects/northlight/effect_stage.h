@@ -41,6 +41,13 @@ class EffectStage {
   /// Makes them. Lights are there by then, in a whole frame.
   /// @errors those of ActiveEffect::create, RaySorter and TemporalGradients.
   rtapi::Status create();
+  /// Executes those that read the volume of indirect light, with a few samples, so that it is known
+  /// which cells they read; their pictures are of no use.
+  /// @errors those of the device.
+  rtapi::Result<Outcome> read_volume(const Progress& progress);
+  /// Makes those again that read the volume when they are made.
+  /// @errors those of ActiveEffect::create.
+  rtapi::Status remake_readers();
   /// The host's work of a frame.
   /// @errors those of the device.
   rtapi::Status begin_frame();

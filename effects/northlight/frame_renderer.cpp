@@ -100,6 +100,22 @@ rtapi::Result<Outcome> FrameRenderer::create_stages(const Progress& progress) {
     if (const auto s = filters.create(); !s) return s.error();
   }
   if (const auto s = composition.create(); !s) return s.error();
+  if (is_whole && lights.bakes_on_demand()) return bake_on_demand(progress);
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> FrameRenderer::bake_on_demand(const Progress& progress) {
+  auto& [surfaces, lights, effects, filters, composition] = *stages_;
+  const auto drawn = context_.runner.execute([&](rtapi::CommandList& list) {
+    surfaces.record(list);
+    lights.record(list);
+  });
+  if (!drawn) return drawn.error();
+  for (const bool is_first : {true, false}) {
+    if (const auto s = effects.read_volume(progress); !is_done(s)) return s;
+    if (const auto s = lights.bake_read(is_first, progress); !is_done(s)) return s;
+  }
+  if (const auto s = effects.remake_readers(); !s) return s.error();
   return Outcome::kDone;
 }
 
@@ -125,7 +141,7 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
 rtapi::Result<Outcome> FrameRenderer::run_early_effects(const Progress& progress) {
   auto& [surfaces, lights, effects, filters, composition] = *stages_;
   if (context_.settings.whole_frame) {
-    lights.begin_frame();
+    if (const auto s = lights.begin_frame(); !s) return s.error();
     filters.begin_frame();
   }
   if (const auto s = effects.begin(); !s) return s.error();

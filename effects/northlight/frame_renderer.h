@@ -136,6 +136,8 @@ class FrameRenderer {
   FrameRenderer(const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
                 std::vector<Effect> effects);
   rtapi::Result<Outcome> create_stages(const Progress& progress);
+  // Bakes what the first frame reads of the volume.
+  rtapi::Result<Outcome> bake_on_demand(const Progress& progress);
   rtapi::Result<Outcome> run_early_effects(const Progress& progress);
   rtapi::Result<Outcome> run_effects(const Progress& progress);
   rtapi::Result<ActiveEffect*> find_runnable(const std::string& effect,

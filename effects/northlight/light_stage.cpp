@@ -89,11 +89,21 @@ rtapi::Result<Outcome> LightStage::create_volume(const Progress& progress) {
     auto loaded = load_volume(wanted.file);
     if (!loaded.ok()) return loaded.error();
     volume = std::move(loaded.value());
-  } else if (const auto baked = bake_volume(volume, progress); !is_done(baked)) {
-    return baked;
+  } else {
+    auto laid_out = lay_out_volume();
+    if (!laid_out) return laid_out.error();
+    volume = std::move(*laid_out);
+    if (wanted.whole || !wanted.file.empty()) {
+      if (const auto baked = bake_volume(volume, progress); !is_done(baked)) return baked;
+    } else if (!volume.cells.empty()) {
+      auto on_demand = VolumeOnDemand::create(bake_scope(), bake_desc(false), std::move(volume));
+      if (!on_demand) return on_demand.error();
+      on_demand_.emplace(std::move(*on_demand));
+    }
   }
   const glm::dvec3 origin = context_.moment.camera.position();
-  const auto uploaded = GpuVolume::create(context_.device, volume, origin);
+  const auto uploaded = GpuVolume::create(
+      context_.device, on_demand_ ? on_demand_->asking() : volume, origin, bakes_on_demand());
   if (!uploaded) return uploaded.error();
   gpu_volume_ = *uploaded;
   const auto none = GpuVolume::create(context_.device, {}, origin);
@@ -103,35 +113,75 @@ rtapi::Result<Outcome> LightStage::create_volume(const Progress& progress) {
   return Outcome::kDone;
 }
 
-rtapi::Result<Outcome> LightStage::bake_volume(IndirectVolume& volume, const Progress& progress) {
-  const VolumeSettings& wanted = context_.settings.volume;
-  auto laid_out = layout_volume(context_.scene, wanted.cell);
-  if (!laid_out.ok()) return laid_out.error();
-  volume = std::move(laid_out.value());
-  if (!wanted.cell && volume.cell != kVolumeCell) {
+rtapi::Result<IndirectVolume> LightStage::lay_out_volume() {
+  const std::optional<float> cell = context_.settings.volume.cell;
+  auto volume = layout_volume(context_.scene, cell);
+  if (!volume.ok()) return volume.error();
+  if (!cell && volume.value().cell != kVolumeCell) {
     std::ostringstream text;
     text << "cells of " << kVolumeCell << " m in the volume of indirect light: the scene is large, "
-         << volume.cells.size() << " cells of " << volume.cell << " m bake faster (--gi-cell "
-         << kVolumeCell << ")";
+         << volume.value().cells.size() << " cells of " << volume.value().cell
+         << " m bake faster (--gi-cell " << kVolumeCell << ")";
     context_.left_out.push_back(text.str());
   }
-  const BakeDesc desc = {wanted.samples, wanted.error, wanted.bounces,
-                         wanted.seed.value_or(context_.settings.seed), wanted.lights};
+  return std::move(volume.value());
+}
+
+BakeScope LightStage::bake_scope() const {
+  return {context_.device,
+          context_.runner.queue(),
+          context_.frame,
+          context_.gpu,
+          context_.scene,
+          *lighting_,
+          context_.libraries.at("indirect/indirect_diffuse/volume_bake")};
+}
+
+BakeDesc LightStage::bake_desc(bool is_whole) const {
+  const VolumeSettings& wanted = context_.settings.volume;
+  return {is_whole ? wanted.samples : std::min(wanted.samples, kDemandPaths), wanted.error,
+          wanted.bounces, wanted.seed.value_or(context_.settings.seed), wanted.lights};
+}
+
+rtapi::Result<Outcome> LightStage::bake_volume(IndirectVolume& volume, const Progress& progress) {
   bake_.emplace();
   const auto step = [&](double done) { return !progress || progress("indirect light", done); };
-  const auto baked = effects::bake_volume(
-      context_.device, context_.runner.queue(), context_.frame, context_.gpu, context_.scene,
-      *lighting_, context_.moment.camera.position(),
-      context_.libraries.at("indirect/indirect_diffuse/volume_bake"), desc, volume, &*bake_, step);
-  if (!is_done(baked) || wanted.file.empty()) return baked;
-  if (const auto saved = save_volume(wanted.file, volume); !saved.ok()) {
-    return saved.error();
+  const auto baked = effects::bake_volume(bake_scope(), context_.moment.camera.position(),
+                                          bake_desc(true), volume, &*bake_, step);
+  const std::string& file = context_.settings.volume.file;
+  if (!is_done(baked) || file.empty()) return baked;
+  if (const auto saved = save_volume(file, volume); !saved.ok()) return saved.error();
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> LightStage::bake_read(bool is_first, const Progress& progress) {
+  const auto reads = gpu_volume_.take_reads(context_.device, context_.runner.queue());
+  if (!reads) return reads.error();
+  const auto step = [&](double done) { return !progress || progress("indirect light", done); };
+  std::uint32_t baked = 0;
+  const auto done = on_demand_->bake(*reads, context_.moment.camera.position(), step, baked);
+  if (!is_done(done)) return done;
+  if (is_first) {
+    gpu_volume_.set_cells(on_demand_->asking());
+    is_asking_ = true;
+  } else if (is_asking_ || baked > 0) {
+    const auto known = on_demand_->known();
+    if (!known) return known.error();
+    gpu_volume_.set_cells(*known);
+    is_asking_ = false;
   }
   return Outcome::kDone;
 }
 
-void LightStage::begin_frame() {
+std::optional<BakeStatistics> LightStage::bake() const {
+  return on_demand_ ? on_demand_->statistics() : bake_;
+}
+
+rtapi::Status LightStage::begin_frame() {
   gpu_volume_.set_origin(context_.moment.camera.position());
+  if (!on_demand_) return {};
+  if (const auto s = bake_read(false, {}); !s) return s.error();
+  return {};
 }
 
 void LightStage::record(rtapi::CommandList& list) {

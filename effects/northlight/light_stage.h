@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "effects/indirect/indirect_diffuse/volume.h"
+#include "effects/indirect/indirect_diffuse/volume_on_demand.h"
 #include "effects/light/direct/direct.h"
 #include "effects/light/lights/lighting.h"
 #include "effects/northlight/frame_context.h"
@@ -30,12 +31,21 @@ class LightStage {
   LightStage(const LightStage&) = delete;
   LightStage& operator=(const LightStage&) = delete;
 
-  /// Makes all of it, and bakes or reads the volume.
+  /// Makes all of it, and bakes or reads the volume, unless it is baked on demand.
   /// @errors KA3041 more than 4,096 local lights; KA3045 a volume file that cannot be read or
   /// written; those of the device.
   rtapi::Result<Outcome> create(const Needs& needs, const Progress& progress);
-  /// Follows the camera, before anything is recorded.
-  void begin_frame();
+  /// Follows the camera, before anything is recorded, and bakes what the frame before has read of
+  /// the volume.
+  /// @errors those of the device.
+  rtapi::Status begin_frame();
+  /// Returns whether cells of the volume are baked when they are read.
+  bool bakes_on_demand() const { return on_demand_.has_value(); }
+  /// Bakes what the volume's readers have read since the last call, before the frame is rendered.
+  /// `is_first`: the readers are to be run again, because what lies in solids is known only now.
+  /// Precondition: bakes_on_demand.
+  /// @errors those of the device.
+  rtapi::Result<Outcome> bake_read(bool is_first, const Progress& progress);
   /// Records the lists, the maps and main lighting.
   void record(rtapi::CommandList& list);
   /// Executes that as a pass of the frame.
@@ -66,7 +76,7 @@ class LightStage {
   const GpuVolume& no_volume() const { return no_volume_; }
   ///@}
   /// Statistics of baking it; empty if nothing was baked.
-  const std::optional<BakeStatistics>& bake() const { return bake_; }
+  std::optional<BakeStatistics> bake() const;
 
  private:
   // Returns whether an effect with such needs is rendered.
@@ -75,7 +85,10 @@ class LightStage {
   rtapi::Status create_lighting();
   void list_left_out(std::uint32_t lights);
   rtapi::Result<Outcome> create_volume(const Progress& progress);
+  rtapi::Result<IndirectVolume> lay_out_volume();
   rtapi::Result<Outcome> bake_volume(IndirectVolume& volume, const Progress& progress);
+  BakeScope bake_scope() const;
+  BakeDesc bake_desc(bool is_whole) const;
 
   FrameContext& context_;
   std::optional<Lighting> lighting_;
@@ -84,6 +97,8 @@ class LightStage {
   bool has_main_ = false, leaves_out_strongest_ = false, has_volume_ = false;
   GpuVolume gpu_volume_, no_volume_;
   std::optional<BakeStatistics> bake_;
+  std::optional<VolumeOnDemand> on_demand_;
+  bool is_asking_ = true;  // the volume on the device is VolumeOnDemand::asking()
 };
 
 }  // namespace kaamos::effects

@@ -18,8 +18,15 @@
 
 namespace kaamos::effects {
 
+/// Paths per cell that is baked when it is read, if VolumeSettings::samples allows as many.
+inline constexpr std::uint32_t kDemandPaths = 64;
+
 /// The volume of indirect light, which effects read that need it.
 struct VolumeSettings {
+  /// Every cell is baked before the first frame. false: those that the frame's rays read, before
+  /// the first frame and between frames, by kDemandPaths paths each and filtered [VolumeOnDemand].
+  /// A file always holds all cells.
+  bool whole = false;
   std::optional<float> cell;          ///< metres; none: by the size of the scene
   std::uint32_t samples = 1024;       ///< paths per cell at most [BakeDesc]
   float error = 0.03f;                ///< standard error that is enough for a cell [BakeDesc]

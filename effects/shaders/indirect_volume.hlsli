@@ -15,6 +15,7 @@ struct VolumeConstants {
   uint3 bricks;     // of level 0 along each axis of the grid
   uint enabled;     // 0: there is no volume
   float over_cell;  // 1 / cell
+  uint counts_reads;  // 1: volume_reads is there, and counts
 };
 
 // Radiance from a unit direction d, per colour: mean + slope.x d.x + slope.y d.y + slope.z d.z.
@@ -47,6 +48,8 @@ struct VolumeLight {
 StructuredBuffer<uint> volume_bricks : register(t0, space3);
 StructuredBuffer<VolumeCell> volume_cells : register(t1, space3);
 StructuredBuffer<VolumeConstants> volume_constants : register(t2, space3);
+// By cell: how often it was read. The bake gives most paths to the cells that are read most.
+RWStructuredBuffer<uint> volume_reads : register(u15, space3);
 
 static const uint kBrickCells = 8;  // along each axis
 static const uint kNoBrick = 0xFFFFFFFF;
@@ -71,8 +74,10 @@ float BrickCellSize(uint brick) { return asfloat((127 + BrickLevel(brick)) << 23
 // Reads the cell of a brick that contains a cell of level 0.
 VolumeCell LoadVolumeCell(uint brick, uint3 cell) {
   const uint3 place = (cell >> BrickLevel(brick)) % kBrickCells;
-  return volume_cells[(brick & ~kBrickLevelBits) + place.x +
-                      kBrickCells * (place.y + kBrickCells * place.z)];
+  const uint index = (brick & ~kBrickLevelBits) + place.x +
+                     kBrickCells * (place.y + kBrickCells * place.z);
+  if (volume_constants[0].counts_reads != 0) InterlockedAdd(volume_reads[index], 1u);
+  return volume_cells[index];
 }
 
 bool IsInSolid(VolumeCell cell) { return int(cell.red.x) < 0; }

@@ -39,7 +39,7 @@ double mean_luminance(const std::vector<CellSums>& sums,
   double sum = 0, count = 0;
   for (std::size_t i = 0; i + 1 < sums.size(); i += 2) {
     const double all = static_cast<double>(samples[i]) + samples[i + 1];
-    if (is_solid(sums[i], sums[i + 1], all)) continue;
+    if (all == 0 || is_solid(sums[i], sums[i + 1], all)) continue;
     sum += luminance(sums[i].mean + sums[i + 1].mean) / all;
     ++count;
   }
@@ -126,11 +126,12 @@ std::vector<std::uint32_t> samples_of_halves(const std::vector<std::uint32_t>& c
 BakeStatistics bake_statistics(const std::vector<CellSums>& sums,
                                const std::vector<std::uint32_t>& samples, const BakeDesc& desc) {
   BakeStatistics out;
-  out.cells = sums.size() / 2;
   const double dark = kDarkPart * mean_luminance(sums, samples);
   double squares = 0;
   for (std::size_t i = 0; i + 1 < sums.size(); i += 2) {
     const std::uint64_t all = std::uint64_t{samples[i]} + samples[i + 1];
+    if (all == 0) continue;
+    ++out.cells;
     out.paths += all;
     if (is_solid(sums[i], sums[i + 1], static_cast<double>(all))) {
       ++out.in_solids;

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> samples_of_halves(const std::vector<std::uint32_t>& c
                                              const std::vector<CellSums>& pilot,
                                              const BakeDesc& desc);
 
-/// Returns what a bake of these sums took, without its time.
+/// Returns what a bake of these sums took, without its time. Cells without samples do not count.
 BakeStatistics bake_statistics(const std::vector<CellSums>& sums,
                                const std::vector<std::uint32_t>& samples, const BakeDesc& desc);
 

@@ -48,8 +48,9 @@ struct Stage : FrameStage {
 
   IndirectVolume bake(float cell, const BakeDesc& desc, BakeStatistics* statistics = nullptr) {
     IndirectVolume volume = layout_volume(scene, cell).value();
-    bake_volume(device, queue, frame, gpu, scene, lighting, scene.cameras.front().position(),
-                volume_bake_library().value(), desc, volume, statistics)
+    const rtapi::ShaderLibrary library = volume_bake_library().value();
+    bake_volume({device, queue, frame, gpu, scene, lighting, library},
+                scene.cameras.front().position(), desc, volume, statistics)
         .value();
     return volume;
   }

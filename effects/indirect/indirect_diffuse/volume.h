@@ -52,6 +52,12 @@ struct VolumeCell {
 };
 static_assert(sizeof(VolumeCell) == 64);
 
+/// The place of a cell in world space.
+struct CellPlace {
+  glm::dvec3 middle{0.0};
+  float size = 0;  ///< metres
+};
+
 /// A volume on the host, in world space. Cells of level n are 2^n times as large as the finest, and
 /// so are bricks, which lie in the grid of their own size. Each place has cells of one level.
 struct IndirectVolume {
@@ -63,8 +69,18 @@ struct IndirectVolume {
   std::vector<std::uint32_t> brick_starts;
   std::vector<VolumeCell> cells;  ///< kCellsPerBrick for each stored brick, x fastest
 
-  /// Middles of the cells, by their place in `cells`.
+  /// Places of the cells, by their index in `cells`.
+  std::vector<CellPlace> cell_places() const;
+  /// Their middles alone.
   std::vector<glm::dvec3> cell_centers() const;
+  /// The index in `cells` of the cell at a place, and its level; kNoBrick: there is none.
+  ///@{
+  struct Found {
+    std::uint32_t cell = kNoBrick;
+    std::uint32_t level = 0;
+  };
+  Found find(const glm::dvec3& place) const;
+  ///@}
   /// Places in `cells` that are read: not those in a part of a brick that finer bricks replace, or
   /// that lies outside of the grid. In rising order.
   std::vector<std::uint32_t> cells_in_use() const;
@@ -130,17 +146,29 @@ struct BakeStatistics {
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> volume_bake_library();
 
-/// Path traces every cell, in steps that take some tenths of a second. `origin` is that of `gpu`
-/// and `frame`. Every cell first gets a few paths, which tell how many more it needs. They do not
+/// What a bake works with. All of it must stay while it does.
+struct BakeScope {
+  const rtapi::Device& device;
+  rtapi::CommandQueue& queue;
+  const Frame& frame;
+  const GpuScene& gpu;
+  const Scene& scene;
+  const Lighting& lighting;
+  const rtapi::ShaderLibrary& library;  ///< volume_bake_library
+};
+
+/// Path traces every cell, in steps that take some tenths of a second. `origin` is that of the
+/// frame. Every cell first gets a few paths, which tell how many more it needs. They do not
 /// favour dark results: a cell has two halves, and what one of them and the cells around have found
 /// decides about the other. After kStopped the cells hold nothing of use.
 /// @errors those of the device.
-rtapi::Result<Outcome> bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                                   const Frame& frame, const GpuScene& gpu, const Scene& scene,
-                                   const Lighting& lighting, const glm::dvec3& origin,
-                                   const rtapi::ShaderLibrary& library, const BakeDesc& desc,
-                                   IndirectVolume& volume, BakeStatistics* statistics = nullptr,
+rtapi::Result<Outcome> bake_volume(const BakeScope& scope, const glm::dvec3& origin,
+                                   const BakeDesc& desc, IndirectVolume& volume,
+                                   BakeStatistics* statistics = nullptr,
                                    const StepCallback& progress = {});
+
+/// Bytes of a volume as shaders read it.
+std::uint64_t volume_bytes(const IndirectVolume& volume);
 
 /// Writes a volume to a file: little-endian, with a version and the length of everything. An
 /// earlier file at `path` stays as it was on any error.
@@ -150,23 +178,30 @@ Status save_volume(const std::string& path, const IndirectVolume& volume);
 /// @errors KA3000 as of read_file; KA3045 a file of another version, cut short or damaged.
 Result<IndirectVolume> load_volume(const std::string& path);
 
-/// A volume as shaders read it: registers t0 to t2 of space3.
+/// A volume as shaders read it: registers t0 to t2 and u15 of space3.
 class GpuVolume {
  public:
   /// Uploads a volume. `origin` is that of the frame, world space. An empty volume has no light
-  /// stored anywhere.
+  /// stored anywhere. `counts_reads`: shaders count how often they read each cell.
   /// @errors those of rtapi::Device::CreateBuffer.
   static rtapi::Result<GpuVolume> create(const rtapi::Device& device, const IndirectVolume& volume,
-                                         const glm::dvec3& origin);
-  /// Binds the volume to a pass: registers t0 to t2 of space3.
-  /// @errors those of PassViews::set_shader_resource.
+                                         const glm::dvec3& origin, bool counts_reads = false);
+  /// Binds the volume to a pass: registers t0 to t2 and u15 of space3.
+  /// @errors those of PassViews::set_shader_resource and set_unordered_access.
   rtapi::Status bind(PassViews& views) const;
   /// Follows the frame to another origin. No dispatch that reads the volume may run meanwhile.
   void set_origin(const glm::dvec3& origin);
+  /// Takes the light of a volume with the same bricks. No dispatch that reads it may run meanwhile.
+  void set_cells(const IndirectVolume& volume);
+  /// How often each cell was read since the last call. Precondition: created with `counts_reads`.
+  /// @errors those of the device.
+  rtapi::Result<std::vector<std::uint32_t>> take_reads(const rtapi::Device& device,
+                                                       rtapi::CommandQueue& queue);
 
  private:
   glm::dvec3 corner_{0.0};  // the volume's corner, in world space
-  rtapi::Buffer brick_starts_, cells_, constants_;
+  rtapi::Buffer brick_starts_, cells_, constants_, reads_;
+  std::vector<std::uint32_t> taken_;  // what `reads_` held when they were taken last
 };
 
 }  // namespace kaamos::effects

@@ -9,7 +9,7 @@
 #include "visibility.hlsli"
 
 // Sums over samples. Radiance from a unit direction d is mean + slope_x d.x + slope_y d.y + slope_z
-// d.z. effects/indirect/indirect_diffuse/volume_bake.cpp has the same layouts.
+// d.z. effects/indirect/indirect_diffuse/volume_baker.cpp has the same layouts.
 struct CellSums {
   float3 mean;
   float back_faces;  // samples whose ray hit a back face first
@@ -23,15 +23,17 @@ struct CellSums {
 
 // Each cell has two sums, of samples that are independent: 2 c and 2 c + 1.
 RWStructuredBuffer<CellSums> sums : register(u0, space3);
-StructuredBuffer<float4> cell_centers : register(t3, space3);  // relative to the camera
-// By place in the dispatch: a sum, and how many samples it is to have.
-StructuredBuffer<uint2> tasks : register(t4, space3);
+// By cell, bits: which of the cells around it can be seen from it. [SeeRayGen]
+RWStructuredBuffer<uint> seen : register(u1, space3);
+StructuredBuffer<float4> cell_centers : register(t3, space3);  // relative to the camera; w: size
+// By place in the dispatch: a sum, the samples that it has, and those that it is to have.
+StructuredBuffer<uint3> tasks : register(t4, space3);
 StructuredBuffer<uint> baked_lights : register(t5, space3);  // 1: by local light, it is baked
 
 struct BakeConstants {
   uint task_count;
-  uint first_sample;
-  uint sample_count;
+  uint done;          // samples that earlier dispatches have added to each sum
+  uint sample_count;  // that this one adds at most
   uint bounces;  // at most, after the first hit
   uint width;    // of the dispatch
   uint seed;
@@ -239,12 +241,13 @@ float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_fac
 void BakeRayGen() {
   const uint place = DispatchRaysIndex().y * constants.width + DispatchRaysIndex().x;
   if (place >= constants.task_count) return;
-  const uint2 task = tasks[place];
+  const uint3 task = tasks[place];
   CellSums sum = sums[task.x];
   const float3 center = cell_centers[task.x / 2].xyz;
   const uint seed = HashCombine(constants.seed, task.x);
-  const uint last = min(task.y, constants.first_sample + constants.sample_count);
-  for (uint index = constants.first_sample; index < last; ++index) {
+  const uint first = task.y + constants.done;
+  const uint last = min(task.z, first + constants.sample_count);
+  for (uint index = first; index < last; ++index) {
     // Uniform over the sphere.
     const float2 u = SobolOwen(index, seed);
     const float z = 1.0 - 2.0 * u.x;
@@ -261,4 +264,22 @@ void BakeRayGen() {
     sum.back_faces += back_face ? 1.0 : 0.0;
   }
   sums[task.x] = sum;
+}
+
+// Rays from a cell's centre to those of 13 of the 26 cells around it, as many in size. The other 13
+// see it by the rays of their own.
+[shader("raygeneration")]
+void SeeRayGen() {
+  const uint place = DispatchRaysIndex().y * constants.width + DispatchRaysIndex().x;
+  if (place >= constants.task_count) return;
+  const uint cell = tasks[place].x / 2;
+  const float4 center = cell_centers[cell];
+  uint bits = 0;
+  for (uint i = 0; i < 13; ++i) {
+    const uint at = 14 + i;  // of 3 x 3 x 3, in the order of a brick's cells
+    const float3 way = center.w * (float3(at % 3, at / 3 % 3, at / 9) - 1.0);
+    const float distance = length(way);
+    if (BakeVisibility(center.xyz, way / distance, distance) > 0.0) bits |= 1u << i;
+  }
+  seen[cell] = bits;
 }

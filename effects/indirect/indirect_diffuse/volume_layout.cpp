@@ -157,16 +157,38 @@ glm::uvec3 place_in_brick(std::uint32_t i) {
 
 }  // namespace
 
-std::vector<glm::dvec3> IndirectVolume::cell_centers() const {
-  std::vector<glm::dvec3> centers(cells.size());
+std::vector<CellPlace> IndirectVolume::cell_places() const {
+  std::vector<CellPlace> places(cells.size());
   for_bricks(*this, [&](std::uint32_t entry, const glm::uvec3& brick) {
     const double size = std::ldexp(static_cast<double>(cell), static_cast<int>(brick_level(entry)));
     for (std::uint32_t i = 0; i < kCellsPerBrick; ++i) {
-      centers[brick_start(entry) + i] =
-          origin + (glm::dvec3(brick * kBrickCells + place_in_brick(i)) + 0.5) * size;
+      places[brick_start(entry) + i] = {
+          origin + (glm::dvec3(brick * kBrickCells + place_in_brick(i)) + 0.5) * size,
+          static_cast<float>(size)};
     }
   });
+  return places;
+}
+
+std::vector<glm::dvec3> IndirectVolume::cell_centers() const {
+  std::vector<glm::dvec3> centers;
+  for (const CellPlace& place : cell_places()) centers.push_back(place.middle);
   return centers;
+}
+
+IndirectVolume::Found IndirectVolume::find(const glm::dvec3& place) const {
+  const glm::dvec3 at = glm::floor((place - origin) / static_cast<double>(cell));
+  const glm::dvec3 end(bricks * kBrickCells);
+  if (!glm::all(glm::greaterThanEqual(at, glm::dvec3(0))) || !glm::all(glm::lessThan(at, end))) {
+    return {};
+  }
+  const glm::uvec3 fine(at), brick = fine / kBrickCells;
+  const std::uint32_t entry =
+      brick_starts[brick.x + bricks.x * (brick.y + std::size_t{bricks.y} * brick.z)];
+  if (entry == kNoBrick) return {};
+  const glm::uvec3 within = (fine >> brick_level(entry)) % kBrickCells;
+  return {brick_start(entry) + within.x + kBrickCells * (within.y + kBrickCells * within.z),
+          brick_level(entry)};
 }
 
 std::vector<std::uint32_t> IndirectVolume::cells_in_use() const {

@@ -27,9 +27,10 @@ void add_program(Checksum& checksum) {
   if (!failed) checksum.add_value(time.time_since_epoch().count());
 }
 
-// How the volume is baked, not where it is kept.
+// How the volume is baked, not where it is kept. What is measured keeps it in a file, which has all
+// cells.
 void add_volume(Checksum& checksum, const VolumeSettings& volume) {
-  const auto& [cell, samples, error, bounces, lights, seed, file, given] = volume;
+  const auto& [whole, cell, samples, error, bounces, lights, seed, file, given] = volume;
   add_optional(checksum, cell);
   checksum.add_each(samples, error, bounces, lights);
   add_optional(checksum, seed);
