@@ -12,7 +12,11 @@ void plan_rows(const runtime::LinkedGraphics& linked, DrawPlan& plan) {
     for (const runtime::LinkedVarying& varying : linked.varyings) {
       if (varying.interpolation != interpolation) continue;
       for (uint32_t c = 0; c < varying.components; ++c) {
-        to.push_back({varying.pixel_column + c, static_cast<uint32_t>(plan.row_columns.size())});
+        const uint32_t vertex = interpolation == Interpolation::kSecondVertex  ? 1
+                                : interpolation == Interpolation::kThirdVertex ? 2
+                                                                               : 0;
+        const auto word = static_cast<uint32_t>(plan.row_columns.size());
+        to.push_back({varying.pixel_column + c, word, vertex});
         plan.row_columns.push_back(varying.vertex_column + c);
       }
     }
@@ -20,6 +24,8 @@ void plan_rows(const runtime::LinkedGraphics& linked, DrawPlan& plan) {
   add(Interpolation::kLinear, plan.linear);
   add(Interpolation::kNoPerspective, plan.screen_linear);
   add(Interpolation::kNoInterpolation, plan.flat);
+  add(Interpolation::kSecondVertex, plan.flat);
+  add(Interpolation::kThirdVertex, plan.flat);
 }
 
 void plan_depth(const runtime::LinkedGraphics& linked, const Surface& surface, DrawPlan& plan) {

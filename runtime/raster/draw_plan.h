@@ -22,6 +22,7 @@ DepthKind depth_kind(rtapi::Format format);
 struct RowAttribute {
   uint32_t pixel_column;
   uint32_t word;
+  uint32_t vertex = 0;  // of the primitive, if it is not interpolated
 };
 
 // A render target that the pixel shader writes.

@@ -55,6 +55,8 @@ class QuadShader {
  private:
   void set_up();
   void set_up_attributes();
+  // Whether vertices 1 and 2 are the primitive's 2 and 1.
+  bool swaps_vertices() const { return (triangle_->flags & (kSwapped | kClipped)) == kSwapped; }
   void shade(uint32_t first, bool pair);
   KAAMOS_INLINE void set_attributes(const QuadPlaces& places);
   // Exact values of the two edges and of what they leave of the area, at the pixels of two quads.
@@ -135,8 +137,11 @@ inline void QuadShader::set_up_attributes() {
     first[i] = std::bit_cast<float>(rows[1][i]) - value;
     second[i] = std::bit_cast<float>(rows[2][i]) - value;
   }
+  const uint32_t of_second = swaps_vertices() ? 2 : 1;
+  const uint32_t* of_primitive[3] = {rows[0], rows[of_second], rows[3 - of_second]};
   for (const RowAttribute& attribute : plan_->flat) {
-    store(inputs_[attribute.pixel_column], splat(static_cast<int32_t>(rows[0][attribute.word])));
+    const uint32_t bits = of_primitive[attribute.vertex][attribute.word];
+    store(inputs_[attribute.pixel_column], splat(static_cast<int32_t>(bits)));
   }
   const runtime::PixelSystemColumns& columns = plan_->linked->pixel_columns;
   if (columns.primitive_id != runtime::kNoColumn) {
@@ -297,7 +302,7 @@ inline void QuadShader::interpolate(const std::vector<RowAttribute>& attributes,
 
 inline void QuadShader::set_barycentrics(const Weights8& weights) {
   const auto& columns = plan_->linked->pixel_columns;
-  const bool swapped = (triangle_->flags & (kSwapped | kClipped)) == kSwapped;
+  const bool swapped = swaps_vertices();
   const Floats8& first = swapped ? weights.second : weights.first;
   const Floats8& second = swapped ? weights.first : weights.second;
   shader::Column* out = inputs_ + columns.barycentrics;

@@ -78,6 +78,9 @@ void barycentrics(Context& t) {
   const PipelineState linear = screen.make("Pass", "FromBarycentrics");
   check("list", linear, false);
   check("strip", linear, true);
+  const PipelineState of_vertices = screen.make("Pass", "FromVertices");
+  check("list, of the vertices", of_vertices, false);
+  check("strip, of the vertices", of_vertices, true);
   const PipelineState on_screen = own_vertex(screen, "PassOnScreen", "FromScreenBarycentrics");
   check("list, noperspective", on_screen, false);
   check("strip, noperspective", on_screen, true);

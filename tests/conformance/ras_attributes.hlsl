@@ -32,6 +32,17 @@ Rebuilt FromBarycentrics(float4 position : SV_Position, float4 value : VALUE, ui
   return result;
 }
 
+[shader("pixel")]
+Rebuilt FromVertices(float4 position : SV_Position, nointerpolation float4 value : VALUE,
+                     uint primitive : SV_PrimitiveID, float3 weights : SV_Barycentrics) {
+  Rebuilt result;
+  result.interpolated = weigh(weights, vertices_of(primitive));
+  result.rebuilt = weights.x * GetAttributeAtVertex(value, 0) + weights.y * GetAttributeAtVertex(value, 1) +
+                   weights.z * GetAttributeAtVertex(value, 2);
+  result.weights = float4(weights, 1.0);
+  return result;
+}
+
 struct ScreenVertex {
   float4 position : SV_Position;
   noperspective float4 value : VALUE;

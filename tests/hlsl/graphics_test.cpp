@@ -482,6 +482,33 @@ Out main(float f : F, uint covered : SV_Coverage) {
          EXPECT_EQ(run.floats("SV_Target", 0, 1)[5], 0.0f) << "its neighbour is a helper";
          EXPECT_EQ(run.floats("SV_Target", 0, 2)[5], 1.0f);
        }},
+      // The other vertices are inputs of their own, behind those that are declared.
+      {"AttributesAtVertices", "ps_6_6", R"(
+struct In { float other : OTHER; nointerpolation float3 a[2] : A; nointerpolation uint n : N; };
+float4 main(In i) : SV_Target {
+  return float4(GetAttributeAtVertex(i.a[1].yx, 1), GetAttributeAtVertex(i.a[1], 0).z,
+                GetAttributeAtVertex(i.n, 2) + GetAttributeAtVertex(i.a[1], 1).z);
+})",
+       [](GraphicsRunner& run) {
+         const shader::GraphicsDesc& g = run.graphics();
+         ASSERT_EQ(g.input_count, 6u);
+         EXPECT_EQ(g.inputs[4].interpolation, shader::Interpolation::kSecondVertex);
+         EXPECT_EQ(g.inputs[4].semantic_index, 1u);
+         EXPECT_EQ(g.inputs[4].components, 3u);
+         EXPECT_EQ(g.inputs[5].interpolation, shader::Interpolation::kThirdVertex);
+         EXPECT_EQ(g.inputs[5].type, shader::ColumnType::kUint);
+         run.set("A", 1, 2, all(0.25f));
+         const float values[] = {1, 2, 3};
+         for (uint32_t c = 0; c < 3; ++c) {
+           run.inputs[g.inputs[4].first_column + c].fill(std::bit_cast<uint32_t>(values[c]));
+         }
+         run.inputs[g.inputs[5].first_column].fill(40);
+         run.run();
+         EXPECT_EQ(run.floats("SV_Target", 0, 0), all(2));
+         EXPECT_EQ(run.floats("SV_Target", 0, 1), all(1));
+         EXPECT_EQ(run.floats("SV_Target", 0, 2), all(0.25f));
+         EXPECT_EQ(run.floats("SV_Target", 0, 3), all(43));
+       }},
       {"EvaluateAttributes", "ps_6_6", R"(
 float4 main(float2 a : A, centroid float3x2 m : M) : SV_Target {
   return float4(EvaluateAttributeCentroid(a), EvaluateAttributeAtSample(a, 0).y,

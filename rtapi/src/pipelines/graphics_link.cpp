@@ -267,8 +267,13 @@ Status link_pixel_input(const SignatureElement& input, LinkedGraphics& linked) {
 
 // Native D3D12 links by registers, which follow the order of declaration. [RAS-21]
 void warn_of_order(const DeviceImpl& device, const LinkedGraphics& linked) {
+  // What GetAttributeAtVertex reads stands behind the inputs that are declared.
+  const auto declared_end =
+      std::find_if(linked.varyings.begin(), linked.varyings.end(), [](const auto& varying) {
+        return varying.interpolation > shader::Interpolation::kNoInterpolation;
+      });
   const bool in_order = std::is_sorted(
-      linked.varyings.begin(), linked.varyings.end(),
+      linked.varyings.begin(), declared_end,
       [](const auto& a, const auto& b) { return a.vertex_column < b.vertex_column; });
   if (in_order) return;
   device.report(MessageSeverity::kWarning,

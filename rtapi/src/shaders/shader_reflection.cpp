@@ -193,6 +193,7 @@ ShaderStage stage_of(uint32_t stage) {
 std::vector<ShaderSignatureElement> describe(const std::vector<ir::SignatureElement>& elements) {
   std::vector<ShaderSignatureElement> out;
   for (const ir::SignatureElement& element : elements) {
+    if (element.is_implied) continue;
     const ShaderScalarType type =
         element.type == shader::ColumnType::kFloat ? ShaderScalarType::kFloat32
         : element.type == shader::ColumnType::kInt ? ShaderScalarType::kInt32

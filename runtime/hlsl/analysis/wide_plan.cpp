@@ -342,7 +342,7 @@ const WideFunction* WidePlan::add(const EntryPoint& entry, std::string& reason) 
   for (size_t i = 0; i < entry.parameters.size(); ++i) {
     // The pixels that run together are of one triangle.
     const bool is_flat = entry.stage == kStagePixel && i < entry.inputs.size() &&
-                         entry.inputs[i].interpolation == shader::Interpolation::kNoInterpolation;
+                         shader::is_flat(entry.inputs[i].interpolation);
     varying.push_back(entry.parameters[i] != EntryParameter::kGroupId && !is_flat);
   }
   return add(*entry.function, varying, reason, true);

@@ -83,6 +83,22 @@ const std::vector<LanguageCase>& language_cases() {
        "vs_6_6"},
       {"EvaluateSnapped", Id::kUnsupported, pixel("p = @EvaluateAttributeSnapped(p, int2(1, 2));"),
        "ps_6_6"},
+      {"VertexOfInterpolated", Id::kVertexAttribute,
+       "float4 main(float4 p : P) : SV_Target { return GetAttributeAtVertex(@p, 1); }", "ps_6_6"},
+      {"VertexOfLocal", Id::kVertexAttribute,
+       "float4 main(nointerpolation float4 p : P) : SV_Target {\n"
+       "  float4 q = p; return GetAttributeAtVertex(@q, 1); }",
+       "ps_6_6"},
+      {"VertexOfParameter", Id::kVertexAttribute,
+       "float4 f(float4 p) { return GetAttributeAtVertex(@p, 1); }\n"
+       "float4 main(nointerpolation float4 p : P) : SV_Target { return f(p); }",
+       "ps_6_6"},
+      {"VertexThree", Id::kVertexAttribute,
+       "float4 main(nointerpolation float4 p : P) : SV_Target { return GetAttributeAtVertex(p, "
+       "@3); }",
+       "ps_6_6"},
+      {"VertexInVertex", Id::kStage,
+       "float4 main(float4 p : P) : SV_Position { return @GetAttributeAtVertex(p, 1); }", "vs_6_6"},
       {"EvaluateInVertex", Id::kStage,
        "float4 main(float4 p : P) : SV_Position { return @EvaluateAttributeCentroid(p); }",
        "vs_6_6"},

@@ -34,7 +34,8 @@ const char* column_type_name(shader::ColumnType type) {
 }
 
 const char* interpolation_name(shader::Interpolation interpolation) {
-  constexpr const char* kNames[] = {"kLinear", "kNoPerspective", "kNoInterpolation"};
+  constexpr const char* kNames[] = {"kLinear", "kNoPerspective", "kNoInterpolation",
+                                    "kSecondVertex", "kThirdVertex"};
   return kNames[static_cast<size_t>(interpolation)];
 }
 

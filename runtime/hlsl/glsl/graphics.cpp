@@ -40,9 +40,11 @@ std::string GlslEmitter::graphics_input(size_t index) {
       break;
   }
   const std::string name = "g_in_" + std::to_string(index);
-  constexpr const char* kModes[] = {"", "noperspective ", "flat "};
-  const char* mode =
-      entry_.stage == kStagePixel ? kModes[static_cast<size_t>(element.interpolation)] : "";
+  const char* mode = entry_.stage != kStagePixel              ? ""
+                     : shader::is_flat(element.interpolation) ? "flat "
+                     : element.interpolation == shader::Interpolation::kNoPerspective
+                         ? "noperspective "
+                         : "";
   declarations_ += "layout(location = " + std::to_string(index) + ") " + mode + "in " + type + " " +
                    name + ";\n";
   return name;

@@ -263,7 +263,6 @@ struct Family {
 };
 
 constexpr Family kUnsupported[] = {
-    {"GetAttributeAtVertex", "barycentric attributes", true},
     {"MaybeReorderThread", "shader execution reordering", true},
     {"ReorderThread", "shader execution reordering", true},
     {"EvaluateAttributeSnapped", "places between pixel centres", true},
@@ -292,6 +291,7 @@ constexpr std::string_view kPixelFunctions[] = {"ddx",
                                                 "clip",
                                                 "EvaluateAttributeAtSample",
                                                 "EvaluateAttributeCentroid",
+                                                "GetAttributeAtVertex",
                                                 "IsHelperLane"};
 
 constexpr std::string_view kByName[] = {"mul",

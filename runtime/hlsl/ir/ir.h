@@ -451,6 +451,7 @@ struct SignatureElement {
   uint8_t components = 1;
   uint32_t first_column = 0;
   Location location;
+  bool is_implied = false;  // not declared: what the shader reads besides
 };
 
 struct EntryPoint {

@@ -76,6 +76,13 @@ class Writer {
     uint32_t limit = 0;
   };
   std::vector<Index> indices_;
+  // One corner's value for all.
+  struct Shared {
+    Passed from;
+    uint32_t corner = 0;
+    uint32_t output = 0;
+  };
+  std::vector<Shared> shared_;
   uint32_t primitive_in_ = 0, primitive_out_ = 0, barycentrics_ = 0;
 };
 
@@ -124,6 +131,9 @@ void Writer::emit_corner(uint32_t corner) {
   for (const Passed& passed : passed_) {
     w_.run(W::kStore, {passed.output, load_corner(passed, corner)});
   }
+  for (const Shared& shared : shared_) {
+    w_.run(W::kStore, {shared.output, load_corner(shared.from, shared.corner)});
+  }
   for (const Index& index : indices_) {
     const uint32_t value = load_corner(index.written, corner);
     w_.run(W::kStore, {index.written.output, value});
@@ -166,6 +176,12 @@ std::vector<uint32_t> Writer::write() {
         value == SystemValue::kRenderTargetArrayIndex || value == SystemValue::kViewportArrayIndex;
     if (value == SystemValue::kPosition || index || !is_read(i)) continue;
     passed_.push_back(pass(type_of(vertex.outputs[i]), W::kLocation, i));
+    for (const VertexAttribute& attribute : vertex_attributes(linked_)) {
+      if (attribute.output != i) continue;
+      const Passed& from = passed_.back();
+      shared_.push_back({from, attribute.vertex, w_.variable(W::kOutput, from.type)});
+      w_.decorate(shared_.back().output, W::kLocation, attribute.location);
+    }
   }
   add_index(SystemValue::kRenderTargetArrayIndex, kLayer, w_.spec_constant(natural(), 0, 1));
   if (columns.viewport_array_index != runtime::kNoColumn) w_.capability(kMultiViewport);

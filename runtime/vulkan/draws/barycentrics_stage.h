@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A geometry shader that passes triangles on and gives their corners the barycentrics (1, 0, 0),
-// (0, 1, 0) and (0, 0, 1), for drivers whose pixel shaders have none. [BARY]
+// (0, 1, 0) and (0, 0, 1), for drivers whose pixel shaders have none. [BARY] It also gives every
+// corner what GetAttributeAtVertex reads of the second and third.
 #pragma once
 
 #include <cstdint>

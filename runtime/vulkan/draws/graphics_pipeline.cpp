@@ -102,12 +102,21 @@ rtapi::Status GraphicsPipeline::start() {
   if (linked_->has_pixel() && linked_->pixel.code->spirv != nullptr) {
     pixel_code_ = linked_pixel_code(*linked_);
   }
-  if (linked_->pixel_columns.barycentrics != runtime::kNoColumn) {
+  const std::vector<VertexAttribute> attributes = vertex_attributes(*linked_);
+  if (linked_->pixel_columns.barycentrics != runtime::kNoColumn || !attributes.empty()) {
     if (gpu.is_lavapipe() && !gpu.workarounds().has(Workaround::kBarycentricsStage)) {
       return runtime::make_error(runtime::Id::kNoBarycentrics,
                                  "pixel shader \"" + linked_->pixel.name + "\" of \"" +
                                      linked_->name +
-                                     "\" reads SV_Barycentrics, and workaround BARY is off.");
+                                     "\" reads SV_Barycentrics or calls GetAttributeAtVertex, and "
+                                     "workaround BARY is off.");
+    }
+    if (!attributes.empty() && attributes.back().location >= kLocationCount) {
+      return runtime::make_error(
+          runtime::Id::kNoBarycentrics,
+          "pixel shader \"" + linked_->pixel.name + "\" of \"" + linked_->name +
+              "\" reads more attributes at vertices than there are locations beside the vertex "
+              "shader's outputs.");
     }
     geometry_code_ = barycentrics_code(*linked_);
   }

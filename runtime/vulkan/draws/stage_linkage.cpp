@@ -11,8 +11,6 @@ namespace {
 
 using runtime::LinkedGraphics;
 
-constexpr uint32_t kLocationCount = 32;
-
 uint32_t output_at(const LinkedGraphics& linked, uint32_t column) {
   const shader::GraphicsDesc& vertex = linked.vertex_desc();
   for (uint32_t i = 0; i < vertex.output_count; ++i) {
@@ -53,6 +51,25 @@ uint32_t conversion_of(const Gpu& gpu, rtapi::Format format, bool blends) {
 
 }  // namespace
 
+std::vector<VertexAttribute> vertex_attributes(const LinkedGraphics& linked) {
+  std::vector<VertexAttribute> out;
+  if (!linked.has_pixel()) return out;
+  const shader::GraphicsDesc& pixel = linked.pixel_desc();
+  for (uint32_t i = 0; i < pixel.input_count; ++i) {
+    const shader::Interpolation interpolation = pixel.inputs[i].interpolation;
+    if (interpolation <= shader::Interpolation::kNoInterpolation) continue;
+    for (const runtime::LinkedVarying& varying : linked.varyings) {
+      if (varying.pixel_column != pixel.inputs[i].first_column) continue;
+      // Behind free_location(), which nothing writes.
+      const auto location =
+          static_cast<uint32_t>(linked.vertex_desc().output_count + 1 + out.size());
+      out.push_back({i, output_at(linked, varying.vertex_column),
+                     interpolation == shader::Interpolation::kSecondVertex ? 1u : 2u, location});
+    }
+  }
+  return out;
+}
+
 uint32_t barycentrics_location(const LinkedGraphics& linked) {
   return output_at(linked, linked.vertex_columns.position);
 }
@@ -61,11 +78,19 @@ std::vector<uint32_t> linked_pixel_code(const LinkedGraphics& linked) {
   const shader::ExportDesc& code = *linked.pixel.code;
   std::vector<uint32_t> words(code.spirv, code.spirv + code.spirv_words);
   const shader::GraphicsDesc& pixel = linked.pixel_desc();
+  const std::vector<VertexAttribute> of_vertices = vertex_attributes(linked);
   std::vector<uint32_t> locations;
   for (uint32_t i = 0; i < pixel.input_count; ++i) {
     const shader::SignatureElement& input = pixel.inputs[i];
     if (input.system_value == shader::SystemValue::kBarycentrics) {
       locations.push_back(barycentrics_location(linked));
+      continue;
+    }
+    const auto of_vertex =
+        std::find_if(of_vertices.begin(), of_vertices.end(),
+                     [i](const VertexAttribute& attribute) { return attribute.input == i; });
+    if (of_vertex != of_vertices.end()) {
+      locations.push_back(of_vertex->location);
       continue;
     }
     const auto varying = std::find_if(

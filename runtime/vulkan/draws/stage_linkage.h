@@ -15,6 +15,17 @@ namespace kaamos::vulkan {
 // The location of SV_Barycentrics: that of the vertex shader's SV_Position, which is built in.
 uint32_t barycentrics_location(const runtime::LinkedGraphics& linked);
 
+// The inputs of the pixel shader that are values of the second or third vertex, which the geometry
+// shader writes to locations behind the vertex shader's outputs.
+struct VertexAttribute {
+  uint32_t input = 0;     // of the pixel shader
+  uint32_t output = 0;    // of the vertex shader
+  uint32_t vertex = 0;    // 1 or 2
+  uint32_t location = 0;  // kLocationCount and more: there is none
+};
+inline constexpr uint32_t kLocationCount = 32;
+std::vector<VertexAttribute> vertex_attributes(const runtime::LinkedGraphics& linked);
+
 // The code of the pixel shader with the locations of the vertex shader's outputs.
 std::vector<uint32_t> linked_pixel_code(const runtime::LinkedGraphics& linked);
 

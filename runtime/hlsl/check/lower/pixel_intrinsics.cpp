@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/lower/pixel_intrinsics.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/hlsl/check/lower/lowerer.h"
@@ -42,6 +43,7 @@ const Type* PixelIntrinsics::type_of_numbers(std::string_view name, const Value&
 Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Value>& arguments,
                                            SourceLocation location) {
   if (name == "IsHelperLane") return is_helper_lane(arguments, location);
+  if (name == "GetAttributeAtVertex") return attribute_at_vertex(arguments, location);
   if (name.starts_with("EvaluateAttribute")) return evaluate_attribute(name, arguments, location);
   if (!lower_.intrinsics.check_count(name, arguments.size(), 1, 1, location)) return error_value();
   if (name == "clip") {
@@ -126,6 +128,70 @@ Value PixelIntrinsics::evaluate_attribute(std::string_view name, std::vector<Val
     return error_value();
   }
   return rvalue(lower_.conversions.convert(arguments[0], type, arguments[0].location), type);
+}
+
+// The values of the other two vertices are inputs of their own, which the entry point's wrapper
+// puts into static variables.
+Value PixelIntrinsics::attribute_at_vertex(std::vector<Value>& arguments, SourceLocation location) {
+  const std::string_view name = "GetAttributeAtVertex";
+  if (!lower_.intrinsics.check_count(name, arguments.size(), 2, 2, location)) return error_value();
+  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  const Type* type = type_of_numbers(name, arguments[0]);
+  const ir::Expr* number = lower_.conversions.convert(arguments[1], types_.scalar(Scalar::kUint32),
+                                                      arguments[1].location);
+  if (!type || !number) return error_value();
+  const auto refuse = [&](const Value& argument, const char* wanted) {
+    report(CheckId::kVertexAttribute, argument.location, {wanted});
+    return error_value();
+  };
+  if (number->kind != ir::ExprKind::kLiteral || number->literal[0] > 2) {
+    return refuse(arguments[1], "a constant 0, 1 or 2");
+  }
+  constexpr const char* kInput =
+      "an input of the pixel shader itself, or a scalar or vector of one";
+  if (arguments[0].kind != ValueKind::kExpr || type->is_matrix())
+    return refuse(arguments[0], kInput);
+  const ir::Expr* place = arguments[0].expr;
+  const ir::Expr* swizzle = place->kind == ir::ExprKind::kSwizzle ? place : nullptr;
+  if (swizzle) place = swizzle->operands[0];
+  VertexRead read;
+  const ir::Expr* of = place;
+  for (;; of = of->operands[0]) {
+    if (of->kind == ir::ExprKind::kField) {
+      read.path.push_back(of->index);
+    } else if (of->kind == ir::ExprKind::kElement &&
+               of->operands[0]->type->kind == ir::TypeKind::kArray &&
+               of->operands[1]->kind == ir::ExprKind::kLiteral) {
+      read.path.push_back(static_cast<uint32_t>(of->operands[1]->literal[0]));
+    } else {
+      break;
+    }
+  }
+  const bool is_input = of->kind == ir::ExprKind::kVariable && body_.function &&
+                        of->variable->storage == ir::Storage::kParameter &&
+                        of->variable->mode == ir::ParameterMode::kIn;
+  if (!is_input) return refuse(arguments[0], kInput);
+  std::reverse(read.path.begin(), read.path.end());
+  read.parameter = of->variable;
+  read.location = arguments[0].location;
+  auto& reads = body_.function->vertex_reads;
+  auto found = std::find_if(reads.begin(), reads.end(), [&](const VertexRead& other) {
+    return other.parameter == read.parameter && other.path == read.path;
+  });
+  if (found == reads.end()) found = reads.insert(found, std::move(read));
+  const ir::Expr* value = place;
+  if (number->literal[0] != 0) {
+    VariableInfo*& info = found->values[number->literal[0] - 1];
+    if (!info) {
+      info = names_.make_variable();
+      info->kind = VariableKind::kGlobal;
+      info->variable = build_.variable("at_vertex", place->type, ir::Storage::kStaticGlobal);
+      body_.function->globals.push_back(info);
+    }
+    value = build_.read(info->variable);
+  }
+  if (swizzle) value = build_.swizzle(value, swizzle->components);
+  return rvalue(value, type);
 }
 
 void PixelIntrinsics::use_implicit_level(std::string_view name, ir::Expr* sample,

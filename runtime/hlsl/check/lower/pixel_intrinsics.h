@@ -28,6 +28,7 @@ class PixelIntrinsics : LowerPart {
   Value is_helper_lane(std::vector<Value>& arguments, SourceLocation location);
   Value evaluate_attribute(std::string_view name, std::vector<Value>& arguments,
                            SourceLocation location);
+  Value attribute_at_vertex(std::vector<Value>& arguments, SourceLocation location);
   void use_derivative(std::string_view name, SourceLocation location);
   const ir::Expr* quad_value(shader::WaveOp op, const ir::Expr* operand);
 };

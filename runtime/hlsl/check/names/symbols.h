@@ -80,6 +80,14 @@ struct TemplateValue {
 };
 using TemplateValues = std::vector<TemplateValue>;
 
+// GetAttributeAtVertex of a parameter, or of the part of it that the indices lead to.
+struct VertexRead {
+  const ir::Variable* parameter = nullptr;
+  std::vector<uint32_t> path;
+  VariableInfo* values[2] = {};  // of the second and the third vertex, if they are read
+  SourceLocation location;
+};
+
 struct FunctionInfo : FunctionFacts {
   std::string_view name;
   std::string qualified;
@@ -109,6 +117,9 @@ struct FunctionInfo : FunctionFacts {
 
   enum class State : uint8_t { kPending, kLowering, kDone } state = State::kPending;
   FunctionInfo* linked = nullptr;  // without a body: its definition in another library
+
+  std::vector<VertexRead> vertex_reads;
+  bool is_pixel_entry = false;
 };
 
 enum class SymbolKind : uint8_t {

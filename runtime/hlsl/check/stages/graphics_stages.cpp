@@ -82,17 +82,52 @@ class GraphicsSignature : StagePart {
                    : (is_output ? SignaturePoint::kPixelOut : SignaturePoint::kPixelIn)),
         live_(live) {}
 
+  // A scalar or vector of an input: which parameter, which part of it, which element.
+  struct Leaf {
+    size_t parameter;
+    std::vector<uint32_t> path;
+    size_t element;
+    const Type* type;
+  };
+
   std::vector<ir::SignatureElement> elements;
+  std::vector<Leaf> leaves;
   bool failed = false;
   GraphicsSignature* inputs = nullptr;  // of the outputs of a pixel shader
 
   // An input's value, made of parameters of the wrapper; null after an error.
-  const ir::Expr* read(const Type* type, Name& name, const Source& source) {
+  const ir::Expr* read(const Type* type, Name& name, const Source& source, size_t parameter) {
+    parameter_ = parameter;
     return walk(type, name, source, nullptr);
   }
   // Assigns the value to parameters of the wrapper.
   void write(const Type* type, Name& name, const Source& source, const ir::Expr* value) {
     walk(type, name, source, value);
+  }
+
+  // Fills the static variables of GetAttributeAtVertex.
+  void read_vertices(const FunctionInfo& function) {
+    for (const VertexRead& read : function.vertex_reads) {
+      const auto leaf = std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& one) {
+        return function.ir->parameters[one.parameter] == read.parameter && one.path == read.path;
+      });
+      if (leaf == leaves.end() || leaf->element >= elements.size() ||
+          elements[leaf->element].interpolation != Interpolation::kNoInterpolation ||
+          elements[leaf->element].system_value != SystemValue::kNone) {
+        fail(CheckId::kVertexAttribute, read.location, {"an input that is nointerpolation"});
+        return;
+      }
+      for (size_t i = 0; i < 2; ++i) {
+        if (!read.values[i]) continue;
+        at(read.location);
+        ir::SignatureElement element = elements[leaf->element];
+        element.interpolation = i == 0 ? Interpolation::kSecondVertex : Interpolation::kThirdVertex;
+        const ir::Variable* variable =
+            imply(std::move(element), "vertex", wrapper_.parameters[leaf->element]->type);
+        lower_.body.assign(read.values[i]->variable,
+                           build_.convert(build_.read(variable), plain_scalar(leaf->type->scalar)));
+      }
+    }
   }
 
   void check_limits(SourceLocation location) {
@@ -143,8 +178,9 @@ class GraphicsSignature : StagePart {
            {std::string(source.name), to_string(type), shader()});
       return nullptr;
     }
-    return type->is_matrix() ? walk_matrix(type, name, source, value)
-                             : walk_vector(type, name, source, value);
+    if (type->is_matrix()) return walk_matrix(type, name, source, value);
+    leaves.push_back({parameter_, path_, elements.size(), type});
+    return walk_vector(type, name, source, value);
   }
 
   const ir::Expr* walk_struct(const Type* type, Name& outer, const Source& source,
@@ -152,8 +188,10 @@ class GraphicsSignature : StagePart {
     const StructInfo& info = *type->structure;
     std::vector<const ir::Expr*> parts;
     if (info.base) {
+      path_.push_back(0);
       parts.push_back(
           walk(info.base->type, outer, source, value ? build_.field(value, 0) : nullptr));
+      path_.pop_back();
     }
     for (const FieldInfo& field : info.fields) {
       if (field.type->is_error() || field.unit) {
@@ -171,8 +209,10 @@ class GraphicsSignature : StagePart {
       if (inner.semantic) inner.next = inner.semantic->index;
       const Source place = {field.decl->location, field.name,
                             own ? own : source.modifiers & kInterpolationModifiers};
+      path_.push_back(field.index);
       parts.push_back(walk(field.type, outer.semantic ? outer : inner, place,
                            value ? build_.field(value, field.index) : nullptr));
+      path_.pop_back();
     }
     if (failed || value) return nullptr;
     return build_.construct(type->ir, std::move(parts));
@@ -184,7 +224,9 @@ class GraphicsSignature : StagePart {
     for (uint32_t i = 0; i < type->count && !failed; ++i) {
       if (elements.size() > 4 * kMostVectors) break;  // reported by check_limits()
       const ir::Expr* part = value ? build_.element(value, build_.uint32(i)) : nullptr;
+      path_.push_back(i);
       parts.push_back(walk(type->element, name, source, part));
+      path_.pop_back();
     }
     if (failed || value) return nullptr;
     parts.resize(type->count, build_.zero(type->element->ir));
@@ -264,19 +306,23 @@ class GraphicsSignature : StagePart {
     ir::SignatureElement element;
     element.semantic = "SV_Position";
     element.system_value = SystemValue::kPosition;
-    element.type = ColumnType::kFloat;
-    element.interpolation = Interpolation::kLinear;
     element.components = 4;
+    const ir::Type* type = build_.vector_type(Scalar::kFloat32, 4);
+    return build_.swizzle(build_.read(imply(std::move(element), "position", type)), {2});
+  }
+
+  // Adds an input behind the others.
+  const ir::Variable* imply(ir::SignatureElement element, const char* name, const ir::Type* type) {
+    element.is_implied = true;
     if (!elements.empty()) {
       element.first_column = elements.back().first_column + elements.back().components;
     }
-    ir::Variable* variable = build_.variable("position", build_.vector_type(Scalar::kFloat32, 4),
-                                             ir::Storage::kParameter);
+    ir::Variable* variable = build_.variable(name, type, ir::Storage::kParameter);
     variable->mode = ir::ParameterMode::kIn;
     wrapper_.parameters.insert(
         wrapper_.parameters.begin() + static_cast<std::ptrdiff_t>(elements.size()), variable);
     elements.push_back(std::move(element));
-    return build_.swizzle(build_.read(variable), {2});
+    return variable;
   }
 
   const ir::Expr* zero_input(const Type* type, const Semantic& semantic, const Source& source) {
@@ -377,6 +423,8 @@ class GraphicsSignature : StagePart {
   ir::Function& wrapper_;
   const SignaturePoint point_;
   const ir::Variable* const live_;
+  size_t parameter_ = 0;  // the function's that is being read
+  std::vector<uint32_t> path_;
   bool has_coverage_ = false;
 };
 
@@ -440,7 +488,7 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
     const ir::Expr* value = nullptr;
     if (parameter.is_in) {
       GraphicsSignature::Name name = name_of_value(semantic);
-      value = inputs.read(parameter.type, name, source);
+      value = inputs.read(parameter.type, name, source, call->arguments.size());
     }
     if (parameter.is_out) {
       ir::Variable* variable = lower_.body.empty_temporary(parameter.type->ir);
@@ -451,6 +499,8 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
     call->arguments.push_back(value);
   }
   if (!inputs.failed) inputs.check_limits(location);
+  if (is_pixel && !inputs.failed) inputs.read_vertices(*function);
+  function->is_pixel_entry = function->is_pixel_entry || is_pixel;
   lower_.body.emit(call);
   for (Output& output : results) {
     outputs.write(output.type, output.name, output.source, build_.read(output.variable));

@@ -43,7 +43,12 @@ enum class Interpolation : uint8_t {
   kLinear,           // perspective correct
   kNoPerspective,    // linear on the screen
   kNoInterpolation,  // the bits of the leading vertex
+  kSecondVertex,     // the bits of the vertex that SV_Barycentrics.y belongs to
+  kThirdVertex,
 };
+constexpr bool is_flat(Interpolation interpolation) {
+  return interpolation >= Interpolation::kNoInterpolation;
+}
 
 // A scalar or vector that passes into or out of a shader: a row of a matrix and an element of an
 // array are one each, with numbers that go up.
@@ -66,7 +71,7 @@ struct VertexLanes {
   uint32_t active = 0;  // a bit for each lane
 };
 
-// Pixels of one triangle, so that columns of kNoInterpolation are the same in all lanes. Whole
+// Pixels of one triangle, so that columns that are flat are the same in all lanes. Whole
 // quads run: lanes that are in `active` but not in `live` are helpers, which write nothing but what
 // derivatives read of them.
 struct PixelLanes {
