@@ -8,6 +8,7 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <half.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include <utility>
 
 #include "effects/assets/common/file.h"
+#include "effects/assets/common/parallel.h"
 
 namespace kaamos::effects {
 namespace {
@@ -111,7 +113,24 @@ Status check(const ExrFile& file) {
   return {};
 }
 
-std::vector<std::uint8_t> encode(const ExrFile& file) {
+// OpenEXR's threads belong to the process.
+class ExrThreads {
+ public:
+  explicit ExrThreads(int count) : before_(Imf::globalThreadCount()) {
+    if (count > before_) Imf::setGlobalThreadCount(count);
+  }
+  ~ExrThreads() {
+    if (Imf::globalThreadCount() != before_) Imf::setGlobalThreadCount(before_);
+  }
+  ExrThreads(const ExrThreads&) = delete;
+  ExrThreads& operator=(const ExrThreads&) = delete;
+
+ private:
+  int before_;
+};
+
+// `threads`: 0 or 1: the caller's alone.
+std::vector<std::uint8_t> encode(const ExrFile& file, int threads) {
   const FloatImage& first = file.layers[0].image;
   Imf::Header header(static_cast<int>(first.width), static_cast<int>(first.height));
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -137,7 +156,8 @@ std::vector<std::uint8_t> encode(const ExrFile& file) {
   }
   MemoryOut stream;
   {
-    Imf::OutputFile out(stream, header);
+    const ExrThreads held(threads);
+    Imf::OutputFile out(stream, header, threads);
     out.setFrameBuffer(frame);
     out.writePixels(static_cast<int>(first.height));
   }
@@ -208,14 +228,20 @@ ExrFile decode(const std::vector<std::uint8_t>& bytes, const std::string& path) 
 
 }  // namespace
 
-Status write_exr(const std::string& path, const ExrFile& file) {
-  const Status status = check(file);
-  if (!status.ok()) return within("\"" + path + "\"", status.error(), ErrorId::kExr);
+Result<std::vector<std::uint8_t>> encode_exr(const ExrFile& file, std::uint32_t threads) {
+  if (const Status status = check(file); !status.ok()) return status.error();
   try {
-    return write_file(path, encode(file));
+    const std::uint32_t count = thread_count(threads);
+    return encode(file, count > 1 ? static_cast<int>(count) : 0);
   } catch (const std::exception& error) {
-    return make_error(ErrorId::kExr, "\"" + path + "\": " + error.what());
+    return make_error(ErrorId::kExr, error.what());
   }
+}
+
+Status write_exr(const std::string& path, const ExrFile& file) {
+  const auto bytes = encode_exr(file);
+  if (!bytes.ok()) return within("\"" + path + "\"", bytes.error(), ErrorId::kExr);
+  return write_file(path, bytes.value());
 }
 
 Result<ExrFile> read_exr(const std::string& path) {

@@ -3,6 +3,7 @@
 /// OpenEXR files with named layers.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,6 +34,11 @@ struct ExrFile {
 /// @errors KA3002 no layer, layers of different size, a layer name twice, names for another number
 /// of channels than there are.
 Status write_exr(const std::string& path, const ExrFile& file);
+
+/// The bytes of such a file, compressed by so many threads [thread_count]. They are the same for
+/// any number.
+/// @errors KA3002 as above.
+Result<std::vector<std::uint8_t>> encode_exr(const ExrFile& file, std::uint32_t threads = 1);
 
 /// Reads every layer of a scan-line or tiled single-part file as floats. Channels of a layer stand
 /// in the order RGBA, XYZ or else alphabetical.

@@ -111,6 +111,23 @@ TEST_F(ImageTest, ExrRoundTripKeepsLayersBitsAndAttributes) {
             (std::vector<std::string>{"X", "Y", "Z"}));
 }
 
+// More blocks of lines than threads, and the process keeps its own number of OpenEXR's threads.
+TEST_F(ImageTest, ExrIsTheSameFromAnyNumberOfThreads) {
+  ExrFile file;
+  file.layers.push_back({"", ramp(65, 200, 3)});
+  file.layers.push_back({"ao", ramp(65, 200, 1)});
+  const auto one = encode_exr(file, 1);
+  ASSERT_TRUE(one.ok()) << one.error().message;
+  ASSERT_TRUE(write_exr(path("a.exr"), file).ok());
+  EXPECT_EQ(read_file(path("a.exr")).value(), one.value());
+  for (const std::uint32_t threads : {0u, 2u, 4u}) {
+    const auto many = encode_exr(file, threads);
+    ASSERT_TRUE(many.ok()) << many.error().message;
+    EXPECT_EQ(many.value(), one.value()) << threads << " threads";
+  }
+  EXPECT_FALSE(encode_exr(ExrFile{}, 2).ok()) << "no layer";
+}
+
 TEST_F(ImageTest, ExrWriteFailuresKeepTheEarlierFile) {
   ExrFile file;
   file.layers.push_back({"", ramp(2, 2, 3)});

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "effects/assets/common/file.h"
+#include "effects/assets/common/parallel.h"
 #include "effects/assets/image/png.h"
 
 namespace kaamos::measure {
@@ -90,6 +91,20 @@ std::string StagedFiles::add(const std::string& name, const std::vector<std::uin
 std::string StagedFiles::add(const std::string& name, const ByteImage& image) {
   const auto bytes = encode_png(image);
   return bytes.ok() ? add(name, bytes.value()) : bytes.error().message;
+}
+
+std::string StagedFiles::add(const std::vector<EncodedFile>& files, std::uint32_t threads) {
+  std::vector<std::string> paths, errors(files.size());
+  for (const EncodedFile& file : files) paths.push_back(add_path(file.name));
+  run_parallel(threads, files.size(), [&](std::size_t i) {
+    const auto bytes = files[i].encode();
+    const auto written = bytes.ok() ? write_file(paths[i], bytes.value()) : bytes.error();
+    if (!written.ok()) errors[i] = written.error().message;
+  });
+  for (const std::string& error : errors) {
+    if (!error.empty()) return error;
+  }
+  return {};
 }
 
 std::string StagedFiles::publish() {
