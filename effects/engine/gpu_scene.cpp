@@ -279,24 +279,37 @@ rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
   return out;
 }
 
-rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
-                                         const Scene& scene, const glm::dvec3& origin) {
-  auto uploaded = upload_scene(device, queue, scene);
-  if (!uploaded) return uploaded.error();
-  GpuScene out = std::move(*uploaded);
-  const auto bottom_start = Clock::now();
+static rtapi::Status add_bottom_levels(const Device& device, CommandQueue& queue,
+                                       const Scene& scene, GpuScene& out) {
   std::size_t record = 0;
   for (const Mesh& mesh : scene.meshes) {
-    if (const rtapi::Status added = add_bottom_level(device, queue, mesh, record, out); !added) {
-      return added.error();
-    }
+    if (const auto s = add_bottom_level(device, queue, mesh, record, out); !s) return s;
   }
-  out.statistics.bottom_level_ms = milliseconds_since(bottom_start);
-  const auto top_start = Clock::now();
-  if (const rtapi::Status added = add_top_level(device, queue, scene, origin, out); !added) {
-    return added.error();
+  return {};
+}
+
+rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
+                                         const Scene& scene, const glm::dvec3& origin,
+                                         Profile* profile) {
+  const auto step = [&](const char* name) {
+    return Profile::enter(profile, ProfilePart::kStart, name);
+  };
+  auto uploaded = [&] {
+    const auto upload = step("upload of the scene");
+    return upload_scene(device, queue, scene);
+  }();
+  if (!uploaded) return uploaded.error();
+  GpuScene out = std::move(*uploaded);
+  {
+    const auto bottom = step("bottom levels");
+    const auto start = Clock::now();
+    if (const auto s = add_bottom_levels(device, queue, scene, out); !s) return s.error();
+    out.statistics.bottom_level_ms = milliseconds_since(start);
   }
-  out.statistics.top_level_ms = milliseconds_since(top_start);
+  const auto top = step("top level");
+  const auto start = Clock::now();
+  if (const auto s = add_top_level(device, queue, scene, origin, out); !s) return s.error();
+  out.statistics.top_level_ms = milliseconds_since(start);
   return out;
 }
 

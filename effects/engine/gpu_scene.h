@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "effects/assets/scene/scene.h"
+#include "effects/engine/profile.h"
 
 namespace kaamos::effects {
 
@@ -113,8 +114,10 @@ rtapi::Result<rtapi::Buffer> create_scratch_buffer(const rtapi::Device& device, 
 /// `origin` (the camera) before they are rounded to float: far from the world's origin a float has
 /// too few digits left. Skinned meshes stay in their bind pose: scenes that move take a
 /// StructureManager. [effects/geometry/structures]
+/// `profile` gets its steps; null: nobody asks.
 /// @errors those of the device, among them KA0990 no memory and KA0709 too many triangles.
 rtapi::Result<GpuScene> create_gpu_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                                         const Scene& scene, const glm::dvec3& origin);
+                                         const Scene& scene, const glm::dvec3& origin,
+                                         Profile* profile = nullptr);
 
 }  // namespace kaamos::effects

@@ -13,6 +13,7 @@
 
 #include "effects/engine/frame.h"
 #include "effects/engine/gpu_scene.h"
+#include "effects/engine/profile.h"
 #include "effects/engine/ray_pass.h"
 #include "effects/northlight/libraries.h"
 #include "effects/northlight/pass_runner.h"
@@ -42,6 +43,7 @@ struct FrameContext {
   ShaderLibraries libraries = {};  ///< those that prepare took
   /// Parts of the frame that this scene or these settings have no use for, and why.
   std::vector<std::string> left_out = {};
+  Profile* profile = nullptr;  ///< gets the steps of the work; null: nobody asks
   /// Statistics of preparing a whole frame; empty if there was nothing to bake or to load.
   std::optional<PassStatistics> set_up = {};
 };

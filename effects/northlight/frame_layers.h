@@ -23,6 +23,12 @@ struct FrameLayer {
   bool is_encoded_color = false;  ///< as EncodeColor stores it [effects/shaders/encoding.hlsli]
 };
 
+/// The layer of a signal that is denoised.
+std::string denoised_layer(const std::string& signal);
+/// The names of all layers that frames of these effects can have.
+std::vector<std::string> possible_layers(const std::vector<Effect>& effects);
+/// The names of those that find_layers finds, as the settings and the scene alone tell them.
+std::vector<std::string> layer_names(const FrameContext& context);
 /// The G-buffer, and each effect's signals, raw and denoised.
 std::vector<FrameLayer> find_layers(const FrameContext& context, const LightStage& lights,
                                     const EffectStage& effects, const FilterStage& filters);

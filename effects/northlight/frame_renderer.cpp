@@ -45,10 +45,12 @@ FrameRenderer::FrameRenderer(const rtapi::Device& device, const Scene& scene,
 rtapi::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const rtapi::Device& device,
                                                                     const Scene& scene,
                                                                     const FrameSettings& settings,
-                                                                    std::vector<Effect> effects) {
+                                                                    std::vector<Effect> effects,
+                                                                    Profile* profile) {
   std::unique_ptr<FrameRenderer> out(
       new FrameRenderer(device, scene, settings, std::move(effects)));
   FrameContext& context = out->context_;
+  context.profile = profile;
   if (const auto s = check_settings(context.settings, context.effects); !s) return s.error();
   if (!scene.cameras.empty()) {
     const auto s = check_camera(scene.cameras.front(), context.settings, context.effects);
@@ -57,6 +59,7 @@ rtapi::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const rtapi:
   auto runner = PassRunner::create(device);
   if (!runner) return runner.error();
   context.runner = std::move(*runner);
+  context.runner.set_profile(profile);
   if (const auto s = out->scene_->create(); !s) return s.error();
   return out;
 }
@@ -74,7 +77,10 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   context_.left_out.clear();
   context_.set_up.reset();
   has_surfaces_ = has_effects_ = false;
-  if (const auto s = find_libraries(context_, has_own_libraries_); !s) return s.error();
+  {
+    const auto step = Profile::enter(context_.profile, ProfilePart::kStart, "shader libraries");
+    if (const auto s = find_libraries(context_, has_own_libraries_); !s) return s.error();
+  }
   const double start = context_.runner.now_ms();
   if (const auto done = create_stages(progress); !is_done(done)) return done;
   if (context_.settings.whole_frame) {
@@ -88,19 +94,28 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
 
 rtapi::Result<Outcome> FrameRenderer::create_stages(const Progress& progress) {
   auto& [surfaces, lights, effects, filters, composition] = *stages_;
-  if (const auto s = surfaces.create(); !s) return s.error();
+  const auto run = [&](const char* name, auto create) {
+    const auto step = Profile::enter(context_.profile, ProfilePart::kStart, name);
+    return create();
+  };
+  if (const auto s = run("G-buffer", [&] { return surfaces.create(); }); !s) return s.error();
   effects.choose();
   const bool is_whole = context_.settings.whole_frame;
   if (is_whole) {
-    const auto done = lights.create(effects.light_needs(), progress);
+    const auto done =
+        run("local lights", [&] { return lights.create(effects.light_needs(), progress); });
     if (!is_done(done)) return done;
   }
-  if (const auto s = effects.create(); !s) return s.error();
+  if (const auto s = run("effects", [&] { return effects.create(); }); !s) return s.error();
   if (is_whole) {
-    if (const auto s = filters.create(); !s) return s.error();
+    if (const auto s = run("denoisers", [&] { return filters.create(); }); !s) return s.error();
   }
-  if (const auto s = composition.create(); !s) return s.error();
-  if (is_whole && lights.bakes_on_demand()) return bake_on_demand(progress);
+  if (const auto s = run("composition", [&] { return composition.create(); }); !s) {
+    return s.error();
+  }
+  if (is_whole && lights.bakes_on_demand()) {
+    return run("indirect light", [&] { return bake_on_demand(progress); });
+  }
   return Outcome::kDone;
 }
 
@@ -267,16 +282,23 @@ void FrameRenderer::record(rtapi::CommandList& list, const std::string& part,
 }
 
 std::vector<std::string> FrameRenderer::layers() const {
-  std::vector<std::string> out;
-  for (const FrameLayer& layer :
-       find_layers(context_, stages_->lights, stages_->effects, stages_->filters)) {
-    out.push_back(layer.name);
-  }
+  std::vector<std::string> out = layer_names(context_);
   out.emplace_back("radiance");
   return out;
 }
 
+rtapi::Status FrameRenderer::check_layer(const std::string& name) const {
+  std::string known;
+  for (const std::string& layer : layers()) {
+    if (layer == name) return {};
+    known += (known.empty() ? "" : ", ") + layer;
+  }
+  return make_error(ErrorId::kFrameRenderer,
+                    "the frame has no layer \"" + name + "\" but " + known);
+}
+
 rtapi::Result<FloatImage> FrameRenderer::read(const rtapi::Texture& picture) {
+  const auto step = Profile::enter(context_.profile, ProfilePart::kFiles, "read back");
   return read_picture(context_.device, context_.runner.queue(), picture);
 }
 
@@ -289,10 +311,9 @@ rtapi::Result<FloatImage> FrameRenderer::read(const std::string& name) {
     if (image) decode_layer(layer, *image);
     return image;
   }
-  std::string known;
-  for (const std::string& layer : layers()) known += (known.empty() ? "" : ", ") + layer;
+  if (const auto s = check_layer(name); !s) return s.error();
   return make_error(ErrorId::kFrameRenderer,
-                    "the frame has no layer \"" + name + "\" but " + known);
+                    "layer \"" + name + "\" is not there before the frame is prepared");
 }
 
 rtapi::Result<FloatImage> read_composed(FrameRenderer& renderer,

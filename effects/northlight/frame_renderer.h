@@ -34,12 +34,13 @@ class FrameRenderer {
  public:
   /// Uploads the scene and builds its structures. `scene` must stay for the renderer's life; only
   /// its lights, sun and sky may change between frames, and not to more lights. `effects`: the
-  /// registry.
+  /// registry. `profile`, if not null, must stay, too; it gets the steps of all that the renderer
+  /// does.
   /// @errors those of the device; KA3046 an unknown name in settings.effects; one that is
   /// not plain without settings.whole_frame.
   static rtapi::Result<std::unique_ptr<FrameRenderer>> create(
       const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
-      std::vector<Effect> effects = northlight_effects());
+      std::vector<Effect> effects = northlight_effects(), Profile* profile = nullptr);
   FrameRenderer(const FrameRenderer&) = delete;  // its passes point into it
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
@@ -86,8 +87,11 @@ class FrameRenderer {
   /// @errors those of the device.
   rtapi::Result<FloatImage> read(const rtapi::Texture& picture);
   /// The layers that can be read: the G-buffer, each effect's signals, raw and denoised, and
-  /// "radiance".
+  /// "radiance". They are known before anything is prepared.
   std::vector<std::string> layers() const;
+  /// Checks whether there is a layer of this name.
+  /// @errors KA3046 there is none; it names those that there are.
+  rtapi::Status check_layer(const std::string& layer) const;
 
   // For whoever records a frame into lists of their own: prepare first. Filters and composition
   // have functions of their own.

@@ -79,6 +79,8 @@ bool LightStage::reads_volume() const {
 }
 
 rtapi::Result<Outcome> LightStage::create_volume(const Progress& progress) {
+  const auto step =
+      Profile::enter(context_.profile, ProfilePart::kStart, "volume of indirect light");
   const VolumeSettings& wanted = context_.settings.volume;
   IndirectVolume volume;
   if (!reads_volume()) {

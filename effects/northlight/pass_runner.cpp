@@ -60,6 +60,7 @@ rtapi::Result<double> PassRunner::execute(const std::function<void(rtapi::Comman
 rtapi::Status PassRunner::run_by(const std::function<rtapi::Status(rtapi::CommandList&)>& executor,
                                  const std::string& name, std::uint64_t bytes,
                                  const std::function<void(rtapi::CommandList&)>& record) {
+  const auto step = Profile::enter(profile_, ProfilePart::kFrame, name);
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
   device_.ResetStatistics();
@@ -93,6 +94,7 @@ rtapi::Status PassRunner::run_draws(const std::string& name, std::uint64_t bytes
 
 rtapi::Result<Outcome> PassRunner::run_pass(const SampledWork& work, std::uint64_t bytes,
                                             const Progress& progress) {
+  const auto step = Profile::enter(profile_, ProfilePart::kFrame, work.title);
   device_.ResetStatistics();
   double order_ms = 0;
   const double start = now_ms();

@@ -15,6 +15,7 @@
 
 #include "effects/engine/frame.h"
 #include "effects/engine/outcome.h"
+#include "effects/engine/profile.h"
 
 namespace kaamos::effects {
 
@@ -75,6 +76,8 @@ class PassRunner {
   void set_band_executor(BandExecutor executor) { execute_band_ = std::move(executor); }
   /// Executes the draws of frames that are rendered by this, to look at them.
   void set_draw_executor(DrawExecutor executor) { execute_draws_ = std::move(executor); }
+  /// Enters every pass of the frame as a step; null: nobody asks.
+  void set_profile(Profile* profile) { profile_ = profile; }
   /// Milliseconds of the clock that times passes and runs; by default the time that passes.
   void set_clock(std::function<double()> milliseconds) { clock_ms_ = std::move(milliseconds); }
   /// The time that this clock shows.
@@ -124,6 +127,7 @@ class PassRunner {
   BandExecutor execute_band_;
   DrawExecutor execute_draws_;
   std::function<double()> clock_ms_;
+  Profile* profile_ = nullptr;
   std::vector<PassStatistics> passes_;
 };
 

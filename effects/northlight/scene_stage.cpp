@@ -18,16 +18,20 @@ rtapi::Status SceneStage::create() {
   const bool has_morph =
       std::any_of(scene.instances.begin(), scene.instances.end(),
                   [](const Instance& instance) { return instance.motion.morph != kNoIndex; });
+  Profile* profile = context_.profile;
   if (settings.moving || !scene.skins.empty() || has_morph) {
+    const auto step = Profile::enter(profile, ProfilePart::kStart, "structures");
     auto manager = StructureManager::create(context_.device, context_.runner.queue(), scene);
     if (!manager) return manager.error();
     structures_ = std::move(*manager);
     context_.gpu = structures_->scene();
   } else {
-    auto gpu = create_gpu_scene(context_.device, context_.runner.queue(), scene, camera.position());
+    auto gpu = create_gpu_scene(context_.device, context_.runner.queue(), scene, camera.position(),
+                                profile);
     if (!gpu) return gpu.error();
     context_.gpu = std::move(*gpu);
   }
+  const auto step = Profile::enter(profile, ProfilePart::kStart, "pictures of the frame");
   FrameDesc desc;
   desc.width = settings.width;
   desc.height = settings.height;
@@ -60,6 +64,7 @@ rtapi::Status SceneStage::begin_frame(const FrameMoment& moment) {
   runner.clear();
   const glm::dvec3 origin = moment.camera.position();
   if (structures_) {
+    const auto step = Profile::enter(context_.profile, ProfilePart::kFrame, "structures");
     const double start = runner.now_ms();
     const auto done =
         structures_->execute(context_.device, runner.queue(), states_at(moment), origin);

@@ -31,6 +31,7 @@
 #include "look.h"
 #include "options.h"
 #include "output.h"
+#include "profile_table.h"
 #include "sequence.h"
 #include "watch.h"
 
@@ -38,6 +39,8 @@ namespace {
 
 using namespace northlight;
 using kaamos::effects::FrameRenderer;
+using kaamos::effects::Profile;
+using kaamos::effects::ProfilePart;
 using kaamos::effects::Scene;
 using northlight::Options;  // not that of what is measured
 
@@ -164,7 +167,7 @@ int report(const rtapi::Result<Outcome>& result, const Options& options) {
 }
 
 int write_frame(FrameRenderer& renderer, const Options& options, const FrameResult& frame,
-                const Inspection& seen) {
+                const WrittenLayers& written, const Inspection& seen) {
   if (options.pixel) {
     std::fputs(describe_pixel(frame, options.pixel->first, options.pixel->second).c_str(), stdout);
     return 0;
@@ -180,13 +183,14 @@ int write_frame(FrameRenderer& renderer, const Options& options, const FrameResu
     std::fputs(said.c_str(), stdout);
     return error.empty() ? 0 : 1;
   }
-  if (const std::string error = write_results(options, renderer.context().scene, renderer, frame);
+  if (const std::string error =
+          write_results(options, renderer.context().scene, renderer, frame, written);
       !error.empty()) {
     say_error(error);
     return 1;
   }
-  std::printf("%s\nwrote %s/frame.png, frame.exr, stats.json and a PNG for each layer\n",
-              describe(renderer, frame).c_str(), options.out.c_str());
+  std::printf("%s\n%s", describe(renderer, frame).c_str(),
+              describe_files(options, renderer, written).c_str());
   std::fflush(stdout);
   return 0;
 }
@@ -204,17 +208,20 @@ int render_reference(const Options& options, const Scene& scene, const Ranks& ra
 }
 
 int render_once(FrameRenderer& renderer, const Options& options) {
+  const auto written = WrittenLayers::choose(options, renderer);
+  if (!written) return report(written.error());
   Inspection seen;
   inspect(options, renderer, seen);
   FrameResult frame;
-  auto done = render_frame(renderer, show_progress, frame);
+  auto done = render_frame(renderer, show_progress, frame, written->reads());
   if (is_done(done)) {
     if (const auto s = add_views(options, renderer, frame); !s) return report(s.error());
   }
   if (is_done(done) && options.reference > 0) {
     done = add_reference(options, renderer.context().scene, show_progress, frame);
   }
-  return is_done(done) ? write_frame(renderer, options, frame, seen) : report(done, options);
+  return is_done(done) ? write_frame(renderer, options, frame, *written, seen)
+                       : report(done, options);
 }
 
 int render_frames(FrameRenderer& renderer, Scene& scene, const Options& options) {
@@ -228,10 +235,9 @@ int render_frames(FrameRenderer& renderer, Scene& scene, const Options& options)
     if (error.empty()) error = files.publish();
     if (error.empty()) {
       remove_later_frames(options.out, options.frames);
-      std::printf(
-          "%s\nwrote %s/frame_0000.png to frame_%04u.png, the last one's layers, "
-          "stats.json\n",
-          describe(renderer, sequence).c_str(), options.out.c_str(), options.frames - 1);
+      std::printf("%s\nwrote %s/frame_0000.png to frame_%04u.png\n%s",
+                  describe(renderer, sequence).c_str(), options.out.c_str(), options.frames - 1,
+                  describe_files(options, renderer, sequence.written).c_str());
       return 0;
     }
   }
@@ -274,9 +280,67 @@ int watch(FrameRenderer& renderer, const Options& options) {
   return 0;
 }
 
+// Loads the scene and changes it as the options want.
+bool make_scene(const Options& options, Scene& scene) {
+  const auto step = Profile::enter(options.profile, ProfilePart::kStart, "scene");
+  if (!load_scene(options, scene) || !override_materials(options, scene)) return false;
+  place_sun(options, scene);
+  if (!options.write_glb.empty()) {
+    if (const auto written = kaamos::effects::write_glb(options.write_glb, scene); !written.ok()) {
+      say_error(written.error().message);
+      return false;
+    }
+  }
+  prepare_geometry(options, scene);
+  return true;
+}
+
+int render(FrameRenderer& renderer, Scene& scene, const Options& options) {
+  if (const auto s = check_views(options, renderer); !s) return report(s.error());
+  if (options.watch) return watch(renderer, options);
+  if (!options.tables.empty()) {
+    const auto tables = describe_tables(renderer);
+    if (!tables) return report(tables.error());
+    std::fputs(print_tables(*tables, options.tables == "json").c_str(), stdout);
+    return 0;
+  }
+  if (options.frames > 0) return render_frames(renderer, scene, options);
+  return render_once(renderer, options);
+}
+
+int run(const Options& options) {
+  const bool prints =
+      options.pixel || options.explain || !options.tables.empty() || options.measure_left_out;
+  if (const std::string error = prints ? "" : prepare_folder(options.out); !error.empty()) {
+    say_error(error);
+    return 1;
+  }
+  Scene scene;
+  if (!make_scene(options, scene)) return 1;
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  if (options.path_samples > 0) {
+    const Ranks ranks;
+    return render_reference(options, scene, ranks);
+  }
+  if (const Measuring measure = find_measuring(options)) {
+    std::string said;
+    const auto done = measure(options, scene, show_progress, said);
+    print(said);
+    return report(done, options);
+  }
+  auto renderer = create_renderer(options, scene, say_error);
+  if (!renderer) return report(renderer.error());
+  const int code = render(**renderer, scene, options);
+  const auto step = Profile::enter(options.profile, ProfilePart::kRest, "release");
+  renderer->reset();
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  kaamos::effects::Profile profile;
   int exit_code = 0;
   auto options = parse_options(argc, argv, exit_code);
   if (!options) return exit_code;
@@ -285,44 +349,8 @@ int main(int argc, char** argv) {
     std::fputs(list_devices().c_str(), stdout);
     return 0;
   }
-  const bool prints =
-      options->pixel || options->explain || !options->tables.empty() || options->measure_left_out;
-  if (const std::string error = prints ? "" : prepare_folder(options->out); !error.empty()) {
-    say_error(error);
-    return 1;
-  }
-  Scene scene;
-  if (!load_scene(*options, scene) || !override_materials(*options, scene)) return 1;
-  place_sun(*options, scene);
-  if (!options->write_glb.empty()) {
-    if (const auto written = kaamos::effects::write_glb(options->write_glb, scene); !written.ok()) {
-      say_error(written.error().message);
-      return 1;
-    }
-  }
-  prepare_geometry(*options, scene);
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-  if (options->path_samples > 0) {
-    const Ranks ranks;
-    return render_reference(*options, scene, ranks);
-  }
-  if (const Measuring measure = find_measuring(*options)) {
-    std::string said;
-    const auto done = measure(*options, scene, show_progress, said);
-    print(said);
-    return report(done, *options);
-  }
-  const auto renderer = create_renderer(*options, scene, say_error);
-  if (!renderer) return report(renderer.error());
-  if (const auto s = check_views(*options, **renderer); !s) return report(s.error());
-  if (options->watch) return watch(**renderer, *options);
-  if (!options->tables.empty()) {
-    const auto tables = describe_tables(**renderer);
-    if (!tables) return report(tables.error());
-    std::fputs(print_tables(*tables, options->tables == "json").c_str(), stdout);
-    return 0;
-  }
-  if (options->frames > 0) return render_frames(**renderer, scene, *options);
-  return render_once(**renderer, *options);
+  if (options->shows_profile) options->profile = &profile;
+  exit_code = run(*options);
+  if (options->shows_profile) print(print_profile(profile.steps()));
+  return exit_code;
 }

@@ -20,6 +20,7 @@
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "options_conflict.h"
 #include "options_measure.h"
+#include "options_output.h"
 #include "options_views.h"
 
 namespace northlight {
@@ -301,7 +302,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   CLI::App app(
       "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow, or\n"
       "the whole frame with --effects all.\n"
-      "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
+      "Writes frame.png, frame.exr, stats.json, and for each effect that is named, or what\n"
+      "--layers names, a PNG and a layer of frame.exr.",
       "northlight");
   app.set_version_flag("--version", std::string("northlight ") + rtapi::GetVersion());
   app.add_option("--scene", options.scene,
@@ -447,6 +449,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(CLI::Range(0u, 1024u));
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
+  add_output(app, options);
   add_engine(app, options, words);
   add_sequence(app, options);
   add_path_reference(app, options);

@@ -21,6 +21,8 @@ struct Options : kaamos::measure::Options {
   std::string write_glb;              // empty: none
   std::uint32_t frames = 0;           // of a sequence; 0: a still
   bool watch = false;
+  std::vector<std::string> layers;  // that are written; empty: those of named effects
+  bool shows_profile = false;       // print where the time goes
   bool list_devices = false;
   bool claims = false;  // measure what the sources say about costs
   bool study = false;   // every technique of each family

@@ -5,19 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "effects/assets/image/exr.h"
+#include "effects/assets/image/png.h"
 #include "effects/assets/image/tonemap.h"
 #include "look.h"
 
 namespace northlight {
 
 using namespace kaamos::effects;
-namespace fs = std::filesystem;
-
 namespace {
 
 // An octahedral normal as a colour: maps each axis from -1..1 to 0..1; black without a surface.
@@ -73,11 +72,10 @@ FloatImage distance_picture(const FloatImage& view_z) {
 
 FloatImage first_channels(const FloatImage& image, std::uint32_t count) {
   FloatImage out(image.width, image.height, count);
-  for (std::uint32_t y = 0; y < image.height; ++y) {
-    for (std::uint32_t x = 0; x < image.width; ++x) {
-      for (std::uint32_t c = 0; c < count; ++c) {
-        out.at(x, y, c) = image.at(x, y, c);
-      }
+  const std::size_t pixels = std::size_t{image.width} * image.height;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::uint32_t c = 0; c < count; ++c) {
+      out.values[i * count + c] = image.values[i * image.channels + c];
     }
   }
   return out;
@@ -99,9 +97,10 @@ bool is_light(const std::string& layer, const std::vector<Effect>& effects) {
 // 0 to 1.
 ByteImage layer_picture(const std::string& name, const FloatImage& image, const FrameResult& result,
                         const FrameRenderer& renderer) {
-  const FloatImage& ids = result.layers.at("ids");
-  if (name == "normal" || name == "shading_normal") return to_bytes(normal_picture(image, ids));
-  if (name == "ids") return to_bytes(id_picture(ids));
+  if (name == "normal" || name == "shading_normal") {
+    return to_bytes(normal_picture(image, result.layers.at("ids")));
+  }
+  if (name == "ids") return to_bytes(id_picture(image));
   if (name == "depth" || name == "view_z") {
     return to_bytes(distance_picture(result.layers.at("view_z")), 1, 0, true);
   }
@@ -177,41 +176,71 @@ ByteImage frame_picture(const FloatImage& radiance, float exposure) {
   return tonemap(first_channels(radiance, 3), exposure);
 }
 
-std::string add_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
-                        const FrameResult& result, const nlohmann::ordered_json& sequence,
-                        StagedFiles& files) {
-  std::string error = files.add("frame.png", frame_picture(result.radiance, scene.exposure));
+namespace {
+
+// The layers of a frame that files hold.
+std::map<std::string, const FloatImage*> written_layers(const FrameResult& result,
+                                                        const WrittenLayers& written) {
+  std::map<std::string, const FloatImage*> out;
   for (const auto& [name, image] : result.layers) {
-    if (!error.empty()) return error;
-    error = files.add(name + ".png", layer_picture(name, image, result, renderer));
+    if (written.has(name)) out[name] = &image;
   }
-  for (const ViewResult& view : result.views) {
-    if (!error.empty()) return error;
-    error = files.add("view-" + view.name + ".png", view.picture);
-  }
-  if (!error.empty()) return error;
-  nlohmann::ordered_json json = statistics(options, scene, renderer, result);
-  if (!sequence.is_null()) json["sequence"] = sequence;
-  const std::string text = json.dump(2) + "\n";
-  if (error = files.add("stats.json", {text.begin(), text.end()}); !error.empty()) return error;
+  return out;
+}
+
+ExrFile exr_of(const Options& options, const Scene& scene, const FrameResult& result,
+               const WrittenLayers& written) {
   ExrFile exr;
   exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.frame.seed)}};
   exr.layers.push_back({"", result.radiance, false, {}});
-  for (const auto& [name, image] : result.layers) exr.layers.push_back({name, image, false, {}});
+  for (const auto& [name, image] : written_layers(result, written)) {
+    exr.layers.push_back({name, *image, false, {}});
+  }
   for (const ViewResult& view : result.views) {
     exr.layers.push_back({"view-" + view.name, view.numbers, false, view.channels});
   }
-  const auto written = write_exr(files.add_path("frame.exr"), exr);
-  return written.ok() ? "" : written.error().message;
+  return exr;
+}
+
+}  // namespace
+
+std::string add_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
+                        const FrameResult& result, const WrittenLayers& written,
+                        const nlohmann::ordered_json& sequence, StagedFiles& files) {
+  const auto step = Profile::enter(options.profile, ProfilePart::kFiles, "encode and write");
+  std::vector<EncodedFile> encoded;
+  // The longest work comes first.
+  encoded.push_back({"frame.exr", [&] {
+                       return encode_exr(exr_of(options, scene, result, written), options.threads);
+                     }});
+  encoded.push_back(
+      {"frame.png", [&] { return encode_png(frame_picture(result.radiance, scene.exposure)); }});
+  for (const auto& [name, image] : written_layers(result, written)) {
+    encoded.push_back({name + ".png", [&result, &renderer, name = name, image = image] {
+                         return encode_png(layer_picture(name, *image, result, renderer));
+                       }});
+  }
+  for (const ViewResult& view : result.views) {
+    encoded.push_back({"view-" + view.name + ".png", [&view] { return encode_png(view.picture); }});
+  }
+  encoded.push_back({"stats.json", [&]() -> Result<std::vector<std::uint8_t>> {
+                       auto json = statistics(options, scene, renderer, result);
+                       if (!sequence.is_null()) json["sequence"] = sequence;
+                       const std::string text = json.dump(2) + "\n";
+                       return std::vector<std::uint8_t>(text.begin(), text.end());
+                     }});
+  return files.add(encoded, options.threads);
 }
 
 std::string write_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
-                          const FrameResult& result) {
+                          const FrameResult& result, const WrittenLayers& written) {
   StagedFiles files(options.out);
   if (auto error = files.create(); !error.empty()) return error;
-  if (auto error = add_results(options, scene, renderer, result, {}, files); !error.empty()) {
+  if (auto error = add_results(options, scene, renderer, result, written, {}, files);
+      !error.empty()) {
     return error;
   }
+  const auto step = Profile::enter(options.profile, ProfilePart::kFiles, "publish");
   return files.publish();
 }
 
@@ -227,6 +256,17 @@ std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint
   for (const ViewResult& view : result.views) add("view-" + view.name, view.numbers);
   add("radiance", result.radiance);
   return out;
+}
+
+std::string describe_files(const Options& options, const FrameRenderer& renderer,
+                           const WrittenLayers& written) {
+  std::string out = fmt::format("wrote {}/frame.png, frame.exr, stats.json", options.out);
+  for (const std::string& name : written.names()) out += ", " + name + ".png";
+  // Beside them there is "radiance", which is the frame.
+  if (written.names().size() + 1 < renderer.layers().size()) {
+    out += "; --layers all writes every layer";
+  }
+  return out + "\n";
 }
 
 static double mebibytes(std::uint64_t bytes) {

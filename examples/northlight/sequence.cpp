@@ -186,6 +186,9 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
   const auto path = choose_path(options, scene);
   if (!path.ok()) return path.error();
   out.path = path.value().name;
+  auto written = WrittenLayers::choose(options, renderer);
+  if (!written) return written.error();
+  out.written = std::move(*written);
   if (const auto s = renderer.prepare(progress); !is_done(s)) return s;
   FlickerMeter flicker;
   double before = 0;
@@ -208,6 +211,7 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
     const auto radiance = renderer.read("radiance");
     if (!radiance) return radiance.error();
     if (const auto s = flicker.measure(renderer, i == 0 || moment.cut); !s) return s.error();
+    const auto step = Profile::enter(options.profile, ProfilePart::kFiles, "PNG of each frame");
     const auto error = files.add(frame_name(i), frame_picture(*radiance, scene.exposure));
     if (!error.empty()) return failure(error);
     frame.passes = renderer.runner().passes();
@@ -216,7 +220,7 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
     frame.cut = moment.cut;
     out.frames.push_back(std::move(frame));
   }
-  auto last = read_frame(renderer);
+  auto last = read_frame(renderer, out.written.reads());
   if (!last) return last.error();
   out.last = std::move(*last);
   out.last.passes = renderer.runner().passes();
@@ -228,7 +232,8 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, Scene& scene,
 
 std::string add_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
                         const SequenceResult& sequence, StagedFiles& files) {
-  return add_results(options, scene, renderer, sequence.last, to_json(sequence, options), files);
+  return add_results(options, scene, renderer, sequence.last, sequence.written,
+                     to_json(sequence, options), files);
 }
 
 std::string describe(const FrameRenderer& renderer, const SequenceResult& sequence) {

@@ -12,6 +12,7 @@
 #include "effects/assets/scene/camera_path.h"
 #include "effects/geometry/structures/structures.h"
 #include "effects/measure/run/frame_result.h"
+#include "layers.h"
 #include "output.h"
 
 namespace northlight {
@@ -34,12 +35,13 @@ struct SequenceResult {
   std::string path;  // of the camera
   std::vector<SequenceFrame> frames;
   std::vector<FlickerLine> flicker;
-  FrameResult last;  // with its layers
+  FrameResult last;       // with its layers
+  WrittenLayers written;  // of the last frame
 };
 
 // Renders options.frames frames and adds frame_0000.png ... to `files` without publishing them.
 // `scene` is the renderer's; lights that move (light_forest.h) move in it. Errors: those of the
-// path, of rendering, and of files.
+// path, of WrittenLayers::choose, of rendering, and of files.
 rtapi::Result<Outcome> render_sequence(kaamos::effects::FrameRenderer& renderer,
                                        kaamos::effects::Scene& scene, const Options& options,
                                        const Progress& progress, StagedFiles& files,

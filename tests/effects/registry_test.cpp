@@ -10,6 +10,7 @@
 #include <set>
 
 #include "effects/engine/compute_pass.h"
+#include "effects/northlight/frame_layers.h"
 #include "effects/northlight/frame_renderer.h"
 #include "room.h"
 
@@ -184,6 +185,41 @@ TEST(Registry, NamesAreKnownOrRefused) {
   const auto without = renderer->render();
   ASSERT_FALSE(without);
   EXPECT_NE(without.error().message.find("\"surfaces/gbuffer/gbuffer\""), std::string::npos);
+}
+
+// --layers is checked before anything is baked.
+TEST(FrameRenderer, LayersAreKnownBeforeTheFrameIsPrepared) {
+  const Scene scene = make_room();
+  const std::vector<std::string> possible = possible_layers(northlight_effects());
+  FrameSettings plain = small_settings({"ao", "sun"});
+  plain.whole_frame = false;
+  FrameSettings filtered = small_settings({"all", "ao", "gtao", "ssr"});
+  filtered.denoise = default_denoise(DenoiseMethod::kSvgf);
+  for (const FrameSettings& settings :
+       {plain, filtered, small_settings({"all"}), small_settings({"contact", "transparent"}),
+        small_settings({"gtao"})}) {
+    const auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
+    const std::vector<std::string> names = renderer->layers();
+    EXPECT_FALSE(renderer->read(names[9])) << "no effect has a picture yet";
+    renderer->render().value();
+    EXPECT_EQ(renderer->layers(), names);
+    std::vector<std::string> found;
+    for (const FrameLayer& layer : find_layers(renderer->context(), renderer->lights(),
+                                               renderer->effects(), renderer->filters())) {
+      found.push_back(layer.name);
+      EXPECT_NE(std::find(possible.begin(), possible.end(), layer.name), possible.end())
+          << layer.name;
+    }
+    found.emplace_back("radiance");
+    EXPECT_EQ(found, names);
+    for (const std::string& name : names) EXPECT_TRUE(renderer->read(name)) << name;
+  }
+  const auto renderer = FrameRenderer::create(make_device(), scene, plain).value();
+  EXPECT_TRUE(renderer->check_layer("sun"));
+  const auto unknown = renderer->check_layer("gtao");
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("no layer \"gtao\" but depth, "), std::string::npos);
+  EXPECT_NE(unknown.error().message.find(", ao, sun, radiance"), std::string::npos);
 }
 
 TEST(Registry, FramesWithoutGlassSaySo) {

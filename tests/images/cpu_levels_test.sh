@@ -23,7 +23,7 @@ done
 
 render() {
   KAAMOS_CPU_LEVEL=$1 "$northlight" --effects all --size 48x27 --gi-cell 2 --gi-bake-samples 4 \
-    --frames 2 --camera-path dolly --out "$work/out-$1" > "$work/log-$1" 2>&1 ||
+    --frames 2 --camera-path dolly --layers all --out "$work/out-$1" > "$work/log-$1" 2>&1 ||
     fail "the whole frame at level \"$1\": $(cat "$work/log-$1")"
 }
 

@@ -67,7 +67,9 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
 TEST(NorthlightPicture, IsTheOneThatWasLookedAt) {
   const std::string folder = std::string(KAAMOS_BINARY_DIR) + "/pictures/northlight";
   ASSERT_EQ(run(std::string(KAAMOS_BINARY_DIR) +
-                "/bin/northlight --size 320x180 --ao-samples 16 --sun-samples 8 --out " + folder),
+                "/bin/northlight --size 320x180 --ao-samples 16 --sun-samples 8 --layers "
+                "ao,sun,shading_normal,base_color --out " +
+                folder),
             0);
   for (const std::string name : {"frame", "ao", "sun", "shading_normal", "base_color"}) {
     const auto rendered = read_png(folder + "/" + name + ".png");

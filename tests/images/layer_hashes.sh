@@ -16,7 +16,7 @@ render() {
   local name=$1 backend=$2
   shift 2
   "$northlight" --backend "$backend" --effects all --size 64x36 --gi-cell 1 --gi-bake-samples 4 --seed 7 \
-    "$@" --out "$folder/$name" >"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
+    --layers all "$@" --out "$folder/$name" >"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
   find "$folder/$name" -name '*.exr' | sort | while read -r file; do
     "$hashes" "$file" | sed "s|\$| $backend $name ${file#"$folder/$name/"}|"
   done

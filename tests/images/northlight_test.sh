@@ -46,6 +46,9 @@ expect_error 2 '--measure: fog not in .*svgf' --measure fog
 expect_error 2 'not in range' --measure ao --repeats 0
 expect_error 2 'not in range' --measure svgf --seeds 1
 expect_error 2 '--split: fog not in' --split fog
+expect_error 2 '"fog" is no layer: there are depth, .*normal, .*ao, ao_denoised, .*gtao, .*all and none' --layers ao,fog
+expect_error 1 'KA3046 .*no layer "gtao" but depth, .*, ao, sun, radiance' --effects ao,sun --layers normal,gtao --size 16x9
+expect_error 1 'KA3046 .*no layer "ao_denoised" but' --effects ao,sun --layers ao_denoised --size 16x9
 expect_error 1 'no pixel shows glass.*--material' --measure transparent --scene lounge --size 8x8 --gi-cell 2 --gi-bake-samples 1
 expect_error 1 'unknown backend.*embree' --backend nothing
 expect_error 2 'not in range 1 to 100000' --frames 0
@@ -101,9 +104,51 @@ done
 # A complete run, then one that fails and one that is interrupted: the results stay.
 small=(--size 64x36 --out "$work/out")
 "$northlight" "${small[@]}" > /dev/null || fail "a plain run"
-for file in frame.png frame.exr ao.png sun.png normal.png stats.json; do
+for file in frame.png frame.exr ao.png sun.png stats.json; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
+
+# files_are FOLDER NAMES...: the folder holds exactly these.
+files_are() {
+  local folder=$1 found
+  shift
+  found=$(ls "$folder")
+  [ "$found" = "$(printf '%s\n' "$@" | LC_ALL=C sort)" ] || fail "$folder holds" $found
+}
+export LC_ALL=C
+# Layers are those that somebody names; else the signals of effects that are named.
+"$northlight" --size 64x36 --out "$work/default" > /dev/null || fail "the default layers"
+files_are "$work/default" ao.png frame.exr frame.png stats.json sun.png
+"$northlight" --size 64x36 --layers normal,sun --out "$work/named" > "$work/log" || fail "--layers normal,sun"
+files_are "$work/named" frame.exr frame.png normal.png stats.json sun.png
+grep -q '^wrote .*/frame.png, frame.exr, stats.json, normal.png, sun.png; --layers all' "$work/log" || fail "does not say what is written: $(cat "$work/log")"
+"$northlight" --size 64x36 --layers none --out "$work/bare" > /dev/null || fail "--layers none"
+files_are "$work/bare" frame.exr frame.png stats.json
+"$northlight" --size 64x36 --layers all --out "$work/every" > /dev/null || fail "--layers all"
+files_are "$work/every" ao.png base_color.png depth.png emissive.png frame.exr frame.png ids.png material.png normal.png \
+  position.png shading_normal.png stats.json sun.png view_z.png
+for file in frame.png normal.png sun.png; do
+  cmp -s "$work/named/$file" "$work/every/$file" || fail "--layers changes $file"
+done
+"$northlight" --size 32x18 --effects local --layers none --frames 2 --out "$work/bare" > /dev/null || fail "--layers none --frames 2"
+files_are "$work/bare" frame.exr frame.png frame_0000.png frame_0001.png stats.json
+
+# --profile: the steps of all parts together take as long as the run, which takes no longer than
+# this program waits.
+start=$(date +%s%N)
+"$northlight" --size 64x36 --profile --out "$work/named" > "$work/log" || fail "--profile"
+waited=$((($(date +%s%N) - start) / 1000000))
+for step in scene 'bottom levels' 'shader libraries' G-buffer 'sun shadow' 'read back' 'encode and write' other; do
+  grep -Eq "^  $step +[0-9]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ %$" "$work/log" || fail "--profile has no $step: $(cat "$work/log")"
+done
+sed -n '/^profile /,$p' "$work/log" | awk -v waited="$waited" '
+  { wall = $(NF - 3); cpu = $(NF - 2) }
+  /^  / { steps += wall; steps_cpu += cpu; next }
+  /^total / { total = wall; total_cpu = cpu; next }
+  /^(start-up|frame|files|rest) / { parts += wall }
+  function near(a, b) { return a - b < 0.03 * b + 1 && b - a < 0.03 * b + 1 }
+  END { exit !(total > 0 && near(steps, total) && near(parts, total) && near(steps_cpu, total_cpu) && total <= waited) }' ||
+  fail "--profile does not add up, or is longer than the $waited ms that it took: $(cat "$work/log")"
 
 # Drawn surfaces: the same picture but for pixels at edges, and what both ways took.
 "$northlight" --size 64x36 --primary raster --out "$work/drawn" > "$work/log" || fail "--primary raster"
@@ -116,15 +161,21 @@ grep -Eq 'heatmap-overdraw.png.*the most is [1-9]' "$work/log" || fail "--heatma
 
 # The whole frame. Its volume of indirect light is saved, read again, and refused when damaged.
 whole=(--effects all --size 64x36 --gi-bake-samples 1 --gi-cell 1 --gi-volume "$work/lounge.gi")
-"$northlight" "${whole[@]}" --out "$work/whole" > "$work/log" || fail "the whole frame"
+"$northlight" "${whole[@]}" --out "$work/bare_whole" > /dev/null || fail "the whole frame"
+files_are "$work/bare_whole" frame.exr frame.png stats.json
+"$northlight" "${whole[@]}" --layers all --out "$work/whole" > "$work/log" || fail "the whole frame"
 grep -Eq '^denoise [0-9] signals' "$work/log" || fail "the whole frame's table lacks passes: $(cat "$work/log")"
 for file in frame.png reflection.png indirect_denoised.png local_lights.png contact.png; do
   [ -s "$work/whole/$file" ] || fail "the whole frame's $file is missing"
 done
 "$northlight" "${whole[@]}" --out "$work/again" > /dev/null || fail "the whole frame from a kept volume"
 cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the kept volume gives another picture"
-"$northlight" "${whole[@]}" --threads 1 --out "$work/again" > /dev/null || fail "the whole frame on one thread"
-cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the whole frame depends on the threads"
+for threads in 1 4; do
+  "$northlight" "${whole[@]}" --layers all --threads $threads --out "$work/again" > /dev/null || fail "the whole frame on $threads threads"
+  for file in "$work/whole"/*.png "$work/whole/frame.exr"; do
+    cmp -s "$file" "$work/again/${file##*/}" || fail "${file##*/} of the whole frame depends on the threads"
+  done
+done
 echo damage >> "$work/lounge.gi"
 expect_error 1 'KA3045 .*lounge.gi.*bake it again' "${whole[@]}"
 
@@ -152,7 +203,7 @@ grep -q '"cut": true' "$work/cut/stats.json" || fail "no cut: $(cat "$work/cut/s
 # it.
 printf '0 -5.5 1.7 4.6 0.3 1.3 -0.8\n0.02 3 1.5 3 0 1 0 cut\n' > "$work/two"
 printf '0 3 1.5 3 0 1 0\n' > "$work/one_key"
-steady=(--effects gi,local --gi-mode direct --denoise none --gi-cell 1 --gi-bake-samples 1 --size 64x36 --gi-volume "$work/steady.gi")
+steady=(--effects gi,local --gi-mode direct --denoise none --gi-cell 1 --gi-bake-samples 1 --size 64x36 --layers all --gi-volume "$work/steady.gi")
 "$northlight" "${steady[@]}" --frames 2 --camera-path "$work/two" --out "$work/moved" > /dev/null || fail "a cut"
 "$northlight" "${steady[@]}" --frames 1 --camera-path "$work/one_key" --out "$work/there" > /dev/null || fail "one frame"
 cmp -s "$work/moved/frame.exr" "$work/there/frame.exr" || fail "a frame behind a cut is not the frame there"

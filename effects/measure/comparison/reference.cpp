@@ -38,7 +38,15 @@ rtapi::Result<Outcome> add_reference(const Options& options, const Scene& scene,
     return progress("reference " + pass, done);
   };
   FrameResult frame;
-  if (const auto s = render_frame(**renderer, show, frame); !is_done(s)) return s;
+  const auto is_signal = [](const std::string& layer) {
+    for (const Effect& effect : northlight_effects()) {
+      for (const EffectSignal& signal : effect.signals) {
+        if (signal.name == layer) return true;
+      }
+    }
+    return false;
+  };
+  if (const auto s = render_frame(**renderer, show, frame, is_signal); !is_done(s)) return s;
   // Layers without noise, those of the G-buffer, have no reference of their own.
   for (const Effect& effect : northlight_effects()) {
     for (const EffectSignal& signal : effect.signals) {

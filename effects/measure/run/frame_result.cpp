@@ -22,14 +22,19 @@ rtapi::Result<rtapi::Device> create_device(const Options& options, const Say& me
 rtapi::Result<std::unique_ptr<FrameRenderer>> create_renderer(const Options& options,
                                                               const Scene& scene,
                                                               const Say& message) {
-  const auto device = create_device(options, message);
+  const auto device = [&] {
+    const auto step = Profile::enter(options.profile, ProfilePart::kStart, "device");
+    return create_device(options, message);
+  }();
   if (!device) return device.error();
-  return FrameRenderer::create(*device, scene, options.frame);
+  return FrameRenderer::create(*device, scene, options.frame, northlight_effects(),
+                               options.profile);
 }
 
-rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer) {
+rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer, const LayerChoice& reads) {
   FrameResult out;
   for (const std::string& name : renderer.layers()) {
+    if (name != "radiance" && reads && !reads(name)) continue;
     auto image = renderer.read(name);
     if (!image) return image.error();
     (name == "radiance" ? out.radiance : out.layers[name]) = std::move(*image);
@@ -47,9 +52,9 @@ rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer) {
 }
 
 rtapi::Result<Outcome> render_frame(FrameRenderer& renderer, const Progress& progress,
-                                    FrameResult& result) {
+                                    FrameResult& result, const LayerChoice& reads) {
   if (const auto s = renderer.render(progress); !is_done(s)) return s;
-  auto frame = read_frame(renderer);
+  auto frame = read_frame(renderer, reads);
   if (!frame) return frame.error();
   result = std::move(*frame);
   return Outcome::kDone;

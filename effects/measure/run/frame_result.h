@@ -4,6 +4,7 @@
 
 #include <rtapi/rtapi.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -43,10 +44,14 @@ rtapi::Result<std::unique_ptr<effects::FrameRenderer>> create_renderer(const Opt
                                                                        const effects::Scene& scene,
                                                                        const Say& message);
 
-// All of the last frame.
-rtapi::Result<FrameResult> read_frame(effects::FrameRenderer& renderer);
+// Returns whether a layer is read. Empty: all are.
+using LayerChoice = std::function<bool(const std::string& layer)>;
+
+// The last frame: its radiance, and these layers.
+rtapi::Result<FrameResult> read_frame(effects::FrameRenderer& renderer,
+                                      const LayerChoice& reads = {});
 // Renders a frame and reads it.
 rtapi::Result<Outcome> render_frame(effects::FrameRenderer& renderer, const Progress& progress,
-                                    FrameResult& result);
+                                    FrameResult& result, const LayerChoice& reads = {});
 
 }  // namespace kaamos::measure

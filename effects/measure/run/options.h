@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "effects/engine/profile.h"
 #include "effects/northlight/settings.h"
 
 namespace kaamos::measure {
@@ -36,6 +37,7 @@ struct Options {
   double frames_per_second = 30;         // of sequences
   std::string out = "out/northlight";    // the folder of results
   Say say = [](const std::string&) {};   // takes what devices have to say
+  effects::Profile* profile = nullptr;   // gets the steps of the run; null: nobody asks
   std::string split;                     // settings side by side in one picture; empty: none
   std::uint32_t reference = 0;           // samples for the layers NAME_reference; 0: none
   std::uint32_t path_samples = 0;        // of a path-traced reference; 0: none

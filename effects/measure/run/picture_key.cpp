@@ -83,8 +83,8 @@ std::string picture_key(const Options& options, const Scene& scene) {
   // The picture does not depend on how often and how long it is measured; callers that keep numbers
   // add that to their key.
   const auto& [name, materials, sun, backend, precision, checked, threads, frame, effects,
-               camera_path, frames_per_second, out, say, split, reference, path_samples, bounces,
-               seconds, each_lamp, half, save_seconds, resume, committed, measure,
+               camera_path, frames_per_second, out, say, profile, split, reference, path_samples,
+               bounces, seconds, each_lamp, half, save_seconds, resume, committed, measure,
                measure_reference, measure_truth, repeats, cpu_clock, families, rows, command,
                commit, quick, seeds] = options;
   Checksum checksum;
