@@ -70,7 +70,7 @@ struct EffectSignal {
   bool is_light = false;  ///< shown with the frame's exposure and tone curve
   /// It is visibility, and the effect writes besides how sharp its shadows are
   /// (VisibilityDenoiser::Signal::sharpness, summed up in the same way), into a picture of
-  /// R32G32B32A32_FLOAT of this register u of space3.
+  /// R32G32B32A32_FLOAT of this register u of space3; only where PassConstants::sharpness is set.
   ///@{
   bool is_visibility = false;
   std::uint32_t sharpness_output = 0;
@@ -90,8 +90,11 @@ struct EffectNeeds {
   bool glossy = false;        ///< a material is not matte [kMatteRoughness], or the effect is named
   bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
   bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3
-  bool motion = false;        ///< only frames of a sequence have it
-  bool perspective = false;   ///< the camera's rays leave one point
+  /// `lights` and `volume` are read while the effect's passes are made, as by an environment map,
+  /// and in no frame.
+  bool lights_once = false;
+  bool motion = false;       ///< only frames of a sequence have it
+  bool perspective = false;  ///< the camera's rays leave one point
   /// The frame's radiance without reflections, in kRadiance; and the finished radiance of the frame
   /// before, u19 of space3 [KeptRadiance]. Such effects come behind all others and their denoising.
   bool radiance = false;

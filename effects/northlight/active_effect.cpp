@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "effects/assets/common/errors.h"
+#include "effects/engine/picture.h"
 #include "effects/northlight/signal_filters.h"
 #include "effects/surfaces/ray_order/ray_order.h"
 
@@ -48,6 +49,13 @@ rtapi::Status ActiveEffect::remake() {
 }
 
 rtapi::Status ActiveEffect::create_pictures() {
+  if (!reads_sharpness(context_.settings)) {
+    // Shaders name it all the same.
+    const auto none =
+        effects::create_picture(context_.device, "no sharpness", kSharpnessFormat, 1, 1);
+    if (!none) return none.error();
+    no_sharpness_ = *none;
+  }
   auto created = create_pictures(context_.frame, "");
   if (!created) return created.error();
   pictures_ = std::move(*created);
@@ -63,7 +71,7 @@ rtapi::Result<SignalPictures> ActiveEffect::create_pictures(const Frame& frame,
     if (!picture) return picture.error();
     out.signals.push_back(*picture);
     out.sharpness.emplace_back();
-    if (!signal.is_visibility) continue;
+    if (!signal.is_visibility || !reads_sharpness(context_.settings)) continue;
     const auto sharpness = frame.create_picture(
         context_.device, signal.name + " sharpness sum" + ending, kSharpnessFormat);
     if (!sharpness) return sharpness.error();
@@ -92,7 +100,8 @@ rtapi::Result<PassViews> ActiveEffect::create_views(const Frame& frame,
     const auto sum = views->set_unordered_access(signal.output, pictures.signals[i]);
     if (!sum) return sum.error();
     if (!signal.is_visibility) continue;
-    const auto s = views->set_unordered_access(signal.sharpness_output, pictures.sharpness[i]);
+    const rtapi::Texture& sharpness = pictures.sharpness[i] ? pictures.sharpness[i] : no_sharpness_;
+    const auto s = views->set_unordered_access(signal.sharpness_output, sharpness);
     if (!s) return s.error();
   }
   if (needs.lights) {
@@ -173,8 +182,7 @@ PassConstants ActiveEffect::complete(PassConstants constants,
   constants.radius = settings.radius;
   constants.pixel_step = settings.pixel_step;
   constants.pixel_offset = pixel_offset(settings, context_.moment.index);
-  const FrameSettings& frame = context_.settings;
-  constants.sharpness = frame.whole_frame && reads_sharpness(frame.denoise.method) ? 1 : 0;
+  constants.sharpness = reads_sharpness(context_.settings) ? 1 : 0;
   return constants;
 }
 

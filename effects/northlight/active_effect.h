@@ -29,8 +29,9 @@ struct EffectInputs {
 
 /// The pictures that an effect writes, by signal.
 struct SignalPictures {
-  std::vector<rtapi::Texture> signals;    ///< sums, or final pictures
-  std::vector<rtapi::Texture> sharpness;  ///< of visibility, else null
+  std::vector<rtapi::Texture> signals;  ///< sums, or final pictures
+  /// Of visibility; null where it is none, and where the denoiser does not read it.
+  std::vector<rtapi::Texture> sharpness;
 };
 
 /// An effect that a frame renders. Its passes point into it.
@@ -122,6 +123,7 @@ class ActiveEffect {
   std::vector<std::unique_ptr<Passes>> passes_;
   std::optional<ComputePass> compose_;
   SignalPictures pictures_;
+  rtapi::Texture no_sharpness_;  // stands where shaders would write it
   std::uint32_t samples_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "effects/northlight/signal_filters.h"
 #include "effects/surfaces/gbuffer/gbuffer.h"
 
 namespace kaamos::effects {
@@ -36,6 +37,15 @@ void list_left_out(FrameContext& context) {
     out.emplace_back(
         "glass and what else is blended (alphaMode BLEND): no effect that shows it is chosen, such "
         "as \"transparent\"");
+  }
+  const auto shows_shadows = [&](const Effect& effect) {
+    return is_rendered(context.scene, settings, context.effects, effect.name) &&
+           std::any_of(effect.signals.begin(), effect.signals.end(),
+                       [](const EffectSignal& signal) { return signal.is_visibility; });
+  };
+  if (!reads_sharpness(settings) &&
+      std::any_of(context.effects.begin(), context.effects.end(), shows_shadows)) {
+    out.emplace_back("how sharp shadows are: no denoiser reads it");
   }
   if (std::none_of(context.gpu.geometries.begin(), context.gpu.geometries.end(),
                    [](const GpuGeometry& geometry) { return geometry.alpha_tested; })) {

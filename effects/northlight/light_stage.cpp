@@ -30,13 +30,15 @@ rtapi::Status LightStage::create_lighting() {
   const ShaderLibraries& libraries = context_.libraries;
   const std::uint32_t lights = count_local_lights(context_.scene);
   reads_maps_ = has_main_ || any_rendered([](const EffectNeeds& needs) {
-                  return needs.lights || needs.volume || needs.strongest_lights;
+                  const bool shades = (needs.lights || needs.volume) && !needs.lights_once;
+                  return shades || needs.strongest_lights;
                 });
+  const bool is_early = reads_early();
   const auto lighting =
       Lighting::create(device, frame, context_.gpu, libraries.at("light/lights/lighting"), lights);
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
-  if (context_.settings.light_maps == LightMaps::kDrawn && reads_maps_) {
+  if (context_.settings.light_maps == LightMaps::kDrawn && (reads_maps_ || is_early)) {
     const auto s = lighting_->draw_maps(device, frame, context_.scene, context_.gpu,
                                         libraries.at("light/lights/light_map_draws"));
     if (!s) return s;
@@ -49,9 +51,9 @@ rtapi::Status LightStage::create_lighting() {
     direct_ = *direct;
   }
   list_left_out(lights);
-  // Baking reads the shadow maps.
+  if (!is_early) return {};
   const auto updated = context_.runner.execute(
-      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame, reads_maps_); });
+      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame, true); });
   if (!updated) return updated.error();
   return {};
 }
@@ -61,7 +63,9 @@ void LightStage::list_left_out(std::uint32_t lights) {
     context_.left_out.push_back("local lights and contact shadows: the scene has no local light");
   }
   if (!reads_maps_ && lights > 0) {
-    context_.left_out.push_back("shadow maps of local lights: no effect reads them");
+    context_.left_out.push_back(
+        reads_early() ? "shadow maps of local lights in every frame: they are read once, to bake"
+                      : "shadow maps of local lights: no effect reads them");
   }
   const FrameSettings& settings = context_.settings;
   for (const Effect& effect : context_.effects) {
@@ -71,6 +75,20 @@ void LightStage::list_left_out(std::uint32_t lights) {
       context_.left_out.push_back(effect.about + ": the scene has none");
     }
   }
+}
+
+bool LightStage::reads_early() const {
+  if (bakes_volume()) return true;
+  return std::any_of(context_.effects.begin(), context_.effects.end(), [&](const Effect& effect) {
+    return effect.make && effect.needs.lights &&
+           is_rendered(context_.scene, context_.settings, context_.effects, effect.name);
+  });
+}
+
+bool LightStage::bakes_volume() const {
+  const VolumeSettings& wanted = context_.settings.volume;
+  return reads_volume() && !wanted.given &&
+         (wanted.file.empty() || !std::filesystem::exists(wanted.file));
 }
 
 bool LightStage::reads_volume() const {

@@ -82,6 +82,9 @@ class LightStage {
   // Returns whether an effect with such needs is rendered.
   template <class Reads>
   bool any_rendered(Reads reads) const;
+  // Returns whether lists and maps are read before the first frame.
+  bool reads_early() const;
+  bool bakes_volume() const;
   rtapi::Status create_lighting();
   void list_left_out(std::uint32_t lights);
   rtapi::Result<Outcome> create_volume(const Progress& progress);
@@ -93,7 +96,7 @@ class LightStage {
   FrameContext& context_;
   std::optional<Lighting> lighting_;
   std::optional<DirectLighting> direct_;
-  bool reads_maps_ = true;  // somebody does, of local lights and of the sun
+  bool reads_maps_ = true;  // somebody does in frames, of local lights and of the sun
   bool has_main_ = false, leaves_out_strongest_ = false, has_volume_ = false;
   GpuVolume gpu_volume_, no_volume_;
   std::optional<BakeStatistics> bake_;

@@ -13,6 +13,10 @@ bool reads_sharpness(DenoiseMethod method) {
          method == DenoiseMethod::kControl || method == DenoiseMethod::kAdaptiveSvgf;
 }
 
+bool reads_sharpness(const FrameSettings& settings) {
+  return settings.whole_frame && reads_sharpness(settings.denoise.method);
+}
+
 std::uint64_t SignalFilters::Filter::bytes() const {
   return visibility ? visibility->bytes() + sums_bytes : denoiser->bytes();
 }

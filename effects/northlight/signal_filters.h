@@ -15,11 +15,14 @@
 #include "effects/denoise/sum_load.h"
 #include "effects/denoise/visibility_denoiser.h"
 #include "effects/engine/effect.h"
+#include "effects/northlight/settings.h"
 
 namespace kaamos::effects {
 
 /// Returns whether a denoiser reads how sharp shadows are. [EffectSignal::is_visibility]
 bool reads_sharpness(DenoiseMethod method);
+/// Returns whether the filters of such a frame do.
+bool reads_sharpness(const FrameSettings& settings);
 
 /// The pictures to which an effect adds the samples of a signal, and what tells its denoiser more.
 struct SignalSums {

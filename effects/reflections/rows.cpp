@@ -32,7 +32,8 @@ Effect row(std::string name, std::string about, const std::string& signal, bool 
                      .part = &FrameParts::reflection}};
   effect.more_libraries = {
       {"reflections/environment_map/environment_bake", environment_bake_library}};
-  effect.needs = {.lights = true, .volume = true};
+  // By its environment map alone, unless it shades what rays hit.
+  effect.needs = {.lights = true, .volume = true, .lights_once = true};
   effect.alternative_to = "reflections";
   if (is_sum) effect.samples_option = effect.name + "-samples";
   return effect;
@@ -145,6 +146,7 @@ Effect hybrid_row() {
   effect.library = {"reflections/hybrid/hybrid_reflections", hybrid_reflections_library};
   effect.more_libraries.clear();
   effect.make = make_hybrid_reflections;
+  effect.needs.lights_once = false;
   effect.defaults.set_constants(default_hybrid_constants());
   effect.steps = steps_of_pixels(default_hybrid_constants());
   effect.samples_option = "hybrid-samples";
@@ -166,6 +168,7 @@ Effect planar_row() {
       row("planar", "reflections of flat mirrors, from the mirrored scene", "planar", false);
   effect.library = {"reflections/planar/planar_reflections", planar_reflections_library};
   effect.make = make_planar_reflections;
+  effect.needs.lights_once = false;
   effect.may_equal = "without a flat mirror in view it is env-map";
   effect.misses = "mirrors that are not flat show an environment map";
   effect.defaults.set_constants(PlanarConstants{});

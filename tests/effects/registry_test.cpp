@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 #include "effects/engine/compute_pass.h"
 #include "effects/northlight/frame_layers.h"
@@ -298,6 +299,77 @@ TEST(Registry, MapsThatNothingReadsAreNotTraced) {
   FrameSettings lit = small_settings({"gtao", "local"});
   lit.primary = Primary::kRaster;
   EXPECT_GT(rays_of(lit, false), 0u);
+}
+
+// A prepared frame that was rendered on a device that counts.
+struct Counted {
+  std::unique_ptr<FrameRenderer> renderer;
+  explicit Counted(const Scene& scene, const FrameSettings& settings) {
+    rtapi::DeviceDesc desc;
+    desc.CollectStatistics = true;
+    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+    renderer->render().value();
+  }
+  std::uint64_t rays_before() const {
+    return renderer->context().set_up.value().rays.TraceRayCalls;
+  }
+  const PassStatistics& pass(const std::string& name) const {
+    for (const PassStatistics& pass : renderer->runner().passes()) {
+      if (pass.name == name) return pass;
+    }
+    throw std::runtime_error("no pass " + name);
+  }
+  bool leaves_out(const std::string& text) const {
+    const auto& lines = renderer->context().left_out;
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+      return line.find(text) != std::string::npos;
+    });
+  }
+};
+
+// Baking reads the maps of lamps before the first frame; a volume that is there has no need of it.
+TEST(Registry, MapsAreTracedBeforeTheFrameOnlyToBake) {
+  const Scene scene = make_room();
+  const Counted kept(scene, small_settings({"gi"}));
+  EXPECT_EQ(kept.rays_before(), 0u);
+  EXPECT_GT(kept.pass("local lights").rays.TraceRayCalls, 0u);
+  FrameSettings baked = small_settings({"gi"});
+  baked.volume = {.cell = 2.0f, .samples = 1};
+  EXPECT_GT(Counted(scene, baked).rays_before(), 0u);
+}
+
+// An environment map is baked when it is made. What follows rays over the picture reads no lamp.
+TEST(Registry, MapsThatOnlyAnEnvironmentMapReadsAreTracedOnce) {
+  const Scene scene = make_room();
+  const std::string said = "shadow maps of local lights in every frame";
+  for (const std::string name : {"ssr", "ssr-masked", "ssr-stochastic", "ssr-blurred", "env-map"}) {
+    const Counted frame(scene, small_settings({name}));
+    EXPECT_GT(frame.rays_before(), 0u) << name;
+    EXPECT_EQ(frame.pass("local lights").rays.TraceRayCalls, 0u) << name;
+    EXPECT_TRUE(frame.leaves_out(said)) << name;
+  }
+  for (const std::string name : {"hybrid-reflections", "planar", "reflections"}) {
+    const Counted frame(scene, small_settings({name}));
+    EXPECT_GT(frame.pass("local lights").rays.TraceRayCalls, 0u) << name;
+    EXPECT_FALSE(frame.leaves_out(said)) << name;
+  }
+}
+
+// Four floats a pixel.
+TEST(Registry, SharpnessOfShadowsIsWrittenForDenoisersThatReadIt) {
+  const Scene scene = make_room();
+  const std::string said = "how sharp shadows are";
+  FrameSettings filtered = small_settings({"sun", "contact"});
+  filtered.denoise = default_denoise(DenoiseMethod::kSvgf);
+  const Counted without(scene, small_settings({"sun", "contact"})), with(scene, filtered);
+  for (const std::string pass : {"sun shadow", "contact shadow"}) {
+    EXPECT_EQ(without.pass(pass).bytes + 48 * 27 * 16, with.pass(pass).bytes + 16) << pass;
+  }
+  EXPECT_TRUE(without.leaves_out(said));
+  EXPECT_FALSE(with.leaves_out(said));
+  EXPECT_EQ(without.renderer->read("sun").value().values,
+            with.renderer->read("sun").value().values);
+  EXPECT_FALSE(Counted(scene, small_settings({"gtao"})).leaves_out(said));
 }
 
 TEST(Registry, MatteSurfacesReflectTheLightAroundWithoutRays) {

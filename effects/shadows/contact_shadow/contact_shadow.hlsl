@@ -82,7 +82,7 @@ void ContactShadowRayGen() {
   const uint count = pass_constants.sample_count;
   if (g_ids[pixel].x == 0) {
     contact[pixel] = SumBefore(contact, pixel) + float4(float(count), float(count), 0, 0);
-    sharpness[pixel] = float4(0, 0, 0, 0);
+    if (pass_constants.sharpness != 0) sharpness[pixel] = float4(0, 0, 0, 0);
     return;
   }
   const float4 position = g_position[pixel];
@@ -108,5 +108,6 @@ void ContactShadowRayGen() {
     }
   }
   contact[pixel] = SumBefore(contact, pixel) + float4(visible, 0, 0);
+  if (pass_constants.sharpness == 0) return;
   sharpness[pixel] = SumBefore(sharpness, pixel) + float4(sharp, moved);
 }

@@ -22,7 +22,7 @@ void SunShadowRayGen() {
   const uint count = pass_constants.sample_count;
   if (g_ids[pixel].x == 0) {
     sun_visibility_sum[pixel] = SumBefore(sun_visibility_sum, pixel) + float(count);
-    sun_sharpness_sum[pixel] = float4(0, 0, 0, 0);
+    if (pass_constants.sharpness != 0) sun_sharpness_sum[pixel] = float4(0, 0, 0, 0);
     return;
   }
   const float4 position = g_position[pixel];
