@@ -29,16 +29,17 @@ rtapi::Status LightStage::create_lighting() {
   const Frame& frame = context_.frame;
   const ShaderLibraries& libraries = context_.libraries;
   const std::uint32_t lights = count_local_lights(context_.scene);
-  reads_maps_ = has_main_ || any_rendered([](const EffectNeeds& needs) {
-                  const bool shades = (needs.lights || needs.volume) && !needs.lights_once;
-                  return shades || needs.strongest_lights;
-                });
+  reads_lights_ = has_main_ || any_rendered([](const EffectNeeds& needs) {
+                    const bool shades = (needs.lights || needs.volume) && !needs.lights_once;
+                    return shades || needs.strongest_lights;
+                  });
   const bool is_early = reads_early();
   const auto lighting =
-      Lighting::create(device, frame, context_.gpu, libraries.at("light/lights/lighting"), lights);
+      Lighting::create(device, frame, context_.gpu, libraries.at("light/lights/lighting"),
+                       reads_lights_ || is_early ? lights : 0);
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
-  if (context_.settings.light_maps == LightMaps::kDrawn && (reads_maps_ || is_early)) {
+  if (context_.settings.light_maps == LightMaps::kDrawn && (reads_lights_ || is_early)) {
     const auto s = lighting_->draw_maps(device, frame, context_.scene, context_.gpu,
                                         libraries.at("light/lights/light_map_draws"));
     if (!s) return s;
@@ -53,7 +54,7 @@ rtapi::Status LightStage::create_lighting() {
   list_left_out(lights);
   if (!is_early) return {};
   const auto updated = context_.runner.execute(
-      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame, true); });
+      [&](rtapi::CommandList& list) { lighting_->update(list, context_.frame); });
   if (!updated) return updated.error();
   return {};
 }
@@ -62,10 +63,11 @@ void LightStage::list_left_out(std::uint32_t lights) {
   if (!has_main_ && lights == 0) {
     context_.left_out.push_back("local lights and contact shadows: the scene has no local light");
   }
-  if (!reads_maps_ && lights > 0) {
+  if (!reads_lights_ && lights > 0) {
     context_.left_out.push_back(
-        reads_early() ? "shadow maps of local lights in every frame: they are read once, to bake"
-                      : "shadow maps of local lights: no effect reads them");
+        reads_early()
+            ? "lists and shadow maps of local lights in every frame: they are read once, to bake"
+            : "lists and shadow maps of local lights: no effect reads them");
   }
   const FrameSettings& settings = context_.settings;
   for (const Effect& effect : context_.effects) {
@@ -206,13 +208,14 @@ rtapi::Status LightStage::begin_frame() {
 
 void LightStage::record(rtapi::CommandList& list) {
   lighting_->see(context_.moment.camera.position());
-  lighting_->update(list, context_.frame, reads_maps_);
+  if (reads_lights_) lighting_->update(list, context_.frame);
   if (direct_) {
     direct_->dispatch(list, context_.frame, leaves_out_strongest_, context_.settings.light_culling);
   }
 }
 
 rtapi::Status LightStage::run() {
+  if (!reads_lights_) return {};
   const std::uint64_t bytes = direct_ ? direct_->bytes() : lighting_->bytes();
   return context_.runner.run("local lights", bytes, [&](auto& list) { record(list); });
 }

@@ -46,7 +46,7 @@ class LightStage {
   /// Precondition: bakes_on_demand.
   /// @errors those of the device.
   rtapi::Result<Outcome> bake_read(bool is_first, const Progress& progress);
-  /// Records the lists, the maps and main lighting.
+  /// Records the lists, the maps and main lighting, as far as frames read them.
   void record(rtapi::CommandList& list);
   /// Executes that as a pass of the frame.
   /// @errors those of the device.
@@ -58,7 +58,8 @@ class LightStage {
   /// @errors those of PassViews::set_unordered_access.
   rtapi::Status set_contact(const rtapi::Texture& contact) { return direct_->set_contact(contact); }
 
-  /// Lists and shadow maps of local lights. Null: no whole frame, or none before prepare.
+  /// Lists and shadow maps of local lights; who reads them where no effect of the frame does,
+  /// updates them. Null: no whole frame, or none before prepare.
   const Lighting* lighting() const { return lighting_ ? &*lighting_ : nullptr; }
   /// Null: no local lights.
   const DirectLighting* main() const { return direct_ ? &*direct_ : nullptr; }
@@ -96,7 +97,7 @@ class LightStage {
   FrameContext& context_;
   std::optional<Lighting> lighting_;
   std::optional<DirectLighting> direct_;
-  bool reads_maps_ = true;  // somebody does in frames, of local lights and of the sun
+  bool reads_lights_ = true;  // somebody does in frames: lists and maps, also that of the sun
   bool has_main_ = false, leaves_out_strongest_ = false, has_volume_ = false;
   GpuVolume gpu_volume_, no_volume_;
   std::optional<BakeStatistics> bake_;

@@ -61,6 +61,7 @@ rtapi::Result<FloatImage> view_hits(FrameRenderer& renderer, const std::string& 
     if (const auto s = renderer.lights().volume()->bind(*views); !s) return s.error();
   }
   const auto done = renderer.runner().execute([&](rtapi::CommandList& list) {
+    if (is_lit) renderer.lights().lighting()->update(list, frame);
     pass->dispatch(list, frame, {.sample_count = 1}, frame.height(),
                    PassArguments(*views, lengths_of(renderer)));
   });

@@ -109,6 +109,10 @@ TEST_P(HitViews, LightingIsThatOfAWhiteSurface) {
   const auto renderer = make_view_renderer(scene, {GetParam(), {"reflections"}});
   renderer->render().value();
   const FloatImage lighting = see(*renderer, "hit-lighting");
+  // The same where lamps are read before the first frame alone.
+  const auto mapped = make_view_renderer(scene, {GetParam(), {"env-map"}});
+  mapped->render().value();
+  EXPECT_EQ(see(*mapped, "hit-lighting").values, lighting.values);
   check_hits(*renderer, scene, lighting,
              [&](std::uint32_t x, std::uint32_t y, const Meeting& meeting) {
                const glm::dvec3 to_lamp = kLamp - meeting.point;

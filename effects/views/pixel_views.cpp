@@ -158,8 +158,12 @@ rtapi::Result<FloatImage> view_bottom_levels(FrameRenderer& renderer) {
 }
 
 rtapi::Result<FloatImage> view_light_clusters(FrameRenderer& renderer) {
+  const Lighting& lighting = *renderer.lights().lighting();
+  const auto listed = renderer.runner().execute(
+      [&](rtapi::CommandList& list) { lighting.update(list, renderer.frame(), false); });
+  if (!listed) return listed.error();
   return run_over(renderer, "LightClusters",
-                  [&](PassViews& views) { return renderer.lights().lighting()->bind(views); });
+                  [&](PassViews& views) { return lighting.bind(views); });
 }
 
 rtapi::Result<FloatImage> view_variance(FrameRenderer& renderer, const std::string& signal) {

@@ -103,6 +103,10 @@ TEST_P(PixelViews, AClusterShowsTheLightsThatReachIntoIt) {
   const auto renderer = make_view_renderer(scene, {GetParam(), {"local"}});
   renderer->render().value();
   const FloatImage seen = see(*renderer, "light-clusters");
+  // The same where no effect of the frame reads the clusters.
+  const auto unlit = make_view_renderer(scene, {GetParam(), {"gtao"}});
+  unlit->render().value();
+  EXPECT_EQ(see(*unlit, "light-clusters").values, seen.values);
   const FloatImage position = renderer->read("position").value();
   const FloatImage ids = renderer->read("ids").value();
   int by_count[5] = {};

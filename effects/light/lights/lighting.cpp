@@ -89,9 +89,11 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
   const auto clusters = ComputePass::create(device, frame, library, "BuildClusters");
   if (!clusters) return clusters.error();
   out.clusters_ = *clusters;
-  const auto maps = RayPass::create(device, frame, scene, shadow_map_pass(library));
-  if (!maps) return maps.error();
-  out.shadow_maps_ = *maps;
+  if (light_count != 0) {
+    const auto maps = RayPass::create(device, frame, scene, shadow_map_pass(library));
+    if (!maps) return maps.error();
+    out.shadow_maps_ = *maps;
+  }
   if (out.layout_.sun == 0) return out;
   const auto sun = RayPass::create(device, frame, scene, sun_map_pass(library));
   if (!sun) return sun.error();

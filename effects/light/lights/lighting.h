@@ -49,7 +49,7 @@ rtapi::Result<rtapi::ShaderLibrary> lighting_library();
 class Lighting {
  public:
   /// Makes the atlas and the lists for so many lights: those that light_constants makes of the
-  /// scene.
+  /// scene, or none where nobody reads the maps.
   /// @errors those of the device; KA3041 more lights than an atlas has tiles for (4,096).
   static rtapi::Result<Lighting> create(const rtapi::Device& device, const Frame& frame,
                                         const GpuScene& scene, const rtapi::ShaderLibrary& library,
