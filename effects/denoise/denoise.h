@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "effects/denoise/sum_load.h"
+#include "effects/denoise/visibility_constants.h"
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/frame.h"
 
@@ -81,6 +82,7 @@ struct DenoiseDesc {
   std::uint32_t iterations = 5;
   std::uint32_t iterations_with_history = 3;
   ///@}
+  VisibilityConstants visibility;  ///< of signals that say how sharp their shadows are
 };
 
 /// From so many frames on the variance is taken over time instead of over neighbours: kEnoughFrames

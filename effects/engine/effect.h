@@ -18,6 +18,7 @@
 #include "effects/engine/frame.h"
 #include "effects/engine/frame_parts.h"
 #include "effects/engine/ray_pass.h"
+#include "effects/engine/setting.h"
 
 namespace kaamos::effects {
 
@@ -30,7 +31,8 @@ struct EffectSettings {
   float radius = 0;  ///< PassConstants::radius, metres
   /// b0 of space3, as the effect's header declares them.
   std::array<std::uint32_t, kPassWords> constants{};
-  bool keep = false;        ///< rendered even where the scene has no use for it
+  std::uint32_t constants_bytes = 0;  ///< of these: those that are in use
+  bool keep = false;                  ///< rendered even where the scene has no use for it
   bool named = false;       ///< asked for by its name: rendered even beside what takes its place
   bool trace_only = false;  ///< FrameRenderer::run only: the rays without shading [Effect::trace]
 
@@ -39,6 +41,7 @@ struct EffectSettings {
   EffectSettings& set_constants(const T& values) {
     static_assert(sizeof(T) <= sizeof(constants));
     std::memcpy(constants.data(), &values, sizeof(T));
+    constants_bytes = sizeof(T);
     return *this;
   }
   /// `constants` as the type that they were set from.
@@ -50,6 +53,26 @@ struct EffectSettings {
     return values;
   }
 };
+
+/// The settings of an effect's constants by those of their struct.
+template <class T>
+SettingTable<EffectSettings> describe_constants(const SettingTable<T>& table) {
+  SettingTable<EffectSettings> out;
+  for (const SettingOf<T>& own : table) {
+    SettingOf<EffectSettings>& setting = out.emplace_back();
+    setting.text = own.text;
+    setting.offset = own.offset;
+    setting.size = own.size;
+    if (!own.is_open()) continue;
+    setting.get = [get = own.get](const EffectSettings& of) { return get(of.get_constants<T>()); };
+    setting.set = [set = own.set](EffectSettings& of, const SettingValue& value) {
+      T constants = of.get_constants<T>();
+      set(constants, value);
+      of.set_constants(constants);
+    };
+  }
+  return out;
+}
 
 /// A shader library, by the file that it is compiled from.
 struct EffectLibrary {
@@ -138,7 +161,9 @@ struct Effect {
   /// chosen it takes the other's place in the composition, and the other is left out unless it was
   /// asked for by its name. Empty: none.
   std::string alternative_to = {};
-  std::string includes = {};        ///< another effect that this one changes and so brings along
+  std::string includes = {};  ///< another effect that this one changes and so brings along
+  /// Describes EffectSettings::constants, all of them. [describe_constants]
+  SettingTable<EffectSettings> constants = {};
   std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed
   /// Settings from fast to accurate, for measuring. Empty: counts of samples, or the defaults where
   /// the count is fixed.
@@ -157,6 +182,13 @@ struct Effect {
   std::string may_equal = {};
   std::string misses = {};  ///< what it cannot show, in a few words; empty: nothing but noise
 };
+
+/// Sets a row's default constants and describes them.
+template <class T>
+void set_constants(Effect& row, const T& defaults, const SettingTable<T>& table) {
+  row.defaults.set_constants(defaults);
+  row.constants = describe_constants(table);
+}
 
 /// Null: there is none of that name.
 const Effect* find_effect(const std::vector<Effect>& effects, const std::string& name);

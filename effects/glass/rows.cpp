@@ -2,6 +2,7 @@
 #include "effects/glass/rows.h"
 
 #include "effects/glass/drawn_glass/drawn_glass.h"
+#include "effects/glass/settings.h"
 #include "effects/glass/transparent/transparent.h"
 #include "effects/reflections/environment_map/environment_map.h"
 
@@ -19,6 +20,7 @@ Effect transparent_row() {
                   {.name = "glass_transmittance", .output = 1, .is_sum = false}},
       .defaults = EffectSettings().set_constants(TransparentConstants{}),
       .needs = {.glass = true, .lights = true, .volume = true},
+      .constants = describe_constants(transparent_settings()),
   };
 }
 
@@ -38,6 +40,7 @@ std::vector<Effect> glass_alternatives() {
           .defaults = EffectSettings{}.set_constants(DrawnGlassConstants{}),
           .needs = {.glass = true, .lights = true, .volume = true},
           .alternative_to = "transparent",
+          .constants = describe_constants(drawn_glass_settings()),
           .misses = "reflections behind the first layer; the order of panes that cross",
       },
   };

@@ -8,6 +8,7 @@
 #include "effects/engine/effect_pass.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/indirect/indirect_diffuse/occluded_volume.h"
+#include "effects/indirect/settings.h"
 
 namespace kaamos::effects {
 
@@ -55,7 +56,8 @@ Effect ray_occluded_row() {
                             /*is_sum=*/true);
   row.library = {"indirect/indirect_diffuse/indirect_diffuse", indirect_diffuse_library};
   row.pass = indirect_diffuse_pass;
-  row.defaults.set_constants(IndirectConstants{.mode = IndirectMode::kTimesOpen});
+  set_constants(row, IndirectConstants{.mode = IndirectMode::kTimesOpen},
+                close_settings(indirect_settings(), {"mode"}));
   row.needs.lights = true;  // where shaders of other modes read them
   row.samples_option = "gi-ray-ao-samples";
   row.misses = "from which side the open part lets light in, and light from what moves";
@@ -72,7 +74,7 @@ Effect screen_occluded_row() {
   row.library = {kOccludedVolume, occluded_volume_library};
   row.more_libraries = {{kOcclusion, gtao_library}, {kOcclusionFilter, occlusion_filter_library}};
   row.make = OccludedVolumePass::make;
-  row.defaults.set_constants(OccludedVolumeSettings{});
+  set_constants(row, OccludedVolumeSettings{}, occluded_volume_settings());
   const float far = IndirectConstants().length;
   row.steps = {occlusion_step("GTAO of 0.5 m", {}, kDefaultScreenSpaceRadius),
                occlusion_step("GTAO of 3 m", {}, far),
@@ -95,6 +97,7 @@ Effect indirect_diffuse_row() {
       .signals = {{.name = "indirect", .is_light = true, .part = &FrameParts::indirect}},
       .defaults = EffectSettings().set_constants(IndirectConstants{}),
       .needs = {.lights = true, .volume = true},
+      .constants = describe_constants(indirect_settings()),
       .samples_option = "gi-samples",
       .repeats = true,
       .may_equal = "no surface that rays hit mirrors a lamp or the sun",

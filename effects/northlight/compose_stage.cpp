@@ -16,7 +16,8 @@ rtapi::Status ComposeStage::create() {
   }
   if (!context_.settings.taa) return {};
   const auto taa = TemporalAntialiasing::create(context_.device, context_.frame,
-                                                context_.libraries.at("composition/taa/taa"));
+                                                context_.libraries.at("composition/taa/taa"),
+                                                context_.settings.taa_constants);
   if (!taa) return taa.error();
   taa_ = *taa;
   return {};

@@ -21,7 +21,8 @@ rtapi::Status SceneStage::create() {
   Profile* profile = context_.profile;
   if (settings.moving || !scene.skins.empty() || has_morph) {
     const auto step = Profile::enter(profile, ProfilePart::kStart, "structures");
-    auto manager = StructureManager::create(context_.device, context_.runner.queue(), scene);
+    auto manager = StructureManager::create(context_.device, context_.runner.queue(), scene,
+                                            settings.structures);
     if (!manager) return manager.error();
     structures_ = std::move(*manager);
     context_.gpu = structures_->scene();

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "effects/composition/taa/taa.h"
 #include "effects/denoise/denoise.h"
+#include "effects/geometry/structures/structures.h"
 #include "effects/indirect/indirect_diffuse/volume.h"
 #include "effects/light/direct/direct.h"
 #include "effects/northlight/effects.h"
@@ -60,8 +62,10 @@ struct FrameSettings {
   LightMaps light_maps = LightMaps::kTraced;             ///< the atlas of shadow maps
   /// The combination of the strongest lights' shadow maps and contact shadows.
   ContactCombination contact = ContactCombination::kProduct;
-  bool taa = false;     ///< antialiasing over the frames of a sequence
-  bool moving = false;  ///< frames of a sequence: structures are kept up with what moves
+  bool taa = false;                     ///< antialiasing over the frames of a sequence
+  TaaConstants taa_constants;           ///< with which numbers
+  bool moving = false;                  ///< frames of a sequence: structures follow what moves
+  StructureOptions structures;          ///< how they do
   RayOrder order = RayOrder::kPixels;   ///< of rays; the frame stays the same
   Primary primary = Primary::kRays;     ///< of the G-buffer
   bool ray_cones = true;                ///< [FrameDesc]

@@ -148,8 +148,8 @@ rtapi::Status SignalFilters::create_visibility_filter(const rtapi::Device& devic
       filter.sums_bytes += picture_bytes(*sum) + picture_bytes(*into);
     }
   }
-  auto denoiser = VisibilityDenoiser::create(device, frame, libraries, inputs, desc.method, {},
-                                             desc.iterations);
+  auto denoiser = VisibilityDenoiser::create(device, frame, libraries, inputs, desc.method,
+                                             desc.visibility, desc.iterations);
   if (!denoiser) return denoiser.error();
   filter.visibility = std::move(*denoiser);
   filters_.push_back(std::move(filter));

@@ -12,6 +12,7 @@
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
 #include "effects/occlusion/screen_space_ao/line_sweep_ao.h"
 #include "effects/occlusion/screen_space_ao/screen_space_ao.h"
+#include "effects/occlusion/settings.h"
 
 namespace kaamos::effects {
 
@@ -125,7 +126,7 @@ std::vector<EffectStep> line_sweep_steps() {
 template <class Constants>
 Effect screen_space_row(const char* name, const char* about, const char* layer,
                         EffectLibrary library, ScreenSpaceAoKind kind, const Constants& constants,
-                        std::vector<EffectStep> steps) {
+                        const SettingTable<Constants>& table, std::vector<EffectStep> steps) {
   Effect row = occlusion_row(name, about, layer);
   row.steps = std::move(steps);
   row.library = library;
@@ -138,7 +139,7 @@ Effect screen_space_row(const char* name, const char* about, const char* layer,
     return std::unique_ptr<EffectPass>(
         std::make_unique<ScreenSpaceAoPass>(scope.frame, std::move(*passes)));
   };
-  row.defaults.set_constants(constants);
+  set_constants(row, constants, table);
   row.defaults.radius = kDefaultScreenSpaceRadius;
   return row;
 }
@@ -155,7 +156,7 @@ Effect line_sweep_row() {
     return std::unique_ptr<EffectPass>(
         std::make_unique<LineSweepAoPass>(scope.frame, std::move(*passes)));
   };
-  row.defaults.set_constants(LineSweepSettings{});
+  set_constants(row, LineSweepSettings{}, line_sweep_settings());
   row.defaults.radius = kDefaultScreenSpaceRadius;
   return row;
 }
@@ -171,6 +172,7 @@ Effect uniform_row() {
                           .set_constants(UniformOcclusionConstants{}),
           .replaced_by = "gi",
           .alternative_to = "ao",
+          .constants = describe_constants(uniform_occlusion_settings()),
           .samples_option = "ao-uniform-samples"};
 }
 
@@ -203,21 +205,22 @@ std::vector<Effect> occlusion_alternatives() {
   const EffectLibrary gtao = {"occlusion/screen_space_ao/gtao", gtao_library};
   return {
       screen_space_row("crytek-ao", "Crytek's ambient occlusion", "crytek_ao", crytek,
-                       ScreenSpaceAoKind::kCrytek, CrytekConstants{},
+                       ScreenSpaceAoKind::kCrytek, CrytekConstants{}, crytek_settings(),
                        steps_of_points(CrytekConstants{})),
       screen_space_row("crytek-ao-remapped", "Crytek's ambient occlusion, open walls white",
                        "crytek_ao_remapped", crytek, ScreenSpaceAoKind::kCrytek,
-                       CrytekConstants{.remap = 1}, steps_of_points(CrytekConstants{.remap = 1})),
+                       CrytekConstants{.remap = 1}, crytek_settings(),
+                       steps_of_points(CrytekConstants{.remap = 1})),
       screen_space_row("hemisphere-ao", "hemisphere ambient occlusion", "hemisphere_ao", hemisphere,
-                       ScreenSpaceAoKind::kHemisphere, HemisphereConstants{},
+                       ScreenSpaceAoKind::kHemisphere, HemisphereConstants{}, hemisphere_settings(),
                        steps_of_points(HemisphereConstants{})),
       screen_space_row("hbao", "horizon-based ambient occlusion", "hbao", hbao,
-                       ScreenSpaceAoKind::kHbao, HbaoConstants{}, hbao_steps()),
+                       ScreenSpaceAoKind::kHbao, HbaoConstants{}, hbao_settings(), hbao_steps()),
       screen_space_row("gtao", "ground-truth ambient occlusion", "gtao", gtao,
-                       ScreenSpaceAoKind::kGtao, GtaoConstants{}, gtao_steps()),
+                       ScreenSpaceAoKind::kGtao, GtaoConstants{}, gtao_settings(), gtao_steps()),
       screen_space_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode",
                        "gtao_accurate", gtao, ScreenSpaceAoKind::kGtao, accurate_gtao(16, 32),
-                       accurate_gtao_steps()),
+                       gtao_settings(), accurate_gtao_steps()),
       line_sweep_row(),
       uniform_row()};
 }

@@ -13,6 +13,7 @@
 #include "effects/reflections/planar/planar_reflections.h"
 #include "effects/reflections/screen_space/screen_mask.h"
 #include "effects/reflections/screen_space/screen_reflections.h"
+#include "effects/reflections/settings.h"
 #include "effects/reflections/stochastic/stochastic_reflections.h"
 #include "effects/reflections/traced/reflections.h"
 
@@ -80,7 +81,7 @@ Effect march_row(std::string name, std::string about, const std::string& signal,
   Effect effect = screen_row(std::move(name), std::move(about), signal);
   effect.library = {"reflections/screen_space/screen_reflections", screen_reflections_library};
   effect.make = make_screen_reflections;
-  effect.defaults.set_constants(constants);
+  set_constants(effect, constants, screen_reflection_settings());
   ScreenReflectionConstants coarse = constants;
   if (constants.march == ScreenMarch::kPixels) {
     coarse.stride = 4;
@@ -99,7 +100,7 @@ Effect masked_row() {
                  "ssr_masked");
   effect.library = {"reflections/screen_space/screen_mask", screen_mask_library};
   effect.make = make_masked_reflections;
-  effect.defaults.set_constants(ScreenMaskConstants{});
+  set_constants(effect, ScreenMaskConstants{}, screen_mask_settings());
   effect.steps = steps_of_pixels(ScreenMaskConstants{});
   effect.may_equal = "its mask leaves out only pixels whose rays find nothing, so that it is ssr";
   return effect;
@@ -113,7 +114,7 @@ Effect stochastic_row() {
                     stochastic_reflections_library};
   effect.make = make_stochastic_reflections;
   effect.misses = "what ssr misses; light leaks about corners, where neighbours see something else";
-  effect.defaults.set_constants(StochasticConstants{});
+  set_constants(effect, StochasticConstants{}, stochastic_settings());
   const StochasticConstants alone{.neighbours = 1};
   effect.steps =
       steps_of_rays("rays of 1 neighbour", alone, "rays of 9 neighbours", StochasticConstants{});
@@ -129,7 +130,7 @@ Effect blurred_row() {
   effect.make = make_blurred_reflections;
   effect.has_history = true;
   effect.misses = "what ssr misses; what touches a rough surface is as blurred as what is far away";
-  effect.defaults.set_constants(BlurredConstants{});
+  set_constants(effect, BlurredConstants{}, blurred_settings());
   for (const float fresh : {1.0f, 0.5f, 0.125f}) {
     effect.steps.push_back(
         {fresh == 1 ? "no frames before" : fmt::format("new rays weigh {}", fresh),
@@ -147,7 +148,7 @@ Effect hybrid_row() {
   effect.more_libraries.clear();
   effect.make = make_hybrid_reflections;
   effect.needs.lights_once = false;
-  effect.defaults.set_constants(default_hybrid_constants());
+  set_constants(effect, default_hybrid_constants(), hybrid_settings());
   effect.steps = steps_of_pixels(default_hybrid_constants());
   effect.samples_option = "hybrid-samples";
   effect.misses = "highlights of what is reflected are those that the camera sees";
@@ -159,6 +160,7 @@ Effect environment_row() {
   effect.library = {"reflections/environment_map/environment_reflections",
                     environment_reflections_library};
   effect.make = make_environment_reflections;
+  set_constants(effect, EnvironmentConstants{}, environment_settings());
   effect.misses = "what moves; everything is seen as from the map's place";
   return effect;
 }
@@ -171,7 +173,7 @@ Effect planar_row() {
   effect.needs.lights_once = false;
   effect.may_equal = "without a flat mirror in view it is env-map";
   effect.misses = "mirrors that are not flat show an environment map";
-  effect.defaults.set_constants(PlanarConstants{});
+  set_constants(effect, PlanarConstants{}, planar_settings());
   effect.steps = {{"hits without the sun", EffectSettings().set_constants(
                                                PlanarConstants{.sun_at_hits = SunAtHits::kNone})},
                   {"hits with the sun", EffectSettings().set_constants(PlanarConstants{})}};
@@ -193,6 +195,7 @@ Effect reflections_row() {
                    .part = &FrameParts::reflection}},
       .defaults = EffectSettings().set_constants(ReflectionConstants{}),
       .needs = {.glossy = true, .lights = true, .volume = true},
+      .constants = describe_constants(reflection_settings()),
       .samples_option = "reflection-samples",
       .may_equal = "all that mirrors is smooth, so that one ray is all there is",
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "effects/shadows/filtered_shadow_map/filtered_shadow_map.h"
 #include "effects/shadows/rows.h"
+#include "effects/shadows/settings.h"
 #include "effects/shadows/shadow_map/shadow_map.h"
 
 namespace kaamos::effects {
@@ -47,7 +48,9 @@ Effect row_of(const char* name, const char* about, const char* layer, const Cons
   row.more_libraries = {{"shadows/shadow_map/shadow_draws", shadow_draws_library}};
   row.signals = {
       {.name = layer, .channels = 1, .is_sum = false, .part = &FrameParts::sun_visibility}};
-  row.defaults.set_constants(constants);
+  set_constants(
+      row, constants,
+      filtered_shadow_map_settings(static_cast<FilteredShadowMapMethod>(constants.map.method)));
   row.needs.sun = true;
   row.alternative_to = "sun";
   row.steps = sizes(constants);

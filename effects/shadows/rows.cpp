@@ -8,6 +8,7 @@
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
+#include "effects/shadows/settings.h"
 #include "effects/shadows/shadow_map/shadow_map.h"
 #include "effects/shadows/sun_shadow/sun_shadow.h"
 
@@ -24,7 +25,8 @@ Effect shadow_map_row(const char* name, const char* about, const char* layer,
   row.more_libraries = {{"shadows/shadow_map/shadow_draws", shadow_draws_library}};
   row.signals = {
       {.name = layer, .channels = 1, .is_sum = false, .part = &FrameParts::sun_visibility}};
-  row.defaults.set_constants(constants);
+  set_constants(row, constants,
+                shadow_map_settings(static_cast<ShadowMapMethod>(constants.method)));
   row.needs.sun = true;
   row.alternative_to = "sun";
   return row;
@@ -166,7 +168,7 @@ Effect sun_hybrid_row() {
                      "sun_hybrid", defaults.map);
   row.library = {"shadows/hybrid_shadow/hybrid_shadow", hybrid_shadow_library};
   row.make = make_hybrid_shadow;
-  row.defaults.set_constants(defaults);
+  set_constants(row, defaults, hybrid_shadow_settings());
   HybridShadowConstants inner = defaults, most = defaults;
   inner.map.flags |= kShadowMapInnerPenumbra;
   most.map.size = 4096;
@@ -216,6 +218,7 @@ Effect contact_shadow_row() {
       .defaults = EffectSettings().set_constants(kContactAsNeeded),
       .needs = {.local_lights = true, .strongest_lights = true},
       .includes = "local",
+      .constants = describe_constants(contact_shadow_settings()),
       .samples_option = "contact-samples",
   };
 }
@@ -236,6 +239,7 @@ std::vector<Effect> shadow_alternatives() {
               AdaptiveShadowConstants{}),
           .needs = {.sun = true},
           .alternative_to = "sun",
+          .constants = describe_constants(adaptive_shadow_settings()),
           .samples_option = "adaptive-sun-samples",
           .steps = adaptive_steps(),
           .has_history = true,

@@ -5,6 +5,7 @@
 
 #include "effects/shadows/rows.h"
 #include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
+#include "effects/shadows/settings.h"
 
 namespace kaamos::effects {
 
@@ -17,7 +18,7 @@ Effect screen_shadow_row(const char* name, const char* about, const char* layer,
   row.library = {"shadows/screen_space_shadow/screen_space_shadow", screen_space_shadow_library};
   row.make = make_screen_space_shadow;
   row.signals = {{.name = layer, .channels = 2, .output = 1, .is_sum = false}};
-  row.defaults.set_constants(constants);
+  set_constants(row, constants, screen_space_shadow_settings());
   row.needs = {.local_lights = true, .strongest_lights = true};
   row.alternative_to = "contact";
   row.includes = "local";

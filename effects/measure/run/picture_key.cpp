@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each function names every member of a struct: one with a new member does not compile before
-// somebody has decided whether pictures depend on it.
+// Described settings are all in. Of what is not described each function names every member of a
+// struct: one with a new member does not compile before somebody has decided whether pictures
+// depend on it.
 #include "effects/measure/run/picture_key.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <filesystem>
 
 #include "effects/assets/scene/scene_checksum.h"
+#include "effects/northlight/described_settings.h"
 
 namespace kaamos::measure {
 
@@ -27,18 +29,13 @@ void add_program(Checksum& checksum) {
   if (!failed) checksum.add_value(time.time_since_epoch().count());
 }
 
-// How the volume is baked, not where it is kept. What is measured keeps it in a file, which has all
-// cells.
-void add_volume(Checksum& checksum, const VolumeSettings& volume) {
-  const auto& [whole, cell, samples, error, bounces, lights, seed, file, given] = volume;
-  add_optional(checksum, cell);
-  checksum.add_each(samples, error, bounces, lights);
-  add_optional(checksum, seed);
-}
-
-void add_denoise(Checksum& checksum, const DenoiseDesc& denoise) {
-  const auto& [method, constants, iterations, iterations_with_history] = denoise;
-  checksum.add_each(method, constants, iterations, iterations_with_history);
+// Every described setting of the frame, or of one topic.
+void add_described(Checksum& checksum, const FrameSettings& frame, const std::string& topic = {}) {
+  for (const DescribedSetting& setting : describe_settings({})) {
+    if (!topic.empty() && setting.topic != topic) continue;
+    checksum.add(setting.full_name());
+    checksum.add(value_text(setting.get(frame, {})));
+  }
 }
 
 void add_effects(Checksum& checksum, const std::map<std::string, EffectSettings>& effects) {
@@ -52,14 +49,12 @@ void add_effects(Checksum& checksum, const std::map<std::string, EffectSettings>
 void add_frame(Checksum& checksum, const FrameSettings& frame) {
   // `order` and `rows` leave the picture as it is, but not its time.
   const auto& [width, height, seed, effects, whole_frame, denoise, volume, light_culling,
-               light_maps, contact, taa, moving, order, primary, ray_cones, curvature_to_roughness,
-               sun_angular_radius, sun_map, max_pass_views, rows] = frame;
-  checksum.add_each(width, height, seed, whole_frame, light_culling, light_maps, contact, taa,
-                    moving, order, primary, ray_cones, curvature_to_roughness, sun_angular_radius,
-                    sun_map, max_pass_views, rows);
+               light_maps, contact, taa, taa_constants, moving, structures, order, primary,
+               ray_cones, curvature_to_roughness, sun_angular_radius, sun_map, max_pass_views,
+               rows] = frame;
+  checksum.add_each(width, height, seed, whole_frame, taa, moving, max_pass_views);
   add_effects(checksum, effects);
-  add_denoise(checksum, denoise);
-  add_volume(checksum, volume);
+  add_described(checksum, frame);
   // What was read from a file may be anything.
   if (volume.file.empty()) return;
   std::error_code failed;
@@ -71,8 +66,10 @@ void add_frame(Checksum& checksum, const FrameSettings& frame) {
 }  // namespace
 
 void add_settings(Checksum& checksum, const EffectSettings& settings) {
-  const auto& [samples, pixel_step, rotates, radius, constants, keep, named, trace_only] = settings;
-  checksum.add_each(samples, pixel_step, rotates, radius, constants, keep, named, trace_only);
+  const auto& [samples, pixel_step, rotates, radius, constants, constants_bytes, keep, named,
+               trace_only] = settings;
+  checksum.add_each(samples, pixel_step, rotates, radius, constants, constants_bytes, keep, named,
+                    trace_only);
 }
 
 std::string as_key(const Checksum& checksum) {
@@ -110,7 +107,7 @@ std::string volume_key(const Options& options, const Scene& scene) {
   const FrameSettings& frame = options.frame;
   checksum.add_each(frame.seed, frame.light_maps, frame.ray_cones, frame.sun_angular_radius,
                     frame.sun_map);
-  add_volume(checksum, frame.volume);
+  add_described(checksum, frame, "volume");
   add_program(checksum);
   return as_key(checksum);
 }

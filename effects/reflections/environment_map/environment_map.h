@@ -38,6 +38,13 @@ struct EnvironmentDesc {
   std::uint32_t directions = 256;        ///< that a texel of a blurred level is the mean of
 };
 
+/// EffectSettings::constants of make_environment_reflections.
+struct EnvironmentConstants {
+  std::uint32_t side = 64;         ///< EnvironmentDesc::side
+  std::uint32_t rays = 4;          ///< EnvironmentDesc::rays
+  std::uint32_t directions = 256;  ///< EnvironmentDesc::directions
+};
+
 /// Checks whether maps can be made as `desc` says.
 /// @errors KA3070 a number out of its range, a box without an inside, or a probe that is no finite
 /// point.
