@@ -54,18 +54,20 @@ SettingOf<VolumeSettings> optional_setting(SettingText text,
 
 SettingTable<VolumeSettings> volume_settings() {
   const VolumeSettings volume;
-  const auto& [cell, samples, error, bounces, lights, seed, file, given] = volume;
-  static_cast<void>(std::tie(cell, samples, error, bounces, lights, seed));
+  const auto& [whole, cell, samples, error, bounces, lights, seed, file, given] = volume;
+  static_cast<void>(std::tie(whole, cell, samples, error, bounces, lights, seed));
   static_cast<void>(std::tie(file, given));  // where it comes from, not what it is
   using C = VolumeSettings;
-  return {optional_setting({.name = "cell",
+  return {switch_setting("whole", &C::whole,
+                         "every cell is baked before the first picture; else those that rays read"),
+          optional_setting({.name = "cell",
                             .type = SettingType::kNumber,
                             .range = {1e-3, 1e3},
                             .unit = "m",
                             .about = "its finest cells; auto: 0.25, larger in large scenes",
                             .absent = "auto"},
                            &C::cell),
-          count_setting("samples", &C::samples, {1, kMostSamples}, "", "paths of a cell at most"),
+          count_setting("samples", &C::samples, {1, kMostSamples}, "", "paths of a cell at most; 64 where those are baked that rays read"),
           number_setting("error", &C::error, {0, 1}, "",
                          "relative standard error that is enough for a cell; 0: all paths"),
           count_setting("bounces", &C::bounces, {0, 65536}, "", "after the first hit, at most"),

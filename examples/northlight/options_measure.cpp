@@ -126,7 +126,8 @@ std::string source_commit() {
   return out.substr(0, out.find('\n'));
 }
 
-void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& options) {
+void apply_measuring(const CLI::App& app, const MeasureWords& words, const SettingWords& settings,
+                     Options& options) {
   FrameSettings& frame = options.frame;
   if (!options.measure.empty()) {
     if (app.count("--size") == 0) {
@@ -155,7 +156,7 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& op
   if (options.claims) {
     if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(320u, 180u);
     // The time does not depend on what the cells hold.
-    if (app.count("--gi-bake-samples") == 0) frame.volume.samples = 16;
+    if (!is_chosen(settings, "volume-samples")) frame.volume.samples = 16;
   }
 }
 

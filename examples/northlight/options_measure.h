@@ -7,6 +7,7 @@
 #include <string>
 
 #include "options.h"
+#include "options_settings.h"
 
 namespace northlight {
 
@@ -25,6 +26,7 @@ std::string join(const std::vector<std::string>& names);
 void add_path_reference(CLI::App& app, Options& options);
 void add_measuring(CLI::App& app, Options& options, MeasureWords& words);
 // The sizes and counts that were not given, by what is measured.
-void apply_measuring(const CLI::App& app, const MeasureWords& words, Options& options);
+void apply_measuring(const CLI::App& app, const MeasureWords& words, const SettingWords& settings,
+                     Options& options);
 
 }  // namespace northlight

@@ -34,7 +34,7 @@ head -c 200 "$northlight" > "$work/binary.gltf"
 expect_error 1 'binary.gltf' --scene "$work/binary.gltf"
 expect_error 2 'is not a size' --size 0x9
 expect_error 2 'is not an effect' --effects ao,fog
-expect_error 2 'not in range 1 to 65536' --ao-samples 0
+expect_error 2 'ao-samples is 0; choose 1 to 65536 rays' --ao-samples 0
 expect_error 2 'is not a radius' --ao-radius far
 expect_error 2 'not in range' --sun-angle 400
 expect_error 2 'no place of the sun: give degrees' --sun 30
@@ -70,8 +70,8 @@ expect_error 1 'folder.gltf.*cannot read' --scene "$work/folder.gltf"
 expect_error 1 'no camera path "roundabout".*still, dolly, orbit' --frames 2 --size 16x9 --camera-path roundabout
 printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
-expect_error 2 'not in {direction,origin,termination}' --sort-rays length
-expect_error 2 'not in {rays,raster}' --primary points
+expect_error 2 'surfaces-order is "length"; choose pixels, direction, origin or termination' --sort-rays length
+expect_error 2 'surfaces-primary is "points"; choose rays or raster' --primary points
 expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
 expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
 expect_error 2 'tables and --explain exclude each other' --tables --explain 3,4 --size 16x9
@@ -83,6 +83,33 @@ expect_error 2 'reference-path-traced and --explain exclude each other' --refere
 expect_error 2 'bounces requires --reference-path-traced' --bounces 2
 expect_error 2 'not in range' --reference-path-traced 1
 expect_error 1 'measure frame needs a truth' --measure frame --measure-truth 0
+
+# Settings: by option, by --set, from a file; what is wrong with each.
+expect_error 2 'gtao-slices is 0; choose 1 to 1024' --gtao-slices 0
+expect_error 2 'nearest option is --gtao-slices' --gtao-slcies 3
+expect_error 2 'no setting "gtao-slcies"; the nearest is "gtao-slices"' --set gtao-slcies=3
+expect_error 2 'give NAME=VALUE' --set gtao-slices
+expect_error 2 'gtao-slices has no value; choose 1 to 1024' --gtao-slices
+printf '{"gtao": {"slcies": 3}}' > "$work/settings.json"
+expect_error 2 'settings.json: there is no setting "gtao.slcies"; the nearest is "gtao.slices"' --settings "$work/settings.json"
+printf '{"gtao": {"slices": 5, "steps": 6, "radius": 1}, "denoise": {"method": "control"}}' > "$work/settings.json"
+"$northlight" --settings "$work/settings.json" --gtao-steps 7 --set gtao-radius=2 --denoise-alpha 0.5 --print-settings > "$work/printed.json" || fail "--print-settings"
+for line in '"slices": 5' '"steps": 7' '"radius": 2.0' '"method": "control"' '"alpha": 0.5' '"sigma-pixels": 24.0'; do
+  grep -qF -- "$line" "$work/printed.json" || fail "--print-settings has no $line"
+done
+"$northlight" --settings "$work/printed.json" --print-settings | cmp -s - "$work/printed.json" || fail "printed settings do not read as they are"
+"$northlight" --ao-radius inf --denoise-passes 2 --sun-at-hits map --fireflies keep --half-resolution ao --glass-layers 3 --print-settings > "$work/printed.json"
+for line in '"radius": "inf"' '"first-passes": 2' '"sun-map": 2048' '"fireflies": "keep"' '"half-resolution": true' '"sorted-layers": 3'; do
+  grep -qF -- "$line" "$work/printed.json" || fail "short options do not set $line"
+done
+help=$("$northlight" --help) || fail "--help"
+[ "$(wc -l <<< "$help")" -lt 120 ] || fail "--help is longer than what most people need"
+grep -q -- '--gtao-slices' <<< "$help" && fail "--help shows every setting"
+"$northlight" --help=gtao | grep -q -- '--gtao-slices (3)' || fail "--help=gtao"
+"$northlight" --help measuring | grep -q -- '--study' || fail "--help measuring"
+"$northlight" --help=all | grep -q -- '--sun-pcss-blocker-taps' || fail "--help=all"
+expect_error 2 'no topic "gtoa"; the nearest is "gtao"' --help=gtoa
+
 touch "$work/file"
 said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
 grep -q 'cannot make the folder' <<< "$said" || fail "an output folder below a file: $said"
