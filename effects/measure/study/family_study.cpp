@@ -108,6 +108,10 @@ class PartStudy {
     StudyResult out;
     out.family = name;
     out.title = title;
+    out.scene = options_.scene;
+    out.backend = options_.backend;
+    out.width = options_.frame.width;
+    out.height = options_.frame.height;
     if (part_.moves) out.title += ", in motion";
     if (part_.is_smaller) out.title += ", " + part_.backend;
     return out;

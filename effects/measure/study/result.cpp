@@ -49,6 +49,10 @@ ordered_json as_json(const StudyResult& result) {
   return {{"family", result.family},
           {"title", result.title},
           {"key", result.key},
+          {"scene", result.scene},
+          {"backend", result.backend},
+          {"width", result.width},
+          {"height", result.height},
           {"subtitle", result.subtitle},
           {"signal", result.signal},
           {"truth", result.truth},
@@ -63,6 +67,10 @@ StudyResult as_result(const ordered_json& in) {
   in.at("family").get_to(out.family);
   in.at("title").get_to(out.title);
   in.at("key").get_to(out.key);
+  in.at("scene").get_to(out.scene);
+  in.at("backend").get_to(out.backend);
+  in.at("width").get_to(out.width);
+  in.at("height").get_to(out.height);
   in.at("subtitle").get_to(out.subtitle);
   in.at("signal").get_to(out.signal);
   in.at("truth").get_to(out.truth);

@@ -2,6 +2,7 @@
 // The results of --study for a family, kept in files so that an interrupted study goes on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,11 +37,13 @@ struct StudyRow {
 struct StudyResult {
   std::string family, title;  // "shadows-motion", "Shadows of the sun, in motion"
   std::string key;            // of all that it depends on
-  std::string subtitle;       // scene, size, backend, repeats
-  std::string signal;         // what is compared
-  std::string truth;          // what it is compared with
-  std::string truth_picture;  // a PNG file
-  double truth_error = 0;     // the truth's own standard error
+  std::string scene, backend;
+  std::uint32_t width = 0, height = 0;  // pixels
+  std::string subtitle;                 // scene, size, backend, repeats
+  std::string signal;                   // what is compared
+  std::string truth;                    // what it is compared with
+  std::string truth_picture;            // a PNG file
+  double truth_error = 0;               // the truth's own standard error
   std::vector<std::string> about;
   std::vector<StudyRow> rows;
 
