@@ -30,6 +30,7 @@
 #include "inspect.h"
 #include "look.h"
 #include "options.h"
+#include "options_quality.h"
 #include "output.h"
 #include "profile_table.h"
 #include "sequence.h"
@@ -308,7 +309,7 @@ int render(FrameRenderer& renderer, Scene& scene, const Options& options) {
   return render_once(renderer, options);
 }
 
-int run(const Options& options) {
+int run(Options& options) {
   const bool prints =
       options.pixel || options.explain || !options.tables.empty() || options.measure_left_out;
   if (const std::string error = prints ? "" : prepare_folder(options.out); !error.empty()) {
@@ -328,6 +329,12 @@ int run(const Options& options) {
     const auto done = measure(options, scene, show_progress, said);
     print(said);
     return report(done, options);
+  }
+  if (options.goal) {
+    std::string said;
+    const auto done = choose_techniques(options, scene, show_progress, said);
+    if (!is_done(done)) return report(done, options);
+    print(said);
   }
   auto renderer = create_renderer(options, scene, say_error);
   if (!renderer) return report(renderer.error());

@@ -17,6 +17,7 @@
 #include "options_help.h"
 #include "options_measure.h"
 #include "options_output.h"
+#include "options_quality.h"
 #include "options_settings.h"
 #include "options_shorthands.h"
 #include "options_views.h"
@@ -38,6 +39,7 @@ struct Words {
   std::vector<std::string> effects = {"ao", "sun"};
   std::string pixel, explain;
   MeasureWords measuring;
+  QualityWords quality;
   Shorthands shorthands;
   SettingWords settings;
 };
@@ -181,7 +183,8 @@ void add_sun_map(Options& options) {
 std::string apply(const Words& words, Options& options) {
   if (std::string error = read_setting_files(words.settings, options); !error.empty()) return error;
   apply_shorthands(words.shorthands, options);
-  if (std::string error = apply_settings(words.settings, options); !error.empty()) return error;
+  if (std::string error = list_settings(words.settings, options); !error.empty()) return error;
+  if (std::string error = apply_settings(options); !error.empty()) return error;
   apply_passes(words.shorthands, options);
   add_sun_map(options);
   options.frame.moving = options.frames > 0;
@@ -218,7 +221,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(parsed_by(parse_size, options));
   app.add_option("--effects", words.effects,
                  "comma-separated: " + describe_effects() +
-                     ", or techniques in their place, as --help lists them; or all")
+                     ", or techniques in their place, as --help=effects lists them; or all")
       ->delimiter(',')
       ->capture_default_str()
       ->check(CLI::Validator([](std::string& name) { return check_effect(name); }, ""));
@@ -229,6 +232,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--seed", options.frame.seed, "the same seed gives the same picture")
       ->capture_default_str();
   app.option_defaults()->group(kSettingsGroup);
+  add_quality(app, options, words.quality);
   add_settings(app, words.settings);
   app.option_defaults()->group(kShorthandGroup);
   add_shorthands(app, options, words.shorthands);
@@ -301,7 +305,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   if (!options.split.empty() && app.count("--scene") == 0) {
     options.scene = find_split(options.split)->scene;
   }
-  if (app.count("--effects") == 0) choose_for_views(options, words.effects);
+  if (error = apply_quality_words(words.quality, options); !error.empty()) return refuse(error);
+  if (app.count("--effects") == 0) {
+    if (options.goal) words.effects = {"all"};
+    choose_for_views(options, words.effects);
+  }
   if (error = apply(words, options); !error.empty()) return refuse(error);
   show_views(options);
   options.cpu_clock = words.measuring.clock == "cpu";

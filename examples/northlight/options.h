@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "effects/measure/run/options.h"
+#include "effects/measure/study/quality.h"
 
 namespace northlight {
 
@@ -31,9 +32,12 @@ struct Options : kaamos::measure::Options {
   std::string tables;  // "text", "json": print the shader tables instead of rendering; empty: no
   std::optional<std::pair<std::uint32_t, std::uint32_t>> explain;  // print this pixel's tree
   bool json = false;                                               // for --explain
-  std::vector<std::string> views;  // of what the frame is made from, by name [effects/views]
-  std::string view_signal;         // of views that look at one; empty: the first
-  std::string heatmap;             // "anyhit", ..., "overdraw": write that picture; empty: no
+  std::vector<std::string> views;   // of what the frame is made from, by name [effects/views]
+  std::string view_signal;          // of views that look at one; empty: the first
+  std::optional<QualityGoal> goal;  // techniques are chosen by what was measured
+  std::string fronts;               // a study.json that they are chosen from; empty: none
+  std::vector<std::pair<std::string, std::string>> settings;  // given one by one, which stay
+  std::string heatmap;  // "anyhit", ..., "overdraw": write that picture; empty: no
 };
 
 // Parses the command line. If the program should exit at once (--help, a wrong option), returns

@@ -38,6 +38,17 @@ std::string conflict(const Options& options) {
     if (!instead.empty()) return instead + " and " + name + " exclude each other: leave one out";
     instead = name;
   }
+  if (options.goal) {
+    for (const auto& [name, chosen] :
+         {std::pair("--measure", !options.measure.empty()), std::pair("--claims", options.claims),
+          std::pair("--study", options.study), std::pair("--split", !options.split.empty()),
+          std::pair("--reference-path-traced", options.path_samples > 0),
+          std::pair("--measure-left-out", options.measure_left_out)}) {
+      if (!chosen) continue;
+      return std::string(options.goal->budget_ms ? "--budget" : "--quality") + " and " + name +
+             " exclude each other: leave one out";
+    }
+  }
   if (options.path_samples > 0) {
     for (const auto& [name, chosen] :
          {std::pair("--frames", options.frames > 0),

@@ -27,6 +27,8 @@ const std::vector<std::pair<const char*, const char*>> kMoreGroups = {
     {kReferenceGroup, "path-traced references"},
     {kMeasuringGroup, "time against error"}};
 
+constexpr const char* kEffects = "effects";  // a topic of its own
+
 bool holds(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -55,6 +57,10 @@ Names group_names() {
   return out;
 }
 
+bool is_effect(const std::string& topic) {
+  return find_effect(northlight_effects(), topic) != nullptr;
+}
+
 std::string line(const std::string& name, const std::string& about) {
   return fmt::format("  {:<27} {}\n", name, about);
 }
@@ -62,9 +68,23 @@ std::string line(const std::string& name, const std::string& about) {
 std::string list_topics() {
   std::string out = "\n--help=TOPIC tells the rest:\n";
   for (const auto& [name, about] : kMoreGroups) out += line(name, about);
+  out += line(kEffects, "every technique");
   out += line("all", "every option and setting");
   out += "\nEvery number and switch of a technique is a setting, --TOPIC-NAME VALUE:\n";
-  for (const SettingTopic& topic : setting_topics()) out += line(topic.name, topic.about);
+  for (const SettingTopic& topic : setting_topics()) {
+    if (!is_effect(topic.name)) out += line(topic.name, topic.about);
+  }
+  out += line("TECHNIQUE", "gtao, sun-pcss and the like, as --help=effects lists them");
+  return out;
+}
+
+std::string list_effects() {
+  std::string out = "\neffects:\n";
+  for (const Effect& effect : northlight_effects()) {
+    const std::string instead =
+        effect.alternative_to.empty() ? "" : " (in the place of " + effect.alternative_to + ")";
+    out += line(effect.name, effect.about + instead);
+  }
   return out;
 }
 
@@ -118,12 +138,14 @@ std::string help_text(CLI::App& app, const std::string& topic, std::string& erro
   if (topic == "page") return settings_page();
   if (topic.empty()) return groups_text(app, kCommon) + describe_quality() + list_topics();
   const std::vector<SettingTopic> topics = setting_topics();
+  if (topic == kEffects) return list_effects();
   if (topic == "all") {
     std::string out = groups_text(app, group_names());
     for (const SettingTopic& each : topics) out += describe_topic(each);
     return out;
   }
   Names names = group_names();
+  names.emplace_back(kEffects);
   std::string out = holds(names, topic) ? groups_text(app, {topic}) : "";
   for (const SettingTopic& each : topics) {
     names.push_back(each.name);

@@ -115,8 +115,8 @@ std::string read_setting_files(const SettingWords& words, Options& options) {
   return {};
 }
 
-std::string apply_settings(const SettingWords& words, Options& options) {
-  std::vector<std::pair<std::string, std::string>> chosen;
+std::string list_settings(const SettingWords& words, Options& options) {
+  auto& chosen = options.settings;
   for (const std::string& text : words.assigned) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
@@ -128,9 +128,18 @@ std::string apply_settings(const SettingWords& words, Options& options) {
   // A method comes before the numbers that it brings along.
   std::stable_partition(chosen.begin(), chosen.end(),
                         [](const auto& each) { return each.first == "denoise-method"; });
-  for (const auto& [name, value] : chosen) {
+  return {};
+}
+
+std::string apply_settings(Options& options) {
+  for (const auto& [name, value] : options.settings) {
     const auto s = set_setting(all_settings(), name, value, options.frame, options.effects);
     if (!s) return s.error().message;
+  }
+  for (auto& [name, settings] : options.frame.effects) {
+    const bool named = settings.named;
+    settings = options.effects.at(name);
+    settings.named = named;
   }
   return {};
 }

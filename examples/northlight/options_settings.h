@@ -28,8 +28,10 @@ std::vector<char*> take_settings(int argc, char** argv, const CLI::App& app, Set
 
 // Reads the files into the options; returns an error, or nothing.
 std::string read_setting_files(const SettingWords& words, Options& options);
-// Sets what was chosen by name; returns an error, or nothing.
-std::string apply_settings(const SettingWords& words, Options& options);
+// What was chosen by name, in the order in which it is set; an error, or nothing.
+std::string list_settings(const SettingWords& words, Options& options);
+// Sets options.settings in all effects and in those of the frame; returns an error, or nothing.
+std::string apply_settings(Options& options);
 // Returns whether a setting of this full name was chosen.
 bool is_chosen(const SettingWords& words, const std::string& name);
 

@@ -103,12 +103,30 @@ for line in '"radius": "inf"' '"first-passes": 2' '"sun-map": 2048' '"fireflies"
   grep -qF -- "$line" "$work/printed.json" || fail "short options do not set $line"
 done
 help=$("$northlight" --help) || fail "--help"
-[ "$(wc -l <<< "$help")" -lt 120 ] || fail "--help is longer than what most people need"
+[ "$(wc -l <<< "$help")" -lt 100 ] || fail "--help is longer than what most people need"
 grep -q -- '--gtao-slices' <<< "$help" && fail "--help shows every setting"
 "$northlight" --help=gtao | grep -q -- '--gtao-slices (3)' || fail "--help=gtao"
+"$northlight" --help=effects | grep -q "sun-pcss .*in the place of sun" || fail "--help=effects"
 "$northlight" --help measuring | grep -q -- '--study' || fail "--help measuring"
 "$northlight" --help=all | grep -q -- '--sun-pcss-blocker-taps' || fail "--help=all"
 expect_error 2 'no topic "gtoa"; the nearest is "gtao"' --help=gtoa
+
+# Techniques by what was measured: a study with two settings of the sun's shadow.
+row='"command":"","missing":"","note":"","ms_spread":0,"flip":0,"ssim":1,"energy":1,"flicker":-1,"picture":"","difference":""'
+printf '[{"family":"shadows","title":"","key":"","scene":"lounge","backend":"embree","width":64,"height":36,"subtitle":"","signal":"","truth":"","truth_picture":"","truth_rmse":0,"about":[],"rows":[{"effect":"sun","technique":"sun shadow","setting":"4 rays",%s,"ms":8,"rays":4,"rmse":0.01},{"effect":"sun-map","technique":"sun shadow by a depth map","setting":"1024 x 1024",%s,"ms":2,"rays":0,"rmse":0.2}]}]' "$row" "$row" > "$work/fronts.json"
+chosen=(--effects sun --size 64x36 --out "$work/chosen" --fronts "$work/fronts.json")
+said=$("$northlight" "${chosen[@]}" --quality low 2>&1) || fail "--quality low: $said"
+grep -q 'shadows: sun shadow by a depth map, 1024 x 1024 .*: 2 ms, error 0.2: the fastest of 1 without rays' <<< "$said" || fail "--quality low: $said"
+[ -s "$work/chosen/sun_map.png" ] || fail "--quality low renders no sun-map"
+said=$("$northlight" "${chosen[@]}" --quality ultra 2>&1) || fail "--quality ultra: $said"
+grep -q 'shadows: sun shadow, 4 rays .*: 8 ms, error 0.01: the least error of 2 settings' <<< "$said" || fail "--quality ultra: $said"
+said=$("$northlight" "${chosen[@]}" --budget 5ms 2>&1) || fail "--budget: $said"
+grep -q 'shadows: sun shadow by a depth map, .*within the budget' <<< "$said" || fail "--budget 5ms: $said"
+expect_error 2 '"soon" is no time: give milliseconds' --budget soon
+expect_error 2 'fronts requires --quality or --budget' --fronts "$work/fronts.json"
+expect_error 2 'quality and --measure exclude each other' --quality low --measure ao
+expect_error 2 'low,medium,high,ultra' --quality best
+expect_error 1 'no study.json of this version' --quality low --size 64x36 --fronts "$work/settings.json"
 
 touch "$work/file"
 said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
