@@ -198,6 +198,7 @@ class PartStudy {
     if (part_.family.effect == "contact" && scene_.lights.empty()) {
       return "the scene has no local light";
     }
+    if (part_.family.effect == "transparent" && !has_glass(scene_)) return "the scene has no glass";
     if (part_.moves && options_.measure_truth == 0) {
       return "--measure-truth 0 leaves nothing to compare moving pictures with";
     }
@@ -333,8 +334,9 @@ std::vector<StudyPart> study_parts(const StudyFamily& family, const Options& opt
     const std::string backend = is_second ? "vulkan" : both ? "embree" : options.backend;
     for (const bool moves : {false, true}) {
       // Denoisers are measured at rest and in motion at once; --quick stays still, and what has no
-      // path-traced truth has none in motion.
-      const bool stays = family.effect.empty() || family.effect == "contact";
+      // path-traced truth has none in motion. Glass stands in front of a background at rest.
+      const bool stays =
+          family.effect.empty() || family.effect == "contact" || family.effect == "transparent";
       if (moves && (options.quick || stays)) continue;
       out.push_back({family, backend, moves, is_second});
     }

@@ -39,9 +39,23 @@ std::vector<T> three_of(const std::vector<T>& steps) {
   return {steps.front(), steps[(steps.size() - 1) / 2], steps.back()};
 }
 
+// Three settings of each group.
+void keep_three(MeasurePlan& plan) {
+  std::map<std::string, std::vector<std::size_t>> by_group;
+  for (std::size_t i = 0; i < plan.settings.size(); ++i) {
+    by_group[plan.settings[i].group].push_back(i);
+  }
+  std::set<std::size_t> kept;
+  for (const auto& [group, places] : by_group) {
+    for (const std::size_t place : three_of(places)) kept.insert(place);
+  }
+  std::vector<MeasuredSetting> settings = std::exchange(plan.settings, {});
+  for (const std::size_t place : kept) plan.settings.push_back(std::move(settings[place]));
+}
+
 // The modes of indirect light are techniques of their own; of those that are there twice the first
 // stays.
-void name_modes(bool quick, MeasurePlan& plan) {
+void name_modes(MeasurePlan& plan) {
   for (MeasuredSetting& each : plan.settings) {
     if (each.steps) continue;
     each.group = each.label;
@@ -51,21 +65,12 @@ void name_modes(bool quick, MeasurePlan& plan) {
   }
   std::vector<MeasuredSetting> settings = std::exchange(plan.settings, {});
   std::set<std::uint64_t> seen;
-  std::map<std::string, std::vector<std::size_t>> by_group;
   for (MeasuredSetting& each : settings) {
     Checksum checksum;
     add_setting(checksum, each.setting);
     if (!seen.insert(checksum.value()).second) continue;
-    by_group[each.group].push_back(plan.settings.size());
     plan.settings.push_back(std::move(each));
   }
-  if (!quick) return;
-  std::set<std::size_t> kept;
-  for (const auto& [group, places] : by_group) {
-    for (const std::size_t place : three_of(places)) kept.insert(place);
-  }
-  settings = std::exchange(plan.settings, {});
-  for (const std::size_t place : kept) plan.settings.push_back(std::move(settings[place]));
 }
 
 // Marches and rays look equally far.
@@ -154,6 +159,7 @@ const std::vector<StudyFamily>& study_families() {
                                                     {"ao", "Ambient occlusion", "ao"},
                                                     {"reflections", "Reflections", "reflections"},
                                                     {"indirect", "Indirect diffuse light", "gi"},
+                                                    {"glass", "Glass", "transparent"},
                                                     {"denoise", "Denoising", ""}};
   return families;
 }
@@ -171,8 +177,13 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   MeasurePlan plan = measure_plan(own);
   plan.title = family.title;
   plan.against_truth = true;
-  if (family.effect == "gi") {
-    name_modes(quick, plan);
+  // These have groups of settings of their own.
+  const auto has_groups = [](const std::string& effect) {
+    return effect == "gi" || effect == "transparent";
+  };
+  if (has_groups(family.effect)) {
+    if (family.effect == "gi") name_modes(plan);
+    if (quick) keep_three(plan);
   } else {
     plan.settings.clear();
     plan.references.resize(1);
@@ -180,7 +191,7 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   for (const Effect& row : northlight_effects()) {
     if (!belongs_to(row, family)) continue;
     if (row.name != family.effect) plan.effects.push_back(row.name);
-    if (row.name == "gi") continue;
+    if (has_groups(row.name)) continue;
     const std::vector<EffectStep> all = steps_of(row);
     for (const EffectStep& step : quick ? three_of(all) : all) {
       MeasuredSetting setting{row.about, step.label};

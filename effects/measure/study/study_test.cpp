@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "effects/assets/built_in/built_in.h"
 #include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/assets/built_in/scene_parts.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
@@ -372,6 +373,28 @@ TEST(Study, FiltersTakeErrorsDownAndKeepTheEnergy) {
     }
   }
   EXPECT_TRUE(has_indirect);
+}
+
+TEST(Study, GlassIsNearerToTheTruthWithMoreLayersThatReflect) {
+  Options options = quick_study("glass-stack", "glass");
+  options.measure_truth = 64;
+  const Scene scene = find_built_in_scene("glass-stack")->make();
+  const auto results = study(scene, options);
+  const StudyRow& none = row_of(results, "glass", "transparent/0 layers");
+  const StudyRow& all = row_of(results, "glass", "transparent/8 layers");
+  const StudyRow& drawn = row_of(results, "glass", "drawn-glass/as it is by default");
+  EXPECT_GT(none.error, 1.2 * all.error);
+  EXPECT_GT(none.error, drawn.error);
+  EXPECT_GT(drawn.ms, 0);
+  expect_explained(results);
+}
+
+TEST(Study, WithoutGlassItsRowsSayWhy) {
+  const Options options = quick_study("sealed-cells", "glass");
+  const auto results = study(find_built_in_scene("sealed-cells")->make(), options);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_FALSE(results[0].is_measured());
+  EXPECT_EQ(results[0].rows.front().missing, "the scene has no glass");
 }
 
 }  // namespace
