@@ -108,8 +108,7 @@ Front front_of(const StudyFamily& family, const Options& options, const StudyRes
 }
 
 std::string of_settings(const Front& front) {
-  return fmt::format("{} settings, of which {} are on the Pareto front", front.all.size(),
-                     front.best.size());
+  return fmt::format("{} settings ({} on the Pareto front)", front.all.size(), front.best.size());
 }
 
 QualityChoice with_reason(const Candidate& candidate, std::string why) {
@@ -330,10 +329,15 @@ rtapi::Result<Outcome> find_fronts(const Options& options, const std::string& fi
     }
   }
   if (const auto s = make_folders(options.out); !s) return s.error();
-  options.say(
-      fmt::format("measuring every technique of {} families in {}, which takes minutes; "
-                  "what was measured is kept in {}/study",
-                  families.size(), options.scene, options.out));
+  const auto is_kept = [&](const StudyFamily& family) {
+    return std::filesystem::exists(fmt::format("{}/study/{}.json", options.out, family.name));
+  };
+  if (!std::all_of(families.begin(), families.end(), is_kept)) {
+    options.say(
+        fmt::format("measuring the techniques in {}, which takes minutes; what was measured "
+                    "is kept in {}/study",
+                    options.scene, options.out));
+  }
   const Options quick = quick_options(options);
   for (const StudyFamily& family : families) {
     const StudyPart part = {family, quick.backend};
