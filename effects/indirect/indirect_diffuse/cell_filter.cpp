@@ -128,19 +128,22 @@ class CellFilter {
   // count too much by its own.
   void estimate_variances() {
     struct Moments {
-      double samples = 0, sum = 0, squares = 0;
+      double samples = 0, squares = 0;
+      double freedom = 0, deviations = 0;  // from each cell's own mean
       void add(const Moments& other) {
         samples += other.samples;
-        sum += other.sum;
         squares += other.squares;
+        freedom += other.freedom;
+        deviations += other.deviations;
       }
     };
     std::vector<Moments> own(count_);
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (!is_valid(i)) continue;
       const CellSums &a = baked_.sums[2 * i], &b = baked_.sums[2 * i + 1];
-      own[i] = {static_cast<double>(samples(i)), luminance(a.mean) + luminance(b.mean),
-                static_cast<double>(a.luminance_squared) + b.luminance_squared};
+      const double count = samples(i), sum = luminance(a.mean) + luminance(b.mean);
+      const double squares = static_cast<double>(a.luminance_squared) + b.luminance_squared;
+      own[i] = {count, squares, count - 1, std::max(squares - sum * sum / count, 0.0)};
     }
     std::vector<Moments> all = own;
     for (const Pair& pair : pairs_) {
@@ -149,10 +152,9 @@ class CellFilter {
     }
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (!is_valid(i)) continue;
-      const double mean = all[i].sum / all[i].samples;
-      const double square = all[i].squares / all[i].samples;
       // A slope's sample is 3 L d, and d squared is a third on average.
-      variances_[i] = {std::max(square - mean * mean, 0.0), 3 * square};
+      variances_[i] = {all[i].deviations / std::max(all[i].freedom, 1.0),
+                       3 * all[i].squares / all[i].samples};
     }
   }
 
