@@ -25,6 +25,9 @@ std::string conflict(const Options& options) {
       !options.study) {
     return "--camera-path requires --frames, --measure svgf or --study";
   }
+  if (options.quick && !options.study && options.measure.empty()) {
+    return "--quick requires --study or --measure";
+  }
   if (options.backend == kBothBackends && !options.study) {
     return "--backend both is for --study: give embree or vulkan";
   }

@@ -46,7 +46,7 @@ void add_path_reference(CLI::App& app, Options& options) {
 void add_measuring(CLI::App& app, Options& options, MeasureWords& words) {
   app.add_option("--measure", options.measure,
                  "time against error over an effect's quality settings, as a table, a CSV file and "
-                 "a plot: " +
+                 "a plot; what is an alternative to rays is held against them: " +
                      join(measured_effects()))
       ->check(CLI::IsMember(measured_effects()));
   app.add_flag(
@@ -68,9 +68,10 @@ void add_measuring(CLI::App& app, Options& options, MeasureWords& words) {
       ->needs(study)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_flag("--quick", options.quick,
-               "of --study: three settings of each technique, at rest, on one backend")
-      ->needs(study);
+  app.add_flag(
+      "--quick", options.quick,
+      "of --study: three settings of each technique, at rest, on one backend; of --measure: "
+      "three settings of each group");
   app.add_option("--measure-reference", options.measure_reference,
                  "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
       ->capture_default_str()
@@ -134,7 +135,7 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, const Setti
       std::tie(frame.width, frame.height) = default_measure_size(options.measure);
     }
     if (options.measure == "svgf" && app.count("--effects") == 0) choose(options, {"all"});
-    if (options.measure == "transparent" && app.count("--scene") == 0) {
+    if (measures_glass(options.measure) && app.count("--scene") == 0) {
       options.scene = "glass-stack";
     }
   }

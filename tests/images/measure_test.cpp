@@ -18,6 +18,7 @@
 #include "effects/assets/image/exr.h"
 #include "effects/assets/image/png.h"
 #include "effects/assets/image/tonemap.h"
+#include "effects/northlight/effects.h"
 
 namespace {
 
@@ -233,6 +234,50 @@ TEST(Measure, DenoisersTradeVarianceForBias) {
     }
   }
 }
+
+// Every effect with passes of its own, those without a plan of their own too.
+class MeasureEach : public testing::TestWithParam<std::string> {};
+
+TEST_P(MeasureEach, WritesFiniteNumbers) {
+  const std::string effect = GetParam();
+  const Effect& row = *find_effect(northlight_effects(), effect);
+  ASSERT_EQ(northlight("--measure " + effect +
+                       " --size 24x14 --quick --repeats 1 --measure-reference 16 "
+                       "--measure-truth 4"),
+            0)
+      << text_of(folder() + "/log");
+  const auto table = parse_csv(text_of(folder() + "/measure-" + effect + ".csv"));
+  ASSERT_TRUE(table.ok()) << table.error().message;
+  ASSERT_FALSE(table.value().rows.empty());
+  std::map<std::string, int> in_group;
+  for (const auto& cells : table.value().rows) {
+    Row measured;
+    for (std::size_t i = 0; i < cells.size(); ++i) measured[table.value().columns[i]] = cells[i];
+    EXPECT_LE(++in_group[measured["group"]], 3);
+    for (const std::string column : {"ms", "rmse", "ssim", "flip", "energy_ratio", "variance"}) {
+      EXPECT_TRUE(std::isfinite(number(measured, column))) << column << measured["setting"];
+    }
+    EXPECT_GT(number(measured, "energy_ratio"), 0) << measured["setting"];
+    EXPECT_EQ(measured["not_finite"], "0") << measured["setting"];
+    if (row.alternative_to.empty() || row.alternative_to == "transparent") continue;
+    EXPECT_EQ(measured["reference"].rfind(row.alternative_to, 0), 0u) << measured["reference"];
+  }
+}
+
+std::vector<std::string> effects_with_passes() {
+  std::vector<std::string> out;
+  for (const Effect& row : northlight_effects()) {
+    if (row.pass || row.make) out.push_back(row.name);
+  }
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(, MeasureEach, testing::ValuesIn(effects_with_passes()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(Split, PutsSettingsSideBySide) {
   for (const std::string name : {"ao", "gi", "near-field", "denoise"}) {

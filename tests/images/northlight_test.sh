@@ -43,6 +43,8 @@ expect_error 2 'not expected' --no-such-option
 expect_error 2 'is not a pixel' --pixel 12
 expect_error 2 'outside the picture' --size 64x36 --pixel 64,3
 expect_error 2 '--measure: fog not in .*svgf' --measure fog
+expect_error 2 '--measure: local not in .*ssr' --measure local
+expect_error 1 'no local light to measure' --measure screen-contact --scene terrain --size 8x8
 expect_error 2 'not in range' --measure ao --repeats 0
 expect_error 2 'not in range' --measure svgf --seeds 1
 expect_error 2 '--split: fog not in' --split fog

@@ -54,7 +54,8 @@ rm "$work/out/study/ao.json"
 diff <(grep ^contact "$work/before.csv") <(grep ^contact "$work/out/study.csv") > /dev/null || fail "contact shadows were measured again"
 cmp -s "$work/before.csv" "$work/out/study.csv" && fail "the family that was missing was not measured"
 "$northlight" --study lounge --scene runner > /dev/null 2> "$work/log" && fail "--study and --scene"
-"$northlight" --quick > /dev/null 2>&1 && fail "--quick alone"
+"$northlight" --quick > /dev/null 2> "$work/log" && fail "--quick alone"
+grep -q 'quick requires --study or --measure' "$work/log" || fail "--quick alone: $(cat "$work/log")"
 [ "$failures" = 0 ] || exit 1
 
 [ -x "$browser" ] || {

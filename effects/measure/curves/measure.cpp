@@ -178,7 +178,11 @@ double median(std::vector<double> values) {
 rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene,
                                       const Progress& progress, MeasuredTable& table) {
   const MeasurePlan plan = measure_plan(options);
-  if (options.measure == "sun" && !scene.sun) return failure("the scene has no sun to measure");
+  const EffectNeeds& needs = find_effect(northlight_effects(), options.measure)->needs;
+  if (needs.sun && !scene.sun) return failure("the scene has no sun to measure");
+  if (needs.strongest_lights && count_local_lights(scene) == 0) {
+    return failure("the scene has no local light to measure");
+  }
   table.title = plan.title + ": time against error";
   return run_plan(plan, options, scene, progress, table);
 }

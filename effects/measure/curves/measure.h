@@ -42,12 +42,14 @@ struct MeasurePlan {
   bool against_truth = false;
 };
 
-// The names that --measure takes, in the order of --help: every effect of the registry that traces
-// rays, frame and svgf.
+// The names that --measure takes, in the order of --help: every effect of the registry that has
+// passes of its own, frame and svgf.
 std::vector<std::string> measured_effects();
 // The default size, at which each effect takes a few minutes on two cores.
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
-// Not for svgf.
+// Returns whether an effect is glass, so that only scenes with glass show it.
+bool measures_glass(const std::string& effect);
+// Not for frame and svgf. With options.quick: three settings of each group.
 MeasurePlan measure_plan(const Options& options);
 
 // One row of the table.

@@ -2,9 +2,13 @@
 // Chooses the settings of an effect that are measured, and the references for them.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "effects/glass/transparent/transparent.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/measure/curves/measure.h"
+#include "effects/measure/curves/techniques.h"
 #include "effects/reflections/traced/reflections.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 
@@ -177,14 +181,51 @@ MeasurePlan transparent_plan() {
   return plan;
 }
 
-// For an effect without a plan of its own: how its error falls with its rays.
-MeasurePlan plan_by_rays(const std::string& effect) {
-  const Effect& row = *find_effect(northlight_effects(), effect);
-  MeasurePlan plan{.title = row.about, .signal = row.signals.front().name, .effects = {effect}};
-  const Setting setting = setting_of(effect);
-  plan.references = {{effect, row.about, setting, row.signals.front().channels == 3}};
-  add_counts(plan, "rays per pixel", setting, {1, 2, 4, 8, 16, 64}, effect);
+MeasurePlan full_plan(const Options& options);
+
+// Each setting is held against rays of its own radius.
+void match_radius(MeasurePlan& plan) {
+  for (MeasuredSetting& each : plan.settings) {
+    each.reference = radius_reference(each.setting.settings.radius, plan);
+  }
+  std::erase_if(plan.references, [&](const MeasurePlan::Reference& reference) {
+    return std::none_of(plan.settings.begin(), plan.settings.end(),
+                        [&](const auto& each) { return each.reference == reference.name; });
+  });
+}
+
+// For an effect without a plan of its own: against the rays that it is an alternative to, else
+// against what its own samples converge to.
+MeasurePlan technique_plan(const Options& options) {
+  const Effect& row = *find_effect(northlight_effects(), options.measure);
+  MeasurePlan plan;
+  if (row.alternative_to.empty()) {
+    const EffectSignal& signal = row.signals.front();
+    plan.signal = signal.name;
+    plan.references = {{row.name, row.about, setting_of(row.name), signal.is_light}};
+  } else {
+    Options own = options;
+    own.measure = row.alternative_to;
+    plan = full_plan(own);
+    plan.settings.clear();
+    plan.references.resize(1);
+  }
+  plan.title = row.about;
+  plan.title.front() = static_cast<char>(std::toupper(plan.title.front()));
+  plan.effects.push_back(row.name);
+  add_technique(row, options, plan);
+  if (row.alternative_to == "ao") match_radius(plan);
   return plan;
+}
+
+MeasurePlan full_plan(const Options& options) {
+  if (options.measure == "ao") return ambient_occlusion_plan(options);
+  if (options.measure == "sun") return sun_plan();
+  if (options.measure == "contact") return contact_plan(options);
+  if (options.measure == "reflections") return reflections_plan(options);
+  if (options.measure == "gi") return indirect_plan();
+  if (options.measure == "transparent") return transparent_plan();
+  return technique_plan(options);
 }
 
 }  // namespace
@@ -192,27 +233,28 @@ MeasurePlan plan_by_rays(const std::string& effect) {
 std::vector<std::string> measured_effects() {
   std::vector<std::string> out;
   for (const Effect& effect : northlight_effects()) {
-    if (effect.pass) out.push_back(effect.name);
+    if (effect.pass || effect.make) out.push_back(effect.name);
   }
   out.push_back("frame");
   out.push_back("svgf");
   return out;
 }
 
+bool measures_glass(const std::string& name) {
+  const Effect* effect = find_effect(northlight_effects(), name);
+  return effect != nullptr && effect->needs.glass;
+}
+
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect) {
-  if (effect == "transparent") return {320, 180};
+  if (measures_glass(effect)) return {320, 180};
   if (effect == "frame") return {160, 90};
   return {96, 54};  // all at the same size: denoisers are compared with the effects' references
 }
 
 MeasurePlan measure_plan(const Options& options) {
-  if (options.measure == "ao") return ambient_occlusion_plan(options);
-  if (options.measure == "sun") return sun_plan();
-  if (options.measure == "contact") return contact_plan(options);
-  if (options.measure == "reflections") return reflections_plan(options);
-  if (options.measure == "gi") return indirect_plan();
-  if (options.measure == "transparent") return transparent_plan();
-  return plan_by_rays(options.measure);
+  MeasurePlan plan = full_plan(options);
+  if (options.quick) keep_three_of_each(plan);
+  return plan;
 }
 
 }  // namespace kaamos::measure

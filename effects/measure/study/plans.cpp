@@ -4,54 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
-#include <map>
 #include <set>
 #include <utility>
 
-#include "effects/shadows/contact_shadow/contact_shadow.h"
-#include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
+#include "effects/measure/curves/techniques.h"
 
 namespace kaamos::measure {
 
 using namespace kaamos::effects;
 
 namespace {
-
-constexpr std::size_t kQuickSteps = 3;
-
-std::vector<EffectStep> steps_of(const Effect& row) {
-  if (!row.steps.empty()) return row.steps;
-  if (row.samples_option.empty()) return {{"as it is by default", row.defaults}};
-  std::vector<EffectStep> out;
-  for (const std::uint32_t count : {1u, 2u, 4u, 8u, 16u, 64u}) {
-    EffectSettings settings = row.defaults;
-    settings.samples = count;
-    out.push_back({fmt::format("{} {}", count, count == 1 ? "ray" : "rays"), settings});
-  }
-  return out;
-}
-
-// The first, the middle and the last.
-template <class T>
-std::vector<T> three_of(const std::vector<T>& steps) {
-  if (steps.size() <= kQuickSteps) return steps;
-  return {steps.front(), steps[(steps.size() - 1) / 2], steps.back()};
-}
-
-// Three settings of each group.
-void keep_three(MeasurePlan& plan) {
-  std::map<std::string, std::vector<std::size_t>> by_group;
-  for (std::size_t i = 0; i < plan.settings.size(); ++i) {
-    by_group[plan.settings[i].group].push_back(i);
-  }
-  std::set<std::size_t> kept;
-  for (const auto& [group, places] : by_group) {
-    for (const std::size_t place : three_of(places)) kept.insert(place);
-  }
-  std::vector<MeasuredSetting> settings = std::exchange(plan.settings, {});
-  for (const std::size_t place : kept) plan.settings.push_back(std::move(settings[place]));
-}
 
 // The modes of indirect light are techniques of their own; of those that are there twice the first
 // stays.
@@ -68,42 +30,11 @@ void name_modes(MeasurePlan& plan) {
   for (MeasuredSetting& each : settings) {
     Checksum checksum;
     add_setting(checksum, each.setting);
-    if (!seen.insert(checksum.value()).second) continue;
-    plan.settings.push_back(std::move(each));
-  }
-}
-
-// Marches and rays look equally far.
-void match_length(const Setting& reference, Setting& setting) {
-  const auto rays = reference.settings.get_constants<ContactShadowConstants>();
-  const float length = rays.length;
-  if (setting.effect == reference.effect) {
-    setting.change<ContactShadowConstants>([&](auto& constants) { constants = rays; });
-  } else {
-    setting.change<ScreenSpaceShadowConstants>([&](auto& constants) { constants.length = length; });
+    if (seen.insert(checksum.value()).second) plan.settings.push_back(std::move(each));
   }
 }
 
 constexpr float kRadii[] = {0.25f, 0.5f, 1.0f, 2.0f, 4.0f};  // metres
-
-std::string radius_label(float radius) {
-  return fmt::format("{:g} m", radius);
-}
-
-// The reference of rays of this radius; the plan gets it where it has none.
-std::string radius_reference(float radius, MeasurePlan& plan) {
-  const MeasurePlan::Reference first = plan.references.front();
-  if (radius == first.setting.settings.radius) return first.name;
-  MeasurePlan::Reference wanted = first;
-  wanted.name = fmt::format("{}-{:g}m", first.name, radius);
-  wanted.about = fmt::format("rays of {}", radius_label(radius));
-  wanted.setting.settings.radius = radius;
-  const auto is_same = [&](const MeasurePlan::Reference& each) { return each.name == wanted.name; };
-  if (std::none_of(plan.references.begin(), plan.references.end(), is_same)) {
-    plan.references.push_back(wanted);
-  }
-  return wanted.name;
-}
 
 // Asks the question of a setting again for another radius.
 void ask_within(float radius, MeasuredSetting setting, MeasurePlan& plan) {
@@ -174,6 +105,7 @@ std::vector<std::string> study_family_names() {
 MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool quick) {
   Options own = options;
   own.measure = family.effect;
+  own.quick = false;  // all techniques together, further down
   MeasurePlan plan = measure_plan(own);
   plan.title = family.title;
   plan.against_truth = true;
@@ -183,7 +115,6 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   };
   if (has_groups(family.effect)) {
     if (family.effect == "gi") name_modes(plan);
-    if (quick) keep_three(plan);
   } else {
     plan.settings.clear();
     plan.references.resize(1);
@@ -191,19 +122,9 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   for (const Effect& row : northlight_effects()) {
     if (!belongs_to(row, family)) continue;
     if (row.name != family.effect) plan.effects.push_back(row.name);
-    if (has_groups(row.name)) continue;
-    const std::vector<EffectStep> all = steps_of(row);
-    for (const EffectStep& step : quick ? three_of(all) : all) {
-      MeasuredSetting setting{row.about, step.label};
-      setting.setting.effect = row.name;
-      setting.setting.settings = step.settings;
-      setting.reference = plan.references.front().name;
-      setting.setting.settings.radius = options.effects.at(row.name).radius;
-      if (family.effect == "contact")
-        match_length(plan.references.front().setting, setting.setting);
-      plan.settings.push_back(setting);
-    }
+    if (!has_groups(row.name)) add_technique(row, options, plan);
   }
+  if (quick) keep_three_of_each(plan);
   if (family.effect == "ao") sweep_radii(options, quick, plan);
   if (!options.rows.empty()) {
     std::erase_if(plan.settings, [&](const MeasuredSetting& each) {
