@@ -296,6 +296,33 @@ TEST(Split, PutsSettingsSideBySide) {
   }
 }
 
+// Each step shows the same strip of the same frame, so that light only adds up.
+TEST(Split, LightingAddsAStepAtATime) {
+  ASSERT_EQ(northlight("--size 192x54 --split lighting"), 0) << text_of(folder() + "/log");
+  const auto picture = read_png(folder() + "/split-lighting.png");
+  ASSERT_TRUE(picture.ok()) << picture.error().message;
+  const ByteImage& image = picture.value();
+  const auto value = [&](std::size_t step, std::size_t x, std::size_t y) {
+    return static_cast<int>(image.values[(y * 192 + step * 48 + x) * image.channels + 1]);
+  };
+  double mean[4] = {}, grain[4] = {};
+  int darker = 0;  // pixels in which indirect light takes light away
+  for (std::size_t y = 0; y < 54; ++y) {
+    for (std::size_t x = 2; x < 48; ++x) {  // past the line between steps
+      for (std::size_t step = 0; step < 4; ++step) {
+        mean[step] += value(step, x, y) / (54.0 * 46.0);
+        grain[step] += std::abs(value(step, x, y) - value(step, x - 1, y)) / (54.0 * 46.0);
+      }
+      darker += value(1, x, y) < value(0, x, y) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(darker, 0);
+  EXPECT_GT(mean[1], mean[0] + 4);
+  EXPECT_GT(mean[2], mean[1] + 0.5);
+  EXPECT_NEAR(mean[3], mean[2], 0.1 * mean[2]);
+  EXPECT_LT(grain[3], 0.8 * grain[2]);
+}
+
 // Rays are as long as the options say, and a layer of light is written as the frame shows light.
 TEST(Options, ReachReflectionsAndTheirPicture) {
   const std::string arguments = "--scene mirror-hall --size 48x27 --effects reflections ";

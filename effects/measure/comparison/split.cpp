@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "effects/assets/image/png.h"
 #include "effects/assets/image/tonemap.h"
@@ -26,6 +27,8 @@ struct Part {
   std::string name;
   Options options;
   bool times_ao = false;  // multiply the indirect light with ambient occlusion
+  // Of the frame, those that make up its radiance; empty: all.
+  std::vector<std::string> signals = {};
 };
 
 Part make_part(const std::string& name, const Options& base,
@@ -100,6 +103,35 @@ std::vector<Part> screen_space_ao_parts(const Options& options) {
   return out;
 }
 
+// A frame with 1 ray for each of these effects, as it is before it is denoised.
+Part raw_part(const std::string& name, const Options& options,
+              const std::vector<std::string>& effects) {
+  Part part = make_part(name, options, effects);
+  for (auto& [effect, settings] : part.options.frame.effects) settings.samples = 1;
+  part.options.frame.whole_frame = true;
+  part.options.frame.denoise = default_denoise(DenoiseMethod::kNone);
+  return part;
+}
+
+Part denoised_part(const Part& raw, const Options& options) {
+  Part part = raw;
+  part.name = "denoised";
+  part.options.frame.denoise = svgf_of(options);
+  return part;
+}
+
+// The steps in which the deck shows how a frame is lit.
+std::vector<Part> lighting_parts(const Options& options) {
+  std::vector<std::string> effects = {"sun", "local", "contact"};
+  Part direct = raw_part("direct", options, effects);
+  direct.signals = {"sun", "local_lights"};
+  effects.push_back("gi");
+  Part indirect = raw_part("indirect", options, effects);
+  indirect.signals = {"sun", "local_lights", "indirect"};
+  const Part specular = raw_part("specular", options, {"all"});
+  return {direct, indirect, specular, denoised_part(specular, options)};
+}
+
 std::vector<Part> parts_of(const Options& options) {
   if (options.split == "ao") return ambient_occlusion_parts(options);
   if (options.split == "ssao") return screen_space_ao_parts(options);
@@ -115,13 +147,9 @@ std::vector<Part> parts_of(const Options& options) {
   if (options.split == "near-field") {
     return {indirect_part(options, "hit-black", IndirectMode::kHitBlack), near_field};
   }
-  Part raw = make_part("raw", options, {"all"});
-  for (auto& [effect, settings] : raw.options.frame.effects) settings.samples = 1;
-  raw.options.frame.denoise = default_denoise(DenoiseMethod::kNone);
-  Part denoised = raw;
-  denoised.name = "denoised";
-  denoised.options.frame.denoise = svgf_of(options);
-  return {raw, denoised};
+  if (options.split == "lighting") return lighting_parts(options);
+  const Part raw = raw_part("raw", options, {"all"});
+  return {raw, denoised_part(raw, options)};
 }
 
 FloatImage first_three(const FloatImage& image) {
@@ -134,7 +162,7 @@ FloatImage first_three(const FloatImage& image) {
 
 // Returns whether whole frames are compared.
 bool is_of_frames(const std::string& split) {
-  return split == "denoise" || split == "shadow-map" || split == "ssr";
+  return split == "lighting" || split == "denoise" || split == "shadow-map" || split == "ssr";
 }
 
 ByteImage picture_of(const Part& part, const Options& options, const FrameResult& frame,
@@ -179,6 +207,10 @@ const std::vector<Split>& splits() {
        "corners and the undersides of things",
        "lounge",
        {}},
+      {"lighting",
+       "the frame with 1 ray per pixel and effect: direct light only, with indirect light, with "
+       "reflections and glass, denoised",
+       "what each step adds, and the grain that the last one takes away", "lounge", 0.5},
       {"denoise",
        "the whole frame with 1 ray per pixel and effect, raw and denoised",
        "grain, and what of texture and edges is kept",
@@ -246,6 +278,14 @@ rtapi::Result<Outcome> run_split(const Options& options, const Scene& scene,
     FrameResult frame;
     done = render_frame(**renderer, show, frame);
     if (!is_done(done)) break;
+    if (!part.signals.empty()) {
+      auto composed = read_composed(**renderer, part.signals);
+      if (!composed) {
+        done = composed.error();
+        break;
+      }
+      frame.radiance = std::move(*composed);
+    }
     pictures.push_back(picture_of(part, options, frame, scene.exposure));
   }
   std::error_code ignored;
