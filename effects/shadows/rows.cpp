@@ -8,6 +8,7 @@
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
+#include "effects/shadows/lamp_shadow/lamp_shadow.h"
 #include "effects/shadows/settings.h"
 #include "effects/shadows/shadow_map/shadow_map.h"
 #include "effects/shadows/sun_shadow/sun_shadow.h"
@@ -220,6 +221,18 @@ Effect contact_shadow_row() {
       .includes = "local",
       .constants = describe_constants(contact_shadow_settings()),
       .samples_option = "contact-samples",
+  };
+}
+
+Effect lamp_shadow_row() {
+  return {
+      .name = "lamp-shadow",
+      .about = "shadow of one local light",
+      .library = {"shadows/lamp_shadow/lamp_shadow", lamp_shadow_library},
+      .pass = lamp_shadow_pass,
+      .signals = {{.name = "lamp_shadow", .channels = 1, .is_sum = false}},
+      .defaults = EffectSettings().set_constants(LampShadowConstants{}),
+      .needs = {.local_lights = true, .lights = true},
   };
 }
 

@@ -13,6 +13,9 @@ namespace kaamos::effects {
 Effect sun_shadow_row();
 /// Shows short shadows of the strongest lights: "contact".
 Effect contact_shadow_row();
+/// Shows how much of one local light each surface sees, by any of LampShadow: "lamp-shadow". No row
+/// of the registry: for measuring.
+Effect lamp_shadow_row();
 /// Lists the alternatives to "sun" and "contact".
 std::vector<Effect> shadow_alternatives();
 
