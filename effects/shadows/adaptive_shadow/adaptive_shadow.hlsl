@@ -255,9 +255,12 @@ float TraceLight(float3 position, float3 normal, float offset, float2 u) {
     const LightConstants light = lights[constants.light];
     const float3 to_center = light.position - position;
     const float distance = length(to_center);
-    // Inside the light or on it, the light is visible; beyond its range it does not count.
+    // Inside the light or on it, the light is visible; beyond its range or cone it does not count.
     if (!(distance > light.radius)) return 1.0;
     if (distance >= light.range) return 0.0;
+    if (light.is_spot != 0 && !(dot(to_center, light.direction) < -light.cos_outer * distance)) {
+      return 0.0;
+    }
     const float3 target = to_center + ToWorld(float3(SampleDisk(u) * light.radius, 0.0),
                                               to_center / distance);
     reach = length(target);

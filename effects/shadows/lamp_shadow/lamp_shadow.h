@@ -22,9 +22,9 @@ enum class LampShadow : std::uint32_t {
 
 /// Constants b0, space3: mirrors LampShadowConstants of lamp_shadow.hlsl.
 struct LampShadowConstants {
-  std::uint32_t light = 0;  ///< a place in light_constants
+  std::uint32_t light = 0;                   ///< a place in light_constants
   LampShadow method = LampShadow::kMapPcss;  ///< how it is found
-  std::uint32_t taps = 32;          ///< of the filter, at least 1
+  std::uint32_t taps = 32;                   ///< of the filter, at least 1
   std::uint32_t blocker_taps = 16;  ///< of the search for what casts the shadow, at least 1
   /// z_near of the survey's formulas, metres: how far from the light the search supposes its map to
   /// lie. What stands nearer to the light casts wider penumbras than are looked for.
@@ -35,7 +35,7 @@ struct LampShadowConstants {
 
 /// The pass. Register u0 of space3 is R32G32B32A32_FLOAT: the visible part of the light. As
 /// everywhere it is 0 beyond the light's range and on surfaces that face away from it, and 1 inside
-/// the light. Lighting::bind is needed too, with maps.
+/// the light; outside of a spot's cone it is 0. Lighting::bind is needed too, with maps.
 RayPassDesc lamp_shadow_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

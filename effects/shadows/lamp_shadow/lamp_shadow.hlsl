@@ -162,13 +162,20 @@ float ByRays(LightConstants light, uint2 pixel, float3 position, float3 normal, 
   return visible / float(count);
 }
 
+// Within the light's range and a spot's cone.
+bool IsInReach(LightConstants light, float3 from_light, float distance) {
+  if (distance >= light.range) return false;
+  return light.is_spot == 0 ||
+         dot(from_light, light.direction) > light.cos_outer * distance;
+}
+
 float Visibility(LightConstants light, uint2 pixel) {
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 from_light = position.xyz - light.position;
   const float distance = length(from_light);
   if (!(distance > light.radius)) return 1.0;
-  if (distance >= light.range) return 0.0;
+  if (!IsInReach(light, from_light, distance)) return 0.0;
   if (constants.method >= kRayHard) {
     return ByRays(light, pixel, position.xyz, normal, position.w);
   }
