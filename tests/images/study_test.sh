@@ -45,6 +45,14 @@ grep -q 'not measured' "$work/lounge/study-figure-18.csv" && fail "figure 18: $(
 "$northlight" --study pub --sun 30,50 --quick --size 16x9 --repeats 1 --measure-truth 2 --families shadows \
   "${figure_18[@]}" --out "$work/pub" > "$work/log" 2>&1 || fail "pub with a sun: $(cat "$work/log")"
 grep -q 'not measured' "$work/pub/study-figure-18.csv" && fail "figure 18 with a sun: $(cat "$work/pub/study-figure-18.csv")"
+# Four lights, over both G-buffers; a scene without a sun says so.
+figure_18=(--quick --size 16x9 --repeats 1 --measure-truth 2 --families figure-18)
+"$northlight" --study pub --sun 30,50 "${figure_18[@]}" --out "$work/four" > "$work/log" 2>&1 || fail "four lights: $(cat "$work/log")"
+[ "$(wc -l < "$work/four/study-figure-18-lights.csv")" = 8 ] || fail "figure 18: $(cat "$work/four/study-figure-18-lights.csv")"
+grep -q '^PCSS,.*,-,-,' "$work/four/study-figure-18-lights.csv" || fail "figure 18: $(cat "$work/four/study-figure-18-lights.csv")"
+grep -q 'not measured' "$work/four/study-figure-18-lights.csv" && fail "figure 18: $(cat "$work/four/study-figure-18-lights.csv")"
+"$northlight" --study pub "${figure_18[@]}" --out "$work/dark" > "$work/log" 2>&1 || fail "four lights without a sun: $(cat "$work/log")"
+grep -q 'Not measured: the scene has no sun' "$work/dark/study.html" || fail "four lights without a sun"
 # What is there is not measured again.
 cp "$work/out/study.csv" "$work/before.csv"
 "$northlight" "${study[@]}" --families contact,ao > /dev/null 2>&1 || fail "the study again"

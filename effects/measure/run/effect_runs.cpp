@@ -37,6 +37,10 @@ FloatImage first_channels(const FloatImage& image, std::uint32_t channels) {
 
 }  // namespace
 
+std::function<double()> cpu_clock(std::uint32_t threads) {
+  return [threads] { return cpu_ms(threads); };
+}
+
 Setting setting_of(const std::string& effect, std::uint32_t samples) {
   Setting out{.effect = effect, .settings = find_effect(northlight_effects(), effect)->defaults};
   out.settings.samples = samples;
@@ -80,7 +84,7 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
   out->key_ = picture_key(own, scene);
   out->seconds_ = options.seconds.value_or(0.0);
   if (options.cpu_clock) {
-    out->renderer_->runner().set_clock([threads = options.threads] { return cpu_ms(threads); });
+    out->renderer_->runner().set_clock(cpu_clock(options.threads));
   }
   if (const auto s = out->renderer_->prepare(progress); !is_done(s)) return s;
   for (const Effect& effect : northlight_effects()) {

@@ -38,6 +38,9 @@ struct Setting {
 // That effect with `samples` rays a pixel, all else as its row of the registry has it.
 Setting setting_of(const std::string& effect, std::uint32_t samples = 1);
 
+// Milliseconds of processor time of this process over `threads` (0: all), for PassRunner::set_clock.
+std::function<double()> cpu_clock(std::uint32_t threads);
+
 // Adds all members, for keys.
 void add_setting(effects::Checksum& checksum, const Setting& setting);
 // The same in a frame of a sequence: each frame goes on with each pixel's sequence of samples.

@@ -98,6 +98,7 @@ const std::vector<StudyFamily>& study_families() {
 std::vector<std::string> study_family_names() {
   std::vector<std::string> out;
   for (const StudyFamily& family : study_families()) out.push_back(family.name);
+  out.push_back("figure-18");
   out.push_back("claims");
   return out;
 }

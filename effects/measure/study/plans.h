@@ -16,7 +16,7 @@ struct StudyFamily {
 };
 
 const std::vector<StudyFamily>& study_families();
-// The names that --families takes: those, and "claims".
+// The names that --families takes: those, "figure-18" and "claims".
 std::vector<std::string> study_family_names();
 
 // Every technique of the family, from fast to accurate, or of these only options.rows. `quick`:

@@ -10,6 +10,7 @@
 #include "effects/assets/common/file.h"
 #include "effects/measure/run/failure.h"
 #include "effects/measure/study/family_study.h"
+#include "effects/measure/study/figure_18.h"
 #include "effects/measure/study/findings.h"
 #include "effects/measure/study/report.h"
 #include "effects/measure/study/tables.h"
@@ -68,6 +69,12 @@ rtapi::Result<Outcome> run_study(const Options& options, const Scene& scene,
     }
   }
   std::vector<StudyTable> tables = shadow_tables(results);
+  if (is_wanted("figure-18", options.families)) {
+    const auto step = [&](const std::string& what, double done) {
+      return progress("figure 18: " + what, done);
+    };
+    if (const auto s = study_figure_18(options, scene, step, tables); !is_done(s)) return s;
+  }
   if (is_wanted("claims", options.families)) {
     const auto step = [&](const std::string& what, double done) {
       return progress("claims: " + what, done);

@@ -11,7 +11,6 @@
 #include "effects/assets/common/file.h"
 #include "effects/measure/run/picture_key.h"
 #include "effects/measure/study/files.h"
-#include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 
 namespace kaamos::measure {
 
@@ -114,110 +113,18 @@ StudyTable control_table(const Options& options, const ClaimTable& claims) {
   return out;
 }
 
-// The columns are milliseconds for one light and for four. [survey: figure 18]
-struct SurveyRow {
-  const char* name;
-  double pub[2], resort[2], breakfast[2];
-};
-
-constexpr SurveyRow kSurvey[] = {{"shadow map, hard", {0.7, 2.6}, {2.3, 9.1}, {0.9, 5.9}},
-                                 {"rays, hard", {1.4, 4.8}, {1.3, 3.4}, {1.6, 3.7}},
-                                 {"rays, soft, standard", {3.2, 13.5}, {2.7, 8.3}, {4.7, 11.0}},
-                                 {"rays, soft, high", {3.5, 19.9}, {2.9, 12.0}, {6.5, 16.2}}};
-constexpr std::size_t kRaysHard = 1;  // all else is told in its times
-
-const StudyRow* find_row(const StudyResult& result, const std::string& effect,
-                         const std::string& label) {
-  const Effect* row = find_effect(northlight_effects(), effect);
-  for (const StudyRow& each : result.rows) {
-    if (row != nullptr && each.technique == row->about && each.label == label) return &each;
-  }
-  return nullptr;
-}
-
-std::string adaptive_label(std::uint32_t rays) {
-  return fmt::format("{} rays at most", rays);
-}
-
-std::optional<StudyTable> figure_18(const StudyResult& result) {
-  const StudyRow* ours[] = {
-      find_row(result, "sun-map", "2048 x 2048"), find_row(result, "sun", "1 ray"),
-      find_row(result, "adaptive-sun", adaptive_label(kAdaptiveStandardSamples)),
-      find_row(result, "adaptive-sun", adaptive_label(kAdaptiveHighSamples))};
-  for (const StudyRow* row : ours) {
-    if (row == nullptr) return std::nullopt;
-  }
-  StudyTable out{"figure-18", "The survey's figure 18: shadow maps against rays", {}, {}};
-  out.title += result.title.find(',') == std::string::npos
-                   ? ""
-                   : result.title.substr(result.title.find(','));
-  if (result.family != "shadows") out.name += result.family.substr(std::string("shadows").size());
-  out.cells.columns = {"time over that of hard rays",
-                       "setting here",
-                       "Pub, 1 light",
-                       "4 lights",
-                       "Resort, 1 light",
-                       "4 lights",
-                       "Breakfast, 1 light",
-                       "4 lights",
-                       "here, the sun",
-                       "beside theirs of 1 light"};
-  const SurveyRow& unit = kSurvey[kRaysHard];
-  for (std::size_t i = 0; i < std::size(kSurvey); ++i) {
-    const SurveyRow& row = kSurvey[i];
-    auto& cells = out.cells.rows.emplace_back(std::vector{std::string(row.name), ours[i]->label});
-    std::vector<double> theirs;
-    for (const auto& [scene, by] : {std::pair(row.pub, unit.pub),
-                                    {row.resort, unit.resort},
-                                    {row.breakfast, unit.breakfast}}) {
-      for (int lights = 0; lights < 2; ++lights) {
-        cells.push_back(fmt::format("{:.2f}", scene[lights] / by[lights]));
-      }
-      theirs.push_back(scene[0] / by[0]);
-    }
-    const auto [low, high] = std::minmax_element(theirs.begin(), theirs.end());
-    if (!ours[i]->missing.empty() || !(ours[kRaysHard]->ms > 0)) {
-      cells.push_back("-");
-      cells.push_back("not measured: " + ours[i]->missing);
-      continue;
-    }
-    const double here = ours[i]->ms / ours[kRaysHard]->ms;
-    cells.push_back(fmt::format("{:.2f}", here));
-    cells.push_back(i == kRaysHard ? "the unit"
-                    : here < *low  ? fmt::format("cheaper: {:.2g} of their least", here / *low)
-                    : here > *high ? fmt::format("dearer: {:.2g} times their most", here / *high)
-                                   : "agrees: between their scenes");
-  }
-  out.about = {
-      result.is_measured()
-          ? result.subtitle + fmt::format("; hard rays, which end at the first hit that they find, "
-                                          "take {:.3g} ms",
-                                          ours[kRaysHard]->ms)
-          : result.title + ": not measured, " + ours[kRaysHard]->missing,
-      "Theirs: 1920 x 1080, RTX 2080 Ti, maps of 2048 x 2048 texels; Pub 281 000, Resort 376 000, "
-      "Breakfast 1.4 million triangles. Here: one scene and one light, the sun; four lights are "
-      "not measured, since maps of the sun and adaptive rays are for the sun alone",
-      "Why they differ: here maps are drawn by the same cores that trace rays, and a map costs as "
-      "much for a small picture as for a large one; adaptive rays pay for passes over the picture "
-      "that a GPU hides"};
-  return out;
-}
-
 }  // namespace
 
-rtapi::Result<Outcome> study_claims(const Options& options, const Scene& scene,
-                                    const Progress& progress, std::vector<StudyTable>& tables) {
-  const std::string file = options.out + "/study/claims.json";
-  const std::string key =
-      fmt::format("{} {} {}", picture_key(options, scene), options.repeats, options.cpu_clock);
+rtapi::Result<Outcome> kept_tables(const std::string& file, const std::string& key,
+                                   const MakeTables& make, std::vector<StudyTable>& tables) {
   if (const auto kept = parse_tables(read_text(file), key)) {
     tables.insert(tables.end(), kept->begin(), kept->end());
     return Outcome::kDone;
   }
-  ClaimTable claims;
-  if (const auto s = measure_claims(options, scene, progress, claims); !is_done(s)) return s;
+  std::vector<StudyTable> made;
+  if (const auto s = make(made); !is_done(s)) return s;
   ordered_json out = {{"key", key}, {"tables", ordered_json::array()}};
-  for (const StudyTable& table : {control_table(options, claims), claims_table(options, claims)}) {
+  for (const StudyTable& table : made) {
     out["tables"].push_back(as_json(table));
     tables.push_back(table);
   }
@@ -226,13 +133,19 @@ rtapi::Result<Outcome> study_claims(const Options& options, const Scene& scene,
   return Outcome::kDone;
 }
 
-std::vector<StudyTable> shadow_tables(const std::vector<StudyResult>& results) {
-  std::vector<StudyTable> out;
-  for (const StudyResult& result : results) {
-    if (!result.family.starts_with("shadows")) continue;
-    if (auto table = figure_18(result)) out.push_back(*table);
-  }
-  return out;
+std::string tables_key(const Options& options, const Scene& scene) {
+  return fmt::format("{} {} {}", picture_key(options, scene), options.repeats, options.cpu_clock);
+}
+
+rtapi::Result<Outcome> study_claims(const Options& options, const Scene& scene,
+                                    const Progress& progress, std::vector<StudyTable>& tables) {
+  const auto make = [&](std::vector<StudyTable>& out) -> rtapi::Result<Outcome> {
+    ClaimTable claims;
+    if (const auto s = measure_claims(options, scene, progress, claims); !is_done(s)) return s;
+    out = {control_table(options, claims), claims_table(options, claims)};
+    return Outcome::kDone;
+  };
+  return kept_tables(options.out + "/study/claims.json", tables_key(options, scene), make, tables);
 }
 
 }  // namespace kaamos::measure
