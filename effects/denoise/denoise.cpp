@@ -156,8 +156,10 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
 }
 
 rtapi::Status Denoiser::create_pictures(const rtapi::Device& device, const Frame& frame) {
-  const auto create = [&](Texture& into, const std::string& name) -> rtapi::Status {
-    const auto created = frame.create_picture(device, name, rtapi::Format::kR32G32B32A32Float);
+  const auto create = [&](Texture& into, const std::string& name,
+                          bool half = false) -> rtapi::Status {
+    const auto created = frame.create_picture(
+        device, name, half ? rtapi::Format::kR16G16B16A16Float : rtapi::Format::kR32G32B32A32Float);
     if (!created) return created.error();
     into = *created;
     return {};
@@ -183,7 +185,8 @@ rtapi::Status Denoiser::create_pictures(const rtapi::Device& device, const Frame
         {&channel.clamped, " clamped", desc_.method == DenoiseMethod::kControl}};
     for (const auto& [texture, suffix, wanted] : pictures) {
       if (!wanted) continue;
-      if (const auto s = create(*texture, channel.name + suffix); !s) return s;
+      const bool half = texture == &channel.history && desc_.half_history;
+      if (const auto s = create(*texture, channel.name + suffix, half); !s) return s;
     }
   }
   return {};

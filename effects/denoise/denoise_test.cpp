@@ -369,5 +369,28 @@ TEST_F(DenoiseTest, SignalsShareTheirPipelines) {
   EXPECT_NE(atrous, pass("EstimateVariance"));
 }
 
+// From 1 on half floats go in steps of 1/1024: a twentieth of a change of 0.008 is less than half
+// of one.
+TEST_F(DenoiseTest, HalfHistoryStopsShortOfSmallChanges) {
+  for (const bool half : {false, true}) {
+    DenoiseDesc desc = default_denoise(DenoiseMethod::kTemporal);
+    desc.constants.alpha = 0.05f;
+    desc.constants.max_history = 255;
+    desc.constants.clip_gamma = 0;
+    desc.half_history = half;
+    Denoiser denoiser = make(desc);
+    for (int i = 0; i < 24; ++i) run(denoiser, [](auto, auto) { return 1.0f; });
+    FloatImage shown;
+    for (int i = 0; i < 60; ++i) shown = run(denoiser, [](auto, auto) { return 1.008f; });
+    for_surface([&](std::uint32_t x, std::uint32_t y) {
+      if (half) {
+        EXPECT_LT(shown.at(x, y, 0), 1.001f) << x << ", " << y;
+      } else {
+        EXPECT_GT(shown.at(x, y, 0), 1.007f) << x << ", " << y;
+      }
+    });
+  }
+}
+
 }  // namespace
 }  // namespace kaamos::effects
