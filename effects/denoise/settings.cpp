@@ -77,6 +77,8 @@ SettingTable<DenoiseDesc> denoise_settings() {
            kSvgf),
        count_setting("passes-with-history", &DenoiseDesc::iterations_with_history, {0, 8}, "",
                      "once a sequence has four frames of history"),
+       switch_setting("half-history", &DenoiseDesc::half_history,
+                      "light is kept from frame to frame in half floats, which lag behind"),
        closed_setting(&DenoiseDesc::visibility)});  // visibility_settings
 }
 

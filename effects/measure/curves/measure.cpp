@@ -53,6 +53,7 @@ struct Record {
   double traced = 0;
   Errors errors;
   Errors from_truth;
+  Also also;
 };
 
 rtapi::Result<FloatImage> run_setting(EffectRuns& runs, const Setting& setting,
@@ -226,6 +227,11 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
           has_history(measured) ? in_frame(measured.setting, kSettled) : measured.setting;
       const auto image = run_setting(*runs, now, target, truth, records[i]);
       if (!image) return image.error();
+      if (plan.also && repeat == options.repeats) {
+        auto also = plan.also(*runs, measured, *image, target);
+        if (!also) return also.error();
+        records[i].also = std::move(*also);
+      }
       if (look_at && repeat == options.repeats) {
         if (const auto s = look_at(i, *image, target, truth); !s) return s.error();
       }
@@ -253,6 +259,7 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
       row.truth->bias_squared -= row.truth_rmse * row.truth_rmse;
     }
     row.steps = measured.steps;
+    row.also = records[i].also;
     table.rows.push_back(row);
   }
   return Outcome::kDone;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/assets/image/csv.h"
@@ -22,7 +23,11 @@ struct MeasuredSetting {
   Setting setting;
   std::string reference;  // name of one of the plan's references
   bool steps = true;      // the group's settings are steps of one scale
+  std::size_t frame = 0;  // of StudyPlan::frames
 };
+
+// What a row tells besides its errors: names and numbers.
+using Also = std::vector<std::pair<std::string, double>>;
 
 struct MeasurePlan {
   std::string title;
@@ -40,6 +45,10 @@ struct MeasurePlan {
   bool glass = false;                // only pixels that show glass count
   // What has a path-traced truth is compared with that alone, and references are not rendered.
   bool against_truth = false;
+  // Tells more of a setting behind its last run; null: nothing.
+  std::function<rtapi::Result<Also>(EffectRuns& runs, const MeasuredSetting& measured,
+                                    const effects::FloatImage& image, const Target& target)>
+      also = {};
 };
 
 // The names that --measure takes, in the order of --help: every effect of the registry that has
@@ -67,6 +76,7 @@ struct MeasuredRow {
   std::optional<Errors::Summary> truth;  // against the path-traced truth
   double truth_rmse = 0;                 // standard error of the truth itself
   bool steps = true;
+  Also also;
 };
 
 struct MeasuredTable {
@@ -91,10 +101,19 @@ rtapi::Result<Outcome> run_plan(const MeasurePlan& plan, const Options& options,
                                 MeasuredTable& table, const LookAt& look_at = {});
 rtapi::Result<Outcome> measure_effect(const Options& options, const effects::Scene& scene,
                                       const Progress& progress, MeasuredTable& table);
+// A denoiser to measure.
+struct MeasuredDenoiser {
+  std::string label;
+  effects::DenoiseDesc desc;
+  bool is_step = false;  // of a scale that another one stands for
+};
+// Those of --measure svgf.
+std::vector<MeasuredDenoiser> measured_denoisers();
 // `look_at` gets the last frames of the last seed, with the number of the row in the table.
-rtapi::Result<Outcome> measure_denoisers(const Options& options, const effects::Scene& scene,
-                                         const Progress& progress, MeasuredTable& table,
-                                         const LookAt& look_at = {});
+rtapi::Result<Outcome> measure_denoisers(
+    const Options& options, const effects::Scene& scene, const Progress& progress,
+    MeasuredTable& table, const LookAt& look_at = {},
+    const std::vector<MeasuredDenoiser>& denoisers = measured_denoisers());
 
 rtapi::Result<Outcome> measure_frame(const Options& options, const effects::Scene& scene,
                                      const Progress& progress, MeasuredTable& table);

@@ -24,25 +24,6 @@ namespace {
 // Frames of each sequence; histories need some of them to settle.
 constexpr std::uint32_t kFrames = 8;
 
-struct Method {
-  const char* label;
-  DenoiseMethod method;
-  std::uint32_t iterations = 5;
-  std::uint32_t iterations_with_history = 3;
-  bool has_passes = false;  // stands for a number of SVGF's passes
-};
-
-constexpr Method kMethods[] = {{"gaussian", DenoiseMethod::kGaussian},
-                               {"bilateral", DenoiseMethod::kBilateral},
-                               {"temporal", DenoiseMethod::kTemporal},
-                               {"svgf", DenoiseMethod::kSvgf},
-                               {"control", DenoiseMethod::kControl},
-                               {"a-svgf", DenoiseMethod::kAdaptiveSvgf, 5, 5},
-                               {"svgf, 0 passes", DenoiseMethod::kSvgf, 0, 0, true},
-                               {"svgf, 1 pass", DenoiseMethod::kSvgf, 1, 1, true},
-                               {"svgf, 3 passes", DenoiseMethod::kSvgf, 3, 3, true},
-                               {"svgf, 5 passes", DenoiseMethod::kSvgf, 5, 5, true}};
-
 // The errors of one method at one frame of a sequence.
 struct Place {
   std::vector<double> ms;
@@ -72,10 +53,12 @@ struct MeasuredSignal {
 // in its last frame.
 class Motion {
  public:
-  Motion(EffectRuns& runs, const Options& options, const CameraPath& path, bool is_still)
+  Motion(EffectRuns& runs, const Options& options, const std::vector<MeasuredDenoiser>& denoisers,
+         const CameraPath& path, bool is_still)
       : runs_(runs),
         renderer_(runs.renderer()),
         options_(options),
+        denoisers_(denoisers),
         path_(path),
         is_still_(is_still) {}
 
@@ -91,7 +74,7 @@ class Motion {
  private:
   FrameMoment moment(std::uint32_t frame) const;
   rtapi::Result<Outcome> render(std::uint32_t frame);
-  rtapi::Status create_subject(const Method& method);
+  rtapi::Status create_subject(const MeasuredDenoiser& denoiser);
   rtapi::Result<FloatImage> read(const Subject& subject, const MeasuredSignal& signal);
   rtapi::Status look(Subject& subject, std::uint32_t frame, double ms);
   rtapi::Status run_frame(std::uint32_t frame);
@@ -102,6 +85,7 @@ class Motion {
   EffectRuns& runs_;
   FrameRenderer& renderer_;
   const Options& options_;
+  const std::vector<MeasuredDenoiser>& denoisers_;
   const CameraPath& path_;
   bool is_still_;
   std::vector<MeasuredSignal> signals_;
@@ -144,26 +128,23 @@ rtapi::Result<Outcome> Motion::create(const std::vector<MeasuredSignal>& signals
     }
   }
   subjects_.push_back({.label = "raw"});
-  for (const Method& method : kMethods) {
-    if (const auto s = create_subject(method); !s) return s.error();
+  for (const MeasuredDenoiser& denoiser : denoisers_) {
+    if (const auto s = create_subject(denoiser); !s) return s.error();
   }
   return Outcome::kDone;
 }
 
-rtapi::Status Motion::create_subject(const Method& method) {
-  Subject subject{.label = method.label,
+rtapi::Status Motion::create_subject(const MeasuredDenoiser& denoiser) {
+  Subject subject{.label = denoiser.label,
                   .filters = std::make_unique<SignalFilters>(),
-                  .needs_gradients = method.method == DenoiseMethod::kAdaptiveSvgf};
+                  .needs_gradients = denoiser.desc.method == DenoiseMethod::kAdaptiveSvgf};
   for (const MeasuredSignal& signal : signals_) {
     if (const auto s = renderer_.filters().add_signal(*subject.filters, signal.name); !s) return s;
   }
-  DenoiseDesc desc = default_denoise(method.method);
-  desc.iterations = method.iterations;
-  desc.iterations_with_history = method.iterations_with_history;
   const auto libraries = denoise_libraries();
   if (!libraries) return libraries.error();
   const auto created =
-      subject.filters->create(renderer_.device(), renderer_.frame(), *libraries, desc);
+      subject.filters->create(renderer_.device(), renderer_.frame(), *libraries, denoiser.desc);
   if (!created) return created;
   subjects_.push_back(std::move(subject));
   return {};
@@ -263,7 +244,7 @@ void Motion::add_summary(const MeasuredSignal& signal, bool is_last, MeasuredTab
   if (table.summary.empty()) {
     table.summary = fmt::format("\n{:<30}", "RMSE");
     for (std::size_t i = 0; i < subjects_.size(); ++i) {
-      if (i > 0 && kMethods[i - 1].has_passes) continue;
+      if (i > 0 && denoisers_[i - 1].is_step) continue;
       table.summary += fmt::format("{:>11}", subjects_[i].label);
     }
     table.summary += "\n";
@@ -271,7 +252,7 @@ void Motion::add_summary(const MeasuredSignal& signal, bool is_last, MeasuredTab
   table.summary += fmt::format(
       "{:<30}", fmt::format("{}, {}, frame {}", signal.name, name(), is_last ? kFrames : 1));
   for (std::size_t i = 0; i < subjects_.size(); ++i) {
-    if (i > 0 && kMethods[i - 1].has_passes) continue;
+    if (i > 0 && denoisers_[i - 1].is_step) continue;
     const Place& place = (is_last ? subjects_[i].last : subjects_[i].first).at(signal.name);
     const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
     table.summary += fmt::format("{:>11.4f}", place.errors.summary(target).rmse);
@@ -316,11 +297,39 @@ std::vector<MeasuredSignal> measured_signals(const Options& options, const Scene
   return out;
 }
 
+MeasuredDenoiser svgf_with(const char* label, std::uint32_t passes) {
+  MeasuredDenoiser out{label, default_denoise(DenoiseMethod::kSvgf), true};
+  out.desc.iterations = out.desc.iterations_with_history = passes;
+  return out;
+}
+
 }  // namespace
+
+std::vector<MeasuredDenoiser> measured_denoisers() {
+  std::vector<MeasuredDenoiser> out;
+  for (const auto& [label, method] :
+       {std::pair("gaussian", DenoiseMethod::kGaussian),
+        std::pair("bilateral", DenoiseMethod::kBilateral),
+        std::pair("temporal", DenoiseMethod::kTemporal), std::pair("svgf", DenoiseMethod::kSvgf),
+        std::pair("control", DenoiseMethod::kControl),
+        std::pair("a-svgf", DenoiseMethod::kAdaptiveSvgf)}) {
+    out.push_back({label, default_denoise(method)});
+    DenoiseDesc& desc = out.back().desc;
+    desc.iterations = 5;
+    desc.iterations_with_history = method == DenoiseMethod::kAdaptiveSvgf ? 5 : 3;
+  }
+  for (const auto& [label, passes] :
+       {std::pair("svgf, 0 passes", 0u), std::pair("svgf, 1 pass", 1u),
+        std::pair("svgf, 3 passes", 3u), std::pair("svgf, 5 passes", 5u)}) {
+    out.push_back(svgf_with(label, passes));
+  }
+  return out;
+}
 
 rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& scene,
                                          const Progress& progress, MeasuredTable& table,
-                                         const LookAt& look_at) {
+                                         const LookAt& look_at,
+                                         const std::vector<MeasuredDenoiser>& denoisers) {
   std::vector<std::string> effects;
   for (const auto& [name, ignored] : options.frame.effects) effects.push_back(name);
   const auto path = choose_path(options, scene);
@@ -340,7 +349,7 @@ rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& sc
                   options.frame.width, options.frame.height, options.backend, options.seeds,
                   kFrames, path.value().name, options.cpu_clock ? ", CPU time over threads" : "");
   for (const bool is_still : {true, false}) {
-    Motion motion(*runs, options, path.value(), is_still);
+    Motion motion(*runs, options, denoisers, path.value(), is_still);
     if (const auto s = motion.create(signals, progress); !is_done(s)) return s;
     if (const auto s = motion.measure(progress); !is_done(s)) return s;
     if (const auto s = motion.add_rows(table, look_at); !s) return s.error();

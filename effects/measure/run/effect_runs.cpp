@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "effects/assets/common/sampling.h"
+#include "effects/denoise/denoise.h"
 #include "effects/engine/picture.h"
 #include "effects/measure/run/picture_key.h"
 
@@ -48,12 +50,13 @@ Setting setting_of(const std::string& effect, std::uint32_t samples) {
 }
 
 void add_setting(Checksum& checksum, const Setting& setting) {
-  const auto& [effect, settings, first_sample, lit, times_ao] = setting;
+  const auto& [effect, settings, first_sample, lit, times_ao, independent] = setting;
   checksum.add(effect);
   add_settings(checksum, settings);
   checksum.add_value(first_sample);
   checksum.add_value(lit);
   checksum.add_value(times_ao);
+  checksum.add_value(independent);
 }
 
 Setting in_frame(Setting setting, std::uint32_t index) {
@@ -82,6 +85,7 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
   out->renderer_ = std::move(*renderer);
   out->ao_radius_ = options.effects.at("ao").radius;
   out->key_ = picture_key(own, scene);
+  out->seed_ = options.frame.seed;
   out->seconds_ = options.seconds.value_or(0.0);
   if (options.cpu_clock) {
     out->renderer_->runner().set_clock(cpu_clock(options.threads));
@@ -150,12 +154,67 @@ bool EffectRuns::is_glass(const Setting& setting) const {
   return find_effect(renderer_->context().effects, setting.effect)->needs.glass;
 }
 
+rtapi::Status EffectRuns::set_seed(std::uint32_t seed) {
+  seed_ = seed;
+  return renderer_->set_seed(seed);
+}
+
+rtapi::Result<RunStatistics> EffectRuns::run_independent(const Setting& setting) {
+  Setting one = setting;
+  one.settings.samples = 1;
+  one.independent = false;
+  RunStatistics all;
+  for (std::uint32_t i = 0; i < setting.settings.samples; ++i) {
+    if (const auto s = renderer_->set_seed(hash_combine(seed_, i)); !s) return s.error();
+    const auto ran = run(one);
+    if (!ran) return ran;
+    all.ms += ran->ms;
+    all.rays += ran->rays;
+    const auto image = read(one);
+    if (!image) return image.error();
+    if (i == 0) mean_ = FloatImage(image->width, image->height, image->channels);
+    for (std::size_t k = 0; k < mean_.values.size(); ++k) {
+      mean_.values[k] += image->values[k] / static_cast<float>(setting.settings.samples);
+    }
+  }
+  if (const auto s = renderer_->set_seed(seed_); !s) return s.error();
+  return all;
+}
+
+rtapi::Result<double> EffectRuns::upscale(const EffectSignal& signal, std::uint32_t samples) {
+  Upscaled& into = upscaled_[signal.name];
+  const Frame& frame = renderer_->frame();
+  if (!into.picture) {
+    const auto picture = frame.create_picture(renderer_->device(), signal.name + " upscaled",
+                                              rtapi::Format::kR32G32B32A32Float);
+    if (!picture) return picture.error();
+    into.picture = *picture;
+    const auto libraries = denoise_libraries();
+    if (!libraries) return libraries.error();
+    auto load = SumLoad::create(renderer_->device(), frame, *libraries,
+                                renderer_->effects().sum(signal.name), into.picture, 2);
+    if (!load) return load.error();
+    into.load = std::move(*load);
+  }
+  return renderer_->runner().execute([&](rtapi::CommandList& list) {
+    into.load.record(list, frame, 1.0f / static_cast<float>(samples));
+  });
+}
+
 rtapi::Result<RunStatistics> EffectRuns::run(const Setting& setting) {
+  if (setting.independent) return run_independent(setting);
   if (is_glass(setting)) {
     if (!background_) return renderer_->run(setting.effect, setting.settings);
     if (const auto drawn = draw_background(); !drawn) return drawn.error();
   }
   const auto ran = renderer_->run(setting.effect, setting.settings, setting.first_sample);
+  if (ran && setting.settings.pixel_step == 2) {
+    const auto ms =
+        upscale(find_effect(renderer_->context().effects, setting.effect)->signals.front(),
+                setting.settings.samples);
+    if (!ms) return ms.error();
+    return RunStatistics{ran->ms + *ms, ran->rays};
+  }
   if (!ran || setting.times_ao == 0) return ran;
   EffectSettings occlusion;
   occlusion.samples = setting.times_ao;
@@ -187,8 +246,14 @@ rtapi::Result<FloatImage> EffectRuns::read_lit() {
 
 rtapi::Result<FloatImage> EffectRuns::read(const Setting& setting) {
   if (setting.lit) return read_lit();
+  if (setting.independent) return mean_;
   const EffectSignal& signal =
       find_effect(renderer_->context().effects, setting.effect)->signals.front();
+  if (setting.settings.pixel_step == 2) {
+    const auto upscaled = renderer_->read(upscaled_.at(signal.name).picture);
+    if (!upscaled) return upscaled.error();
+    return first_channels(*upscaled, signal.channels);
+  }
   const auto image = renderer_->read(is_glass(setting) ? "radiance" : signal.name);
   if (!image) return image.error();
   FloatImage out = first_channels(*image, signal.channels);

@@ -6,12 +6,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/assets/common/checksum.h"
+#include "effects/denoise/sum_load.h"
 #include "effects/measure/run/frame_result.h"
 #include "effects/measure/run/options.h"
 #include "effects/northlight/frame_renderer.h"
@@ -25,6 +27,7 @@ struct Setting {
   std::uint32_t first_sample = 0;  // of each pixel's sequence
   bool lit = false;                // contact: what is read is the radiance of the local lights
   std::uint32_t times_ao = 0;      // multiplied with ambient occlusion of so many rays; 0: not
+  bool independent = false;        // each sample has random numbers of its own: white noise
 
   // Changes the effect's constants.
   template <class T, class Change>
@@ -38,7 +41,8 @@ struct Setting {
 // That effect with `samples` rays a pixel, all else as its row of the registry has it.
 Setting setting_of(const std::string& effect, std::uint32_t samples = 1);
 
-// Milliseconds of processor time of this process over `threads` (0: all), for PassRunner::set_clock.
+// Milliseconds of processor time of this process over `threads` (0: all), for
+// PassRunner::set_clock.
 std::function<double()> cpu_clock(std::uint32_t threads);
 
 // Adds all members, for keys.
@@ -60,14 +64,15 @@ class EffectRuns {
   rtapi::Result<effects::RunStatistics> run(const Setting& setting);
   // The same for many samples, so that it can be stopped.
   rtapi::Result<Outcome> accumulate(const Setting& setting, const Progress& progress);
-  // The mean of the samples of the last run, without channels that say something else. `lit`
+  // The mean of the samples of the last run, without channels that say something else. Where one of
+  // four pixels was traced, the others are worked out from them, and run() timed that too. `lit`
   // shadows: the radiance of the local lights. Glass: the frame's radiance behind and with it.
   rtapi::Result<effects::FloatImage> read(const Setting& setting);
   // Reads the background, which glass stands in front of.
   rtapi::Result<effects::FloatImage> read_background();
   // The picture to which a run adds.
   rtapi::Texture sum(const Setting& setting) const;
-  rtapi::Status set_seed(std::uint32_t seed) { return renderer_->set_seed(seed); }
+  rtapi::Status set_seed(std::uint32_t seed);
   // Moves on to a frame of a sequence at rest; the first one is a cut.
   rtapi::Status begin_frame(std::uint32_t index);
 
@@ -85,12 +90,22 @@ class EffectRuns {
   rtapi::Status create_background();
   rtapi::Status draw_background();
   rtapi::Result<effects::FloatImage> read_lit();
+  rtapi::Result<effects::RunStatistics> run_independent(const Setting& setting);
+  // The picture of a signal with all pixels, of one with a fourth of them; milliseconds.
+  rtapi::Result<double> upscale(const effects::EffectSignal& signal, std::uint32_t samples);
 
   std::unique_ptr<effects::FrameRenderer> renderer_;
   float ao_radius_ = 0;
   std::string key_;                                   // of the frame
   double seconds_ = 0;                                // on the scene's clock
   std::optional<effects::CompositePass> background_;  // what glass is seen before
+  std::uint32_t seed_ = 0;
+  effects::FloatImage mean_;  // of the last independent samples
+  struct Upscaled {
+    rtapi::Texture picture;
+    effects::SumLoad load;
+  };
+  std::map<std::string, Upscaled> upscaled_;  // by signal
 };
 
 }  // namespace kaamos::measure

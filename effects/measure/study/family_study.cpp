@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "effects/measure/study/files.h"
 #include "effects/measure/study/findings.h"
 #include "effects/measure/study/motion.h"
+#include "effects/measure/study/sweep_lag.h"
 
 namespace kaamos::measure {
 
@@ -50,7 +52,10 @@ class PartStudy {
         options_(options_of(part, options)),
         scene_(scene),
         folder_(options.out + "/study") {
-    if (!part.family.effect.empty()) plan_ = study_plan(part.family, options_, options.quick);
+    if (part.family.effect.empty()) return;
+    StudyPlan planned = study_plan(part.family, options_, options.quick);
+    plan_ = std::move(planned.plan);
+    frames_ = std::move(planned.frames);
   }
 
   rtapi::Result<Outcome> run(const Progress& progress, std::vector<StudyResult>& results) {
@@ -120,7 +125,7 @@ class PartStudy {
   // A result for each question that the family answers: settings that are compared with the same.
   // Only ambient occlusion has several, by radius.
   void begin_results(std::vector<StudyResult>& results) {
-    const bool is_split = part_.family.effect == "ao";
+    const bool is_split = part_.family.name == "ao";
     for (const MeasuredSetting& each : plan_.settings) {
       const bool is_first = !is_split || each.reference == plan_.references.front().name;
       const std::string question = is_first ? "" : each.reference.substr(each.reference.find('-'));
@@ -145,6 +150,12 @@ class PartStudy {
   }
 
   rtapi::Result<Outcome> measure(const Progress& progress, std::vector<StudyResult>& results) {
+    if (part_.family.name == "sweep-lag-switch") {
+      return measure_lag_of(LagCause::kSwitch, progress, results);
+    }
+    if (part_.family.name == "sweep-lag-move") {
+      return measure_lag_of(LagCause::kMove, progress, results);
+    }
     if (part_.family.effect.empty()) return measure_filters(progress, results);
     begin_results(results);
     if (results.empty()) return Outcome::kDone;
@@ -154,23 +165,54 @@ class PartStudy {
       }
       return Outcome::kDone;
     }
+    pictures_.resize(places_.size());
+    for (std::size_t frame = 0; frame < std::max<std::size_t>(frames_.size(), 1); ++frame) {
+      const auto done = measure_frame_of(frame, progress, results);
+      if (!is_done(done)) return done;
+    }
+    note_equal(results);
+    return Outcome::kDone;
+  }
+
+  // The settings of one of the plan's frames.
+  rtapi::Result<Outcome> measure_frame_of(std::size_t frame, const Progress& progress,
+                                          std::vector<StudyResult>& results) {
+    MeasurePlan plan = plan_;
+    plan.settings.clear();
+    std::vector<std::size_t> settings;  // their places in plan_
+    for (std::size_t i = 0; i < plan_.settings.size(); ++i) {
+      if (plan_.settings[i].frame != frame) continue;
+      settings.push_back(i);
+      plan.settings.push_back(plan_.settings[i]);
+    }
+    if (settings.empty()) return Outcome::kDone;
+    Options options = options_;
+    if (part_.family.is_sweep) {
+      drop_unused_references(plan);
+      if (!plan.against_truth) options.measure_truth = 0;
+    }
+    std::optional<Scene> changed;
+    if (!frames_.empty()) {
+      changed = scene_;
+      frames_[frame].change(options, *changed);
+    }
     MeasuredTable table;
-    std::vector<std::uint64_t> pictures(places_.size());
     const LookAt look_at = [&](std::size_t setting, const FloatImage& image, const Target& target,
                                const Target* truth) {
       Checksum checksum;
       checksum.add_values(image.values);
-      pictures[setting] = checksum.value();
-      const auto& [result, row] = places_[setting];
+      pictures_[settings[setting]] = checksum.value();
+      const auto& [result, row] = places_[settings[setting]];
       return keep_pictures(row, image, truth != nullptr ? *truth : target, results[result]);
     };
-    const auto done = part_.moves ? run_motion(plan_, options_, scene_, progress, table, look_at)
-                                  : run_plan(plan_, options_, scene_, progress, table, look_at);
+    const Scene& scene = changed ? *changed : scene_;
+    const auto done = part_.moves ? run_motion(plan, options, scene, progress, table, look_at)
+                                  : run_plan(plan, options, scene, progress, table, look_at);
     if (!is_done(done)) return done;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const MeasuredRow& measured = table.rows[i];
-      StudyResult& result = results[places_[i].first];
-      fill(measured, row_of(i, results));
+      StudyResult& result = results[places_[settings[i]].first];
+      fill(measured, row_of(settings[i], results));
       result.subtitle = table.subtitle;
       result.signal = plan_.signal;
       result.about = table.about;
@@ -179,8 +221,14 @@ class PartStudy {
                                                   options_.measure_reference);
       result.truth_error = measured.truth ? measured.truth_rmse : measured.reference_rmse;
     }
-    note_equal(pictures, results);
     return Outcome::kDone;
+  }
+
+  static void drop_unused_references(MeasurePlan& plan) {
+    std::erase_if(plan.references, [&](const MeasurePlan::Reference& reference) {
+      return std::none_of(plan.settings.begin(), plan.settings.end(),
+                          [&](const auto& each) { return each.reference == reference.name; });
+    });
   }
 
   StudyRow begin_row(const MeasuredSetting& measured) const {
@@ -206,11 +254,11 @@ class PartStudy {
   }
 
   // Two rows with one picture measure nothing, unless one of their effects says why.
-  void note_equal(const std::vector<std::uint64_t>& pictures,
-                  std::vector<StudyResult>& results) const {
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      const auto first = std::find(pictures.begin(), pictures.end(), pictures[i]);
-      const auto same = static_cast<std::size_t>(first - pictures.begin());
+  void note_equal(std::vector<StudyResult>& results) const {
+    if (part_.family.is_sweep) return;  // over a wide enough range a setting stops to matter
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      const auto first = std::find(pictures_.begin(), pictures_.end(), pictures_[i]);
+      const auto same = static_cast<std::size_t>(first - pictures_.begin());
       if (same == i) continue;
       StudyRow& row = row_of(i, results);
       const StudyRow& other = row_of(same, results);
@@ -229,8 +277,10 @@ class PartStudy {
   rtapi::Result<Outcome> measure_filters(const Progress& progress,
                                          std::vector<StudyResult>& results) {
     Options own = options_;
-    std::vector<std::string> effects = {"gi", "reflections"};
-    if (scene_.sun) effects.insert(effects.begin(), "sun");
+    const bool is_sweep = part_.family.is_sweep;
+    std::vector<std::string> effects = {"gi"};
+    if (!is_sweep) effects.emplace_back("reflections");
+    if (!is_sweep && scene_.sun) effects.insert(effects.begin(), "sun");
     choose(own, effects);
     if (own.camera_path.empty()) own.camera_path = "dolly";
     struct Seen {
@@ -245,7 +295,8 @@ class PartStudy {
         [&](std::size_t row, const FloatImage& image, const Target& target, const Target*) {
           seen.push_back({row, image, target});
           return rtapi::Status();
-        });
+        },
+        is_sweep ? lagging_denoisers() : measured_denoisers());
     if (!is_done(done)) return done;
     for (const Seen& each : seen) {
       const MeasuredRow& measured = table.rows[each.row];
@@ -271,13 +322,38 @@ class PartStudy {
       row.command = fmt::format("{} --families {}", options_.command, part_.family.name);
       fill(measured, row);
       const std::size_t comma = measured.label.find(", ");
-      row.technique = comma == std::string::npos ? measured.label
-                                                 : measured.label.substr(0, comma) + " by passes";
+      row.technique = comma == std::string::npos
+                          ? measured.label
+                          : measured.label.substr(0, comma) + (is_sweep ? "" : " by passes");
       row.label =
           comma == std::string::npos ? "as it is by default" : measured.label.substr(comma + 2);
       const auto kept = keep_pictures(result.rows.size() - 1, each.image, each.target, result);
       if (!kept) return kept.error();
     }
+    return Outcome::kDone;
+  }
+
+  rtapi::Result<Outcome> measure_lag_of(LagCause cause, const Progress& progress,
+                                        std::vector<StudyResult>& results) {
+    StudyResult result = begin_result(part_.name(), part_.family.title);
+    result.signal = "indirect light";
+    result.truth = "mean of the raw frames behind the change";
+    MeasuredTable table;
+    const LookAt look_at = [&](std::size_t setting, const FloatImage& image, const Target& target,
+                               const Target*) {
+      const MeasuredRow& measured = table.rows[setting];
+      StudyRow& row = result.rows.emplace_back();
+      row.effect = "gi";
+      row.technique = measured.group;
+      row.label = measured.label;
+      row.command = fmt::format("{} --families {}", options_.command, part_.family.name);
+      fill(measured, row);
+      return keep_pictures(result.rows.size() - 1, image, target, result);
+    };
+    const auto done = measure_lag(cause, options_, scene_, progress, table, look_at);
+    if (!is_done(done)) return done;
+    result.subtitle = table.subtitle;
+    results.push_back(std::move(result));
     return Outcome::kDone;
   }
 
@@ -291,6 +367,7 @@ class PartStudy {
     row.ssim = errors.ssim;
     row.energy = errors.energy_ratio;
     row.flicker = measured.flicker;
+    row.also = measured.also;
   }
 
   rtapi::Status keep_pictures(std::size_t setting, const FloatImage& image, const Target& wanted,
@@ -317,7 +394,9 @@ class PartStudy {
   const Scene& scene_;
   std::string folder_;
   MeasurePlan plan_;
+  std::vector<StudyFrame> frames_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  // of settings: result, row
+  std::vector<std::uint64_t> pictures_;                      // of settings, by their checksums
 };
 
 }  // namespace
@@ -336,7 +415,8 @@ std::vector<StudyPart> study_parts(const StudyFamily& family, const Options& opt
       // Denoisers are measured at rest and in motion at once; --quick stays still, and what has no
       // path-traced truth has none in motion. Glass stands in front of a background at rest.
       const bool stays =
-          family.effect.empty() || family.effect == "contact" || family.effect == "transparent";
+          family.effect.empty() || family.effect == "contact" ||
+                           family.effect == "transparent" || family.is_sweep;
       if (moves && (options.quick || stays)) continue;
       out.push_back({family, backend, moves, is_second});
     }

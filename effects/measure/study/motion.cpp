@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "effects/assets/image/flicker.h"
-#include "effects/assets/scene/shapes.h"
 #include "effects/measure/run/camera_choice.h"
 #include "effects/measure/run/failure.h"
+#include "effects/measure/study/moving_box.h"
 #include "effects/measure/truth/measure_truth.h"
 #include "effects/measure/truth/truth.h"
 
@@ -26,39 +26,6 @@ namespace {
 constexpr std::uint32_t kFrames = 6;
 constexpr std::uint32_t kFirstMeasured = 2;           // histories begin to tell something
 constexpr std::uint32_t kSamplesOfOthers = 1u << 20;  // no setting has so many in all frames
-constexpr double kMoverHalf = 0.25;                   // metres
-constexpr double kMoverSpeed = 1.5;                   // metres a second
-
-// The scene with a box that crosses what the camera looks at.
-Scene with_mover(Scene scene) {
-  const Camera& camera = scene.cameras.front();
-  const double ahead =
-      std::min(3.0, 0.3 * glm::length(glm::dvec3(scene_bounds(scene).size())) + 0.5);
-  const glm::dvec3 side(camera.camera_to_world[0]);
-  Mesh mesh;
-  mesh.name = "mover";
-  add_shape(mesh, box(glm::dvec3(std::min(kMoverHalf, 0.1 * ahead))), 0);
-  Node node;
-  node.name = "mover";
-  node.translation = camera.position() + ahead * camera.forward();
-  Channel way{.node = static_cast<std::uint32_t>(scene.nodes.size()),
-              .path = ChannelPath::kTranslation};
-  for (const double seconds : {0.0, 1.0}) {
-    const glm::dvec3 at = node.translation + (seconds - 0.1) * kMoverSpeed * side;
-    way.times.push_back(static_cast<float>(seconds));
-    way.values.push_back(glm::vec4(glm::vec3(at), 0));
-  }
-  Instance instance;
-  instance.name = "mover";
-  instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  instance.motion.node = static_cast<std::int32_t>(scene.nodes.size());
-  instance.motion.animation = static_cast<std::int32_t>(scene.animations.size());
-  scene.meshes.push_back(std::move(mesh));
-  scene.nodes.push_back(node);
-  scene.animations.push_back({"mover", {way}, 1.0});
-  scene.instances.push_back(instance);
-  return scene;
-}
 
 // The measurements of one setting so far.
 struct Track {

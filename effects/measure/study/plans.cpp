@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "effects/measure/curves/techniques.h"
+#include "effects/measure/study/sweep_plans.h"
 
 namespace kaamos::measure {
 
@@ -78,6 +79,13 @@ void sweep_radii(const Options& options, bool quick, MeasurePlan& plan) {
   }
 }
 
+void keep_rows(const std::vector<std::string>& rows, MeasurePlan& plan) {
+  if (rows.empty()) return;
+  std::erase_if(plan.settings, [&](const MeasuredSetting& each) {
+    return std::count(rows.begin(), rows.end(), row_name(each)) == 0;
+  });
+}
+
 bool belongs_to(const Effect& row, const StudyFamily& family) {
   return row.name == family.effect || row.alternative_to == family.effect;
 }
@@ -100,10 +108,18 @@ std::vector<std::string> study_family_names() {
   for (const StudyFamily& family : study_families()) out.push_back(family.name);
   out.push_back("figure-18");
   out.push_back("claims");
+  for (const StudyFamily& sweep : study_sweeps()) out.push_back(sweep.name);
+  out.push_back("sweeps");
   return out;
 }
 
-MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool quick) {
+StudyPlan study_plan(const StudyFamily& family, const Options& options, bool quick) {
+  if (family.is_sweep) {
+    StudyPlan out = sweep_plan(family, options);
+    if (quick) keep_three_of_each(out.plan);
+    keep_rows(options.rows, out.plan);
+    return out;
+  }
   Options own = options;
   own.measure = family.effect;
   own.quick = false;  // all techniques together, further down
@@ -127,12 +143,8 @@ MeasurePlan study_plan(const StudyFamily& family, const Options& options, bool q
   }
   if (quick) keep_three_of_each(plan);
   if (family.effect == "ao") sweep_radii(options, quick, plan);
-  if (!options.rows.empty()) {
-    std::erase_if(plan.settings, [&](const MeasuredSetting& each) {
-      return std::count(options.rows.begin(), options.rows.end(), row_name(each)) == 0;
-    });
-  }
-  return plan;
+  keep_rows(options.rows, plan);
+  return {std::move(plan), {}};
 }
 
 std::string row_name(const MeasuredSetting& setting) {

@@ -96,11 +96,19 @@ std::string table_of(const StudyResult& result) {
   for (const std::size_t i : pareto_front(result.trades())) front.insert(i);
   const bool has_flicker = std::any_of(result.rows.begin(), result.rows.end(),
                                        [](const StudyRow& row) { return row.flicker >= 0; });
+  std::string heads;
+  std::size_t also = 0;
+  for (const StudyRow& row : result.rows) {
+    if (row.also.size() <= also) continue;
+    also = row.also.size();
+    heads.clear();
+    for (const auto& [name, number] : row.also) heads += "<th>" + escaped(name) + "</th>";
+  }
   std::string out = fmt::format(
       "<table><thead><tr><th>technique</th><th>setting</th><th>ms</th><th>rays a pixel</th>"
       "<th>RMSE</th><th>FLIP</th><th>SSIM</th><th>energy</th>{}<th>spread of ms</th><th></th></tr>"
       "</thead><tbody class=\"settings\">\n",
-      has_flicker ? "<th>flicker</th>" : "");
+      (has_flicker ? "<th>flicker</th>" : "") + heads);
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const StudyRow& row = result.rows[i];
     const std::string begin = fmt::format(
@@ -108,17 +116,20 @@ std::string table_of(const StudyResult& result) {
         escaped(row.command), escaped(row.technique), escaped(row.label));
     if (!row.missing.empty()) {
       out += begin + fmt::format("<td colspan=\"{}\">not measured: {}</td></tr>\n",
-                                 has_flicker ? 9 : 8, escaped(row.missing));
+                                 (has_flicker ? 9 : 8) + also, escaped(row.missing));
       continue;
     }
+    std::string more;
+    for (const auto& [name, number] : row.also) more += fmt::format("<td>{:.3g}</td>", number);
     out += begin;
     out += fmt::format(
         "<td>{:.3g}</td><td>{:.2f}</td><td>{:.3g}</td><td>{:.4f}</td>"
         "<td>{:.4f}</td><td>{:.3f}</td>{}<td>{:.0f} %</td><td>{}</td></tr>\n",
         row.ms, row.traced, row.error, row.flip, row.ssim, row.energy,
-        !has_flicker       ? std::string()
-        : row.flicker >= 0 ? fmt::format("<td>{:.4f}</td>", row.flicker)
-                           : std::string("<td></td>"),
+        (!has_flicker       ? std::string()
+         : row.flicker >= 0 ? fmt::format("<td>{:.4f}</td>", row.flicker)
+                            : std::string("<td></td>")) +
+            more,
         100 * row.ms_spread, escaped(row.note));
   }
   return out + "</tbody></table>\n";

@@ -43,6 +43,7 @@ ordered_json as_json(const StudyResult& result) {
                     {"ssim", row.ssim},
                     {"energy", row.energy},
                     {"flicker", row.flicker},
+                    {"also", row.also},
                     {"picture", row.picture},
                     {"difference", row.difference}});
   }
@@ -62,6 +63,12 @@ ordered_json as_json(const StudyResult& result) {
           {"rows", rows}};
 }
 
+// What is not finite, such as the energy of what should be black, has no number in JSON.
+double number_in(const ordered_json& in, const char* name) {
+  const ordered_json& value = in.at(name);
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
 StudyResult as_result(const ordered_json& in) {
   StudyResult out;
   in.at("family").get_to(out.family);
@@ -75,7 +82,7 @@ StudyResult as_result(const ordered_json& in) {
   in.at("signal").get_to(out.signal);
   in.at("truth").get_to(out.truth);
   in.at("truth_picture").get_to(out.truth_picture);
-  in.at("truth_rmse").get_to(out.truth_error);
+  out.truth_error = number_in(in, "truth_rmse");
   in.at("about").get_to(out.about);
   for (const ordered_json& each : in.at("rows")) {
     StudyRow row;
@@ -85,14 +92,15 @@ StudyResult as_result(const ordered_json& in) {
     each.at("command").get_to(row.command);
     each.at("missing").get_to(row.missing);
     each.at("note").get_to(row.note);
-    each.at("ms").get_to(row.ms);
-    each.at("ms_spread").get_to(row.ms_spread);
-    each.at("rays").get_to(row.traced);
-    each.at("rmse").get_to(row.error);
-    each.at("flip").get_to(row.flip);
-    each.at("ssim").get_to(row.ssim);
-    each.at("energy").get_to(row.energy);
-    each.at("flicker").get_to(row.flicker);
+    row.ms = number_in(each, "ms");
+    row.ms_spread = number_in(each, "ms_spread");
+    row.traced = number_in(each, "rays");
+    row.error = number_in(each, "rmse");
+    row.flip = number_in(each, "flip");
+    row.ssim = number_in(each, "ssim");
+    row.energy = number_in(each, "energy");
+    row.flicker = number_in(each, "flicker");
+    each.at("also").get_to(row.also);
     each.at("picture").get_to(row.picture);
     each.at("difference").get_to(row.difference);
     out.rows.push_back(row);
@@ -123,8 +131,8 @@ std::optional<std::vector<StudyResult>> parse_results(const std::string& text) {
 Table as_csv(const std::vector<StudyResult>& results) {
   constexpr std::size_t kNumbers = 9;
   Table out;
-  out.columns = {"family", "technique", "setting", "ms",       "rays",      "rmse", "flip",
-                 "ssim",   "energy",    "flicker", "on_front", "ms_spread", "note", "command"};
+  out.columns = {"family", "technique", "setting",  "ms",        "rays", "rmse", "flip",   "ssim",
+                 "energy", "flicker",   "on_front", "ms_spread", "also", "note", "command"};
   for (const StudyResult& result : results) {
     std::vector<bool> is_on_front(result.rows.size());
     for (const std::size_t i : pareto_front(result.trades())) is_on_front[i] = true;
@@ -139,9 +147,14 @@ Table as_csv(const std::vector<StudyResult>& results) {
         cells.push_back(row.flicker < 0 ? "" : csv_number(row.flicker));
         cells.push_back(is_on_front[i] ? "1" : "0");
         cells.push_back(csv_number(row.ms_spread));
+        std::string also;
+        for (const auto& [name, number] : row.also) {
+          also += (also.empty() ? "" : "; ") + name + " " + csv_number(number);
+        }
+        cells.push_back(also);
         cells.push_back(row.note);
       } else {
-        cells.resize(kNumbers + 3);
+        cells.resize(kNumbers + 4);
         cells.push_back("not measured: " + row.missing);
       }
       cells.push_back(row.command);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/assets/image/csv.h"
@@ -29,8 +30,9 @@ struct StudyRow {
   double traced = 0;     // rays per pixel
   double error = 0;      // RMSE against the truth
   double flip = 0, ssim = 0, energy = 0;
-  double flicker = -1;     // mean change from frame to frame beyond motion; negative: not measured
-  std::string picture;     // PNG files beside the report
+  double flicker = -1;  // mean change from frame to frame beyond motion; negative: not measured
+  std::vector<std::pair<std::string, double>> also;  // what else a sweep tells, by name
+  std::string picture;                               // PNG files beside the report
   std::string difference;  // 4 times its absolute difference from the truth
 };
 

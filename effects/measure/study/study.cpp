@@ -13,6 +13,7 @@
 #include "effects/measure/study/figure_18.h"
 #include "effects/measure/study/findings.h"
 #include "effects/measure/study/report.h"
+#include "effects/measure/study/sweep_plans.h"
 #include "effects/measure/study/tables.h"
 
 namespace kaamos::measure {
@@ -21,8 +22,12 @@ using namespace kaamos::effects;
 
 namespace {
 
+bool is_named(const std::string& family, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), family) != names.end();
+}
+
 bool is_wanted(const std::string& family, const std::vector<std::string>& names) {
-  return names.empty() || std::find(names.begin(), names.end(), family) != names.end();
+  return names.empty() || is_named(family, names);
 }
 
 rtapi::Status write_files(const Options& options, const std::vector<StudyResult>& results,
@@ -58,8 +63,15 @@ rtapi::Result<Outcome> run_study(const Options& options, const Scene& scene,
         fmt::format("cannot make the folder {}{}: {}", options.out, folder, failed.message()));
   }
   std::vector<StudyResult> results;
-  for (const StudyFamily& family : study_families()) {
-    if (!is_wanted(family.name, options.families)) continue;
+  std::vector<StudyFamily> families = study_families();
+  std::erase_if(families,
+                [&](const auto& each) { return !is_wanted(each.name, options.families); });
+  for (const StudyFamily& sweep : study_sweeps()) {
+    if (is_named(sweep.name, options.families) || is_named("sweeps", options.families)) {
+      families.push_back(sweep);
+    }
+  }
+  for (const StudyFamily& family : families) {
     for (const StudyPart& part : study_parts(family, options)) {
       const auto step = [&](const std::string& what, double done) {
         return progress(part.name() + ": " + what, done);
