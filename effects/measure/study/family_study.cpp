@@ -414,9 +414,8 @@ std::vector<StudyPart> study_parts(const StudyFamily& family, const Options& opt
     for (const bool moves : {false, true}) {
       // Denoisers are measured at rest and in motion at once; --quick stays still, and what has no
       // path-traced truth has none in motion. Glass stands in front of a background at rest.
-      const bool stays =
-          family.effect.empty() || family.effect == "contact" ||
-                           family.effect == "transparent" || family.is_sweep;
+      const bool stays = family.effect.empty() || family.effect == "contact" ||
+                         family.effect == "transparent" || family.is_sweep;
       if (moves && (options.quick || stays)) continue;
       out.push_back({family, backend, moves, is_second});
     }
