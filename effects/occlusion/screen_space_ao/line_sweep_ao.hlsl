@@ -78,7 +78,7 @@ int2 StackPixel(Stack stack, int slot) { return LinePixel(stack.number, stack.bo
 
 // The cosine of the highest horizon that the points of the stack make for `at`, -1 for none; drops
 // the points that no later pixel can see behind a higher one that is still within the radius.
-float FindHorizon(inout Stack stack, float2 at, LinePlane plane) {
+float FindHorizon(inout Stack stack, float2 at) {
   const float radius = Radius();
   while (stack.count >= 2) {
     const float2 top = stacks[StackPixel(stack, stack.count - 1)];
@@ -86,12 +86,11 @@ float FindHorizon(inout Stack stack, float2 at, LinePlane plane) {
     if (length(below - at) > radius || HorizonCosine(at, below) < HorizonCosine(at, top)) break;
     --stack.count;
   }
-  // Points farther away than this in the picture are so in space.
-  const float reach = 1.5 * radius * length(at) / at.y;
   float cosine = -1.0;
   for (int slot = stack.count - 1; slot >= 0; --slot) {
     const float2 other = stacks[StackPixel(stack, slot)];
-    if (abs(other.x / other.y - at.x / at.y) * plane.height > reach) break;
+    // The whole ray through this point passes too far away, and so do those of the points below.
+    if (abs(at.x * other.y - at.y * other.x) > 1.001 * radius * length(other)) break;
     if (length(other - at) > radius) continue;
     const float raised = HorizonCosine(at, other);
     if (raised < cosine) break;
@@ -138,7 +137,7 @@ void SweepLine(uint3 id : SV_DispatchThreadID) {
     const float2 slope = SlopeAt(Turned(float2(float(along) + 0.5, Across(number, along))), size);
     const float2 at =
         DepthOnLine(number, along, size) * float2(dot(slope, plane.x.xy), plane.height);
-    const float cosine = FindHorizon(stack, at, plane);
+    const float cosine = FindHorizon(stack, at);
     stacks[StackPixel(stack, stack.count)] = at;
     ++stack.count;
     if (sweep.backwards == 0) {

@@ -3,6 +3,7 @@
 
 #include <shaders/environment_bake.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -137,15 +138,21 @@ rtapi::Result<rtapi::ShaderLibrary> environment_bake_library() {
 }
 
 std::vector<EnvironmentProbe> default_environment_probes(const Scene& scene) {
-  const Bounds bounds = scene_bounds(scene);
   EnvironmentProbe probe;
   probe.position = scene.cameras.front().position();
-  probe.box_min = probe.position - 1.0;
-  probe.box_max = probe.position + 1.0;
-  if (!bounds.empty()) {
-    probe.box_min = glm::min(probe.box_min, bounds.min);
-    probe.box_max = glm::max(probe.box_max, bounds.max);
+  Bounds box = scene_bounds(scene);
+  box.add(probe.position);
+  // Walls that the camera does not stand before, the sky above flat ground say, are put as far away
+  // as things in this scene are: a length of the scene's own.
+  const glm::dvec3 sides = box.size();
+  const double longest = std::max({sides.x, sides.y, sides.z});
+  const double beyond = longest > 0 ? longest / 4 : 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(box.min[axis] < probe.position[axis])) box.min[axis] -= beyond;
+    if (!(box.max[axis] > probe.position[axis])) box.max[axis] += beyond;
   }
+  probe.box_min = box.min;
+  probe.box_max = box.max;
   return {probe};
 }
 

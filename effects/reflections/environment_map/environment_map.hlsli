@@ -36,10 +36,12 @@ float DistanceToBox(EnvironmentProbe probe, float3 position) {
   return length(max(max(probe.box_min - position, position - probe.box_max), float3(0, 0, 0)));
 }
 
-static const float kNearProbe = 0.1;  // metres: closer than this, probes count alike
+// Parts of the diagonal of a probe's box, so that no unit of length matters.
+static const float kNearProbe = 0.015625;  // closer than this, probes count alike
+static const float kProbeFade = 0.125;     // as far outside of its box a probe hardly counts
 
 // Radiance that arrives from about a direction at a rough surface. Probes whose box the point lies
-// in count by how near they are; others fade out within a metre.
+// in count by how near they are; others fade out.
 float3 EnvironmentRadiance(float3 position, float3 direction, float roughness) {
   uint count, stride;
   environment_probes.GetDimensions(count, stride);
@@ -50,9 +52,11 @@ float3 EnvironmentRadiance(float3 position, float3 direction, float roughness) {
   float weights = 0.0;
   for (uint i = 0; i < count; ++i) {
     const EnvironmentProbe probe = environment_probes[i];
-    const float3 from_probe = position - probe.position;
-    const float inside = max(1e-4, 1.0 - DistanceToBox(probe, position));
-    const float weight = inside / (dot(from_probe, from_probe) + kNearProbe * kNearProbe);
+    const float diagonal = length(probe.box_max - probe.box_min);
+    const float3 from_probe = (position - probe.position) / diagonal;
+    const float outside = DistanceToBox(probe, position) / diagonal;
+    const float weight = max(1e-4, 1.0 - outside / kProbeFade) /
+                         (dot(from_probe, from_probe) + kNearProbe * kNearProbe);
     const float3 towards = ParallaxCorrected(probe, position, direction);
     sum += weight * environment_cubes.SampleLevel(environment_sampler, float4(towards, float(i)),
                                                   level).rgb;

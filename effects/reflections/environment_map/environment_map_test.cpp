@@ -89,6 +89,23 @@ TEST_P(EnvironmentMaps, WallsOfTheBoxAreWhereTheyAre) {
   EXPECT_GT(alike, 0.9 * pixels) << "of " << pixels;
 }
 
+// The box has no length of its own; nothing is above the floor but the camera.
+TEST(EnvironmentMapSettings, ProbesAreThoseOfTheSceneAtEveryScale) {
+  const EnvironmentProbe probe = default_environment_probes(make_mirror_floor()).front();
+  for (const double s : {0x1p-10, 0x1p10}) {
+    Scene scene = make_mirror_floor();
+    for (Instance& instance : scene.instances) {
+      instance.transform = glm::dmat4(glm::dmat3(s)) * instance.transform;
+    }
+    glm::dmat4& eye = scene.cameras.front().camera_to_world;
+    eye[3] = glm::dvec4(glm::dvec3(eye[3]) * s, 1);
+    const EnvironmentProbe scaled = default_environment_probes(scene).front();
+    EXPECT_EQ(scaled.position, probe.position * s);
+    EXPECT_EQ(scaled.box_min, probe.box_min * s);
+    EXPECT_EQ(scaled.box_max, probe.box_max * s);
+  }
+}
+
 TEST(EnvironmentMapSettings, ProbesAreFoundInTheSceneAndWrongOnesRefused) {
   const Scene scene = make_mirror_floor();
   const EnvironmentProbe probe = default_environment_probes(scene).front();

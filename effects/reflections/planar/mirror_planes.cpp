@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kMirrorRoughness = 0.03f;  // [effects/shaders/brdf.hlsli]
 constexpr double kFlat = 1e-5;       // of a mesh's size: how far off its plane a vertex may be
-constexpr double kSamePlane = 1e-4;  // metres, and of the normal
+constexpr double kSamePlane = 1e-4;  // of the larger plane's width, and of the normal
 
 bool is_mirror(const Scene& scene, const Mesh& mesh) {
   return !mesh.geometries.empty() &&
@@ -51,7 +51,8 @@ std::optional<MirrorPlane> plane_of(const Mesh& mesh, const glm::dmat4& transfor
 
 bool is_same(const MirrorPlane& a, const MirrorPlane& b) {
   return std::abs(glm::dot(a.normal, b.normal)) > 1 - kSamePlane &&
-         std::abs(glm::dot(b.point - a.point, a.normal)) < kSamePlane;
+         std::abs(glm::dot(b.point - a.point, a.normal)) <
+             kSamePlane * std::sqrt(std::max(a.area, b.area));
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ TEST(MirrorPlanes, FlatMirrorsAreFoundAndShareTheirPlane) {
   Scene none = hall;
   for (Material& material : none.materials) material.constants.roughness = 0.5f;
   EXPECT_TRUE(find_mirror_planes(none).empty());
+  Scene small = hall;
+  for (Instance& instance : small.instances) {
+    instance.transform = glm::dmat4(glm::dmat3(0x1p-20)) * instance.transform;
+  }
+  EXPECT_EQ(find_mirror_planes(small).size(), 2u) << "a few micrometres apart";
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, PlanarReflections, testing::Values("embree", "vulkan"),
