@@ -115,10 +115,11 @@ class CellFilter {
       for (std::uint32_t k = 0; k < kSeenCells; ++k) {
         if ((baked_.seen[i] >> k & 1) == 0) continue;
         const glm::dvec3 way = glm::dvec3(seen_offset(k));
-        const auto found = volume_.find(place.middle + static_cast<double>(place.size) * way);
-        if (found.cell == kNoBrick || indices[found.cell] == kNone) continue;
-        if (places[found.cell].size != place.size) continue;
-        pairs_.push_back({i, indices[found.cell], glm::dot(way, way)});
+        const std::uint32_t found =
+            volume_.find(place.middle + static_cast<double>(place.size) * way);
+        if (found == kNoBrick || indices[found] == kNone) continue;
+        if (places[found].size != place.size) continue;
+        pairs_.push_back({i, indices[found], glm::dot(way, way)});
       }
     }
   }

@@ -54,8 +54,8 @@ static_assert(sizeof(VolumeCell) == 64);
 
 /// The place of a cell in world space.
 struct CellPlace {
-  glm::dvec3 middle{0.0};
-  float size = 0;  ///< metres
+  glm::dvec3 middle{0.0};  ///< metres
+  float size = 0;          ///< metres
 };
 
 /// A volume on the host, in world space. Cells of level n are 2^n times as large as the finest, and
@@ -73,14 +73,8 @@ struct IndirectVolume {
   std::vector<CellPlace> cell_places() const;
   /// Their middles alone.
   std::vector<glm::dvec3> cell_centers() const;
-  /// The index in `cells` of the cell at a place, and its level; kNoBrick: there is none.
-  ///@{
-  struct Found {
-    std::uint32_t cell = kNoBrick;
-    std::uint32_t level = 0;
-  };
-  Found find(const glm::dvec3& place) const;
-  ///@}
+  /// The index in `cells` of the cell at a place in world space; kNoBrick: there is none.
+  std::uint32_t find(const glm::dvec3& place) const;
   /// Places in `cells` that are read: not those in a part of a brick that finer bricks replace, or
   /// that lies outside of the grid. In rising order.
   std::vector<std::uint32_t> cells_in_use() const;
@@ -148,12 +142,12 @@ rtapi::Result<rtapi::ShaderLibrary> volume_bake_library();
 
 /// What a bake works with. All of it must stay while it does.
 struct BakeScope {
-  const rtapi::Device& device;
-  rtapi::CommandQueue& queue;
-  const Frame& frame;
-  const GpuScene& gpu;
-  const Scene& scene;
-  const Lighting& lighting;
+  const rtapi::Device& device;          ///< executes it
+  rtapi::CommandQueue& queue;           ///< on which
+  const Frame& frame;                   ///< its root table and heap
+  const GpuScene& gpu;                  ///< `scene` on the device
+  const Scene& scene;                   ///< what is lit
+  const Lighting& lighting;             ///< its local lights
   const rtapi::ShaderLibrary& library;  ///< volume_bake_library
 };
 

@@ -48,11 +48,11 @@ class VolumeBaker {
   /// By cell: bit i is set if the cell at seen_offset(i) from it can be seen; 0 before see_around.
   /// @errors those of the device.
   rtapi::Result<std::vector<std::uint32_t>> seen() const;
-  /// By half.
-  ///@{
+  /// By half: the samples that it has.
   const std::vector<std::uint32_t>& samples() const { return samples_; }
+  /// By half: the sums of its samples.
+  /// @errors those of the device.
   rtapi::Result<std::vector<CellSums>> sums() const;
-  ///@}
 
  private:
   VolumeBaker(const BakeScope& scope, const BakeDesc& desc) : scope_(scope), desc_(desc) {}

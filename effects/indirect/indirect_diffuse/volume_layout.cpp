@@ -176,19 +176,18 @@ std::vector<glm::dvec3> IndirectVolume::cell_centers() const {
   return centers;
 }
 
-IndirectVolume::Found IndirectVolume::find(const glm::dvec3& place) const {
+std::uint32_t IndirectVolume::find(const glm::dvec3& place) const {
   const glm::dvec3 at = glm::floor((place - origin) / static_cast<double>(cell));
   const glm::dvec3 end(bricks * kBrickCells);
   if (!glm::all(glm::greaterThanEqual(at, glm::dvec3(0))) || !glm::all(glm::lessThan(at, end))) {
-    return {};
+    return kNoBrick;
   }
   const glm::uvec3 fine(at), brick = fine / kBrickCells;
   const std::uint32_t entry =
       brick_starts[brick.x + bricks.x * (brick.y + std::size_t{bricks.y} * brick.z)];
-  if (entry == kNoBrick) return {};
+  if (entry == kNoBrick) return kNoBrick;
   const glm::uvec3 within = (fine >> brick_level(entry)) % kBrickCells;
-  return {brick_start(entry) + within.x + kBrickCells * (within.y + kBrickCells * within.z),
-          brick_level(entry)};
+  return brick_start(entry) + within.x + kBrickCells * (within.y + kBrickCells * within.z);
 }
 
 std::vector<std::uint32_t> IndirectVolume::cells_in_use() const {

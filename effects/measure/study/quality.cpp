@@ -86,7 +86,7 @@ EffectSettings for_frame(const MeasuredSetting& measured, const Options& options
 Front front_of(const StudyFamily& family, const Options& options, const StudyResult& result) {
   Options whole = options;
   whole.rows.clear();
-  const MeasurePlan plan = study_plan(family, whole, false);
+  const MeasurePlan plan = study_plan(family, whole, false).plan;
   const double pixels = static_cast<double>(options.frame.width) * options.frame.height;
   const double measured = static_cast<double>(result.width) * result.height;
   const double scale = measured > 0 ? pixels / measured : 1.0;

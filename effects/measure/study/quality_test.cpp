@@ -23,7 +23,7 @@ StudyFamily family_of(const std::string& name) {
 // A row of a setting that the plan has, with numbers of the test's own.
 StudyRow row(const std::string& family, const std::string& name, double ms, double error,
              double traced) {
-  const MeasurePlan plan = study_plan(family_of(family), default_options(), false);
+  const MeasurePlan plan = study_plan(family_of(family), default_options(), false).plan;
   for (const MeasuredSetting& each : plan.settings) {
     if (row_name(each) != name) continue;
     StudyRow out;
