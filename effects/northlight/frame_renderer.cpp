@@ -156,12 +156,15 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
 rtapi::Result<Outcome> FrameRenderer::run_early_effects(const Progress& progress) {
   auto& [surfaces, lights, effects, filters, composition] = *stages_;
   if (context_.settings.whole_frame) {
-    if (const auto s = lights.begin_frame(); !s) return s.error();
+    lights.begin_frame();
     filters.begin_frame();
   }
   if (const auto s = effects.begin(); !s) return s.error();
   if (context_.settings.whole_frame) {
     if (const auto s = lights.run(); !s) return s.error();
+    if (lights.bakes_on_demand()) {
+      if (const auto s = lights.bake_read(false, progress); !is_done(s)) return s;
+    }
   }
   if (const auto s = effects.run(false, progress); !is_done(s)) return s;
   if (const auto s = filters.run(false); !s) return s.error();

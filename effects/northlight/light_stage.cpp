@@ -199,11 +199,8 @@ std::optional<BakeStatistics> LightStage::bake() const {
   return on_demand_ ? on_demand_->statistics() : bake_;
 }
 
-rtapi::Status LightStage::begin_frame() {
+void LightStage::begin_frame() {
   gpu_volume_.set_origin(context_.moment.camera.position());
-  if (!on_demand_) return {};
-  if (const auto s = bake_read(false, {}); !s) return s.error();
-  return {};
 }
 
 void LightStage::record(rtapi::CommandList& list) {

@@ -35,13 +35,12 @@ class LightStage {
   /// @errors KA3041 more than 4,096 local lights; KA3045 a volume file that cannot be read or
   /// written; those of the device.
   rtapi::Result<Outcome> create(const Needs& needs, const Progress& progress);
-  /// Follows the camera, before anything is recorded, and bakes what the frame before has read of
-  /// the volume.
-  /// @errors those of the device.
-  rtapi::Status begin_frame();
+  /// Follows the camera, before anything is recorded.
+  void begin_frame();
   /// Returns whether cells of the volume are baked when they are read.
   bool bakes_on_demand() const { return on_demand_.has_value(); }
-  /// Bakes what the volume's readers have read since the last call, before the frame is rendered.
+  /// Bakes what the volume's readers have read since the last call, with the lights that were
+  /// executed or recorded last.
   /// `is_first`: the readers are to be run again, because what lies in solids is known only now.
   /// Precondition: bakes_on_demand.
   /// @errors those of the device.

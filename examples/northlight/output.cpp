@@ -322,12 +322,13 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
   }
   if (const auto& bake = renderer.lights().bake()) {
     out += fmt::format(
-        "baked {} cells in {:.1f} s with {:.0f} paths each, good to {:.1f} % on average; {:.1f} "
-        "MiB\n",
+        "baked {} cells in {:.1f} s with {:.0f} paths each, good to {:.1f} % on average{}; "
+        "{:.1f} MiB\n",
         bake->cells, bake->seconds,
         static_cast<double>(bake->paths) /
             static_cast<double>(std::max<std::uint64_t>(bake->cells, 1)),
-        100 * bake->error, mebibytes(bake->bytes));
+        100 * bake->error, renderer.lights().bakes_on_demand() ? ", before cells are filtered" : "",
+        mebibytes(bake->bytes));
   }
   out += describe_primary(result) + describe_views(result);
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
