@@ -185,7 +185,7 @@ rtapi::Status Denoiser::create_pictures(const rtapi::Device& device, const Frame
         {&channel.clamped, " clamped", desc_.method == DenoiseMethod::kControl}};
     for (const auto& [texture, suffix, wanted] : pictures) {
       if (!wanted) continue;
-      const bool half = texture == &channel.history && desc_.half_history;
+      const bool half = texture == &channel.history && desc_.half_history != 0;
       if (const auto s = create(*texture, channel.name + suffix, half); !s) return s;
     }
   }

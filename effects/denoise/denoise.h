@@ -83,10 +83,10 @@ struct DenoiseDesc {
   std::uint32_t iterations_with_history = 3;
   ///@}
   VisibilityConstants visibility;  ///< of signals that say how sharp their shadows are
-  /// What is kept of light from frame to frame has half floats. Steps of the new frame's weight
+  /// 1: what is kept of light from frame to frame has half floats. Steps of the new frame's weight
   /// that are smaller than half of their last digit are lost: history stops short of where light
   /// went.
-  bool half_history = false;
+  std::uint32_t half_history = 0;
 };
 
 /// From so many frames on the variance is taken over time instead of over neighbours: kEnoughFrames

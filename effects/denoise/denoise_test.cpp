@@ -377,7 +377,7 @@ TEST_F(DenoiseTest, HalfHistoryStopsShortOfSmallChanges) {
     desc.constants.alpha = 0.05f;
     desc.constants.max_history = 255;
     desc.constants.clip_gamma = 0;
-    desc.half_history = half;
+    desc.half_history = half ? 1 : 0;
     Denoiser denoiser = make(desc);
     for (int i = 0; i < 24; ++i) run(denoiser, [](auto, auto) { return 1.0f; });
     FloatImage shown;

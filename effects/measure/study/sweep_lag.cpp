@@ -227,7 +227,7 @@ std::vector<MeasuredDenoiser> lagging_denoisers() {
       each.desc.constants.alpha = each.desc.constants.moments_alpha = weight;
       each.desc.constants.max_history = 255;
       each.desc.constants.clip_gamma = 0;  // weights alone
-      each.desc.half_history = half;
+      each.desc.half_history = half ? 1 : 0;
       out.push_back(each);
     }
   }
