@@ -70,11 +70,6 @@ rtapi::Result<VolumeBaker> VolumeBaker::create(const BakeScope& scope, const Bak
   const auto pass = RayPass::create(scope.device, scope.frame, scope.gpu, bake_pass(scope.library));
   if (!pass) return pass.error();
   out.pass_ = *pass;
-  RayPassDesc see = bake_pass(scope.library);
-  see.ray_generation = "SeeRayGen";
-  const auto see_pass = RayPass::create(scope.device, scope.frame, scope.gpu, see);
-  if (!see_pass) return see_pass.error();
-  out.see_pass_ = *see_pass;
   auto list = scope.device.CreateCommandList();
   if (!list) return list.error();
   out.list_ = *list;
@@ -177,8 +172,15 @@ rtapi::Result<std::vector<CellSums>> VolumeBaker::sums() const {
 
 rtapi::Status VolumeBaker::see_around(const std::vector<std::uint32_t>& cells) {
   if (cells.empty()) return {};
+  if (!see_pass_) {
+    RayPassDesc desc = bake_pass(scope_.library);
+    desc.ray_generation = "SeeRayGen";
+    const auto pass = RayPass::create(scope_.device, scope_.frame, scope_.gpu, desc);
+    if (!pass) return pass.error();
+    see_pass_ = *pass;
+  }
   for (std::size_t i = 0; i < cells.size(); ++i) tasks_.data<BakeTask>()[i] = {2 * cells[i], 0, 0};
-  return run(see_pass_, static_cast<std::uint32_t>(cells.size()), 0, 0);
+  return run(*see_pass_, static_cast<std::uint32_t>(cells.size()), 0, 0);
 }
 
 rtapi::Result<std::vector<std::uint32_t>> VolumeBaker::seen() const {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "effects/engine/pass_views.h"
@@ -69,7 +70,8 @@ class VolumeBaker {
   std::vector<std::uint32_t> samples_;
   rtapi::Buffer centers_, lights_, tasks_, sums_, seen_;
   PassViews views_;
-  RayPass pass_, see_pass_;
+  RayPass pass_;
+  std::optional<RayPass> see_pass_;  // made when it is needed first
   rtapi::CommandList list_;
 };
 
