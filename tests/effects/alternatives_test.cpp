@@ -109,6 +109,8 @@ FrameSettings settings_of(float scale) {
   settings.rows = settings.height;
   settings.denoise = default_denoise(DenoiseMethod::kNone);
   settings.max_pass_views = 2048;
+  // A ray that rounding moves may read another cell, and which ones are baked would follow.
+  settings.volume.whole = true;
   settings.volume.cell = scale;
   settings.volume.samples = 4;
   settings.volume.bounces = 2;

@@ -37,6 +37,8 @@ FrameSettings settings_of(const RigOptions& options) {
     if (bit == kRigReflections) effect.set_constants(options.reflection);
     if (bit == kRigGlass) effect.set_constants(options.glass);
   }
+  // A ray that rounding moves may read another cell, and which ones are baked would follow.
+  settings.volume.whole = true;
   settings.volume.cell = options.cell;
   settings.volume.samples = options.bake_samples;
   settings.volume.bounces = 2;

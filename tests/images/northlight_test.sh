@@ -114,7 +114,7 @@ grep -q -- '--gtao-slices' <<< "$help" && fail "--help shows every setting"
 expect_error 2 'no topic "gtoa"; the nearest is "gtao"' --help=gtoa
 
 # Techniques by what was measured: a study with two settings of the sun's shadow.
-row='"command":"","missing":"","note":"","ms_spread":0,"flip":0,"ssim":1,"energy":1,"flicker":-1,"picture":"","difference":""'
+row='"command":"","missing":"","note":"","ms_spread":0,"flip":0,"ssim":1,"energy":1,"flicker":-1,"also":[],"picture":"","difference":""'
 printf '[{"family":"shadows","title":"","key":"","scene":"lounge","backend":"embree","width":64,"height":36,"subtitle":"","signal":"","truth":"","truth_picture":"","truth_rmse":0,"about":[],"rows":[{"effect":"sun","technique":"sun shadow","setting":"4 rays",%s,"ms":8,"rays":4,"rmse":0.01},{"effect":"sun-map","technique":"sun shadow by a depth map","setting":"1024 x 1024",%s,"ms":2,"rays":0,"rmse":0.2}]}]' "$row" "$row" > "$work/fronts.json"
 chosen=(--effects sun --size 64x36 --out "$work/chosen" --fronts "$work/fronts.json")
 said=$("$northlight" "${chosen[@]}" --quality low 2>&1) || fail "--quality low: $said"
