@@ -277,9 +277,11 @@ void apply_quality(const std::vector<QualityChoice>& choices, Options& options) 
   FrameSettings& frame = options.frame;
   for (const QualityChoice& choice : choices) {
     options.effects[choice.effect] = choice.settings;
+    // The family's own effect stays among the chosen ones, and what takes its place leaves it out
+    // and is named in its place.
+    const bool named = std::exchange(frame.effects[choice.family.effect].named, false);
     frame.effects[choice.effect] = choice.settings;
-    // It stays among the chosen ones, and what takes its place leaves it out.
-    if (choice.effect != choice.family.effect) frame.effects[choice.family.effect].named = false;
+    frame.effects[choice.effect].named = named;
   }
   add_included(frame.effects, northlight_effects());
   frame.whole_frame = need_whole_frame(frame.effects);
