@@ -90,7 +90,7 @@ TEST(Profile, StepsOfOneNameAreALine) {
   EXPECT_EQ(steps[2].count, 1u);
 }
 
-// Of all threads; one that waits takes none.
+// Processor time counts all threads; a thread that waits takes none.
 TEST(Profile, ProcessorTimeIsThatOfTheThreads) {
   Profile profile;
   {

@@ -49,7 +49,7 @@ void divide_by_albedo(const FloatImage& albedo, FloatImage& signal, FloatImage& 
   }
 }
 
-// The frame as it is by default, but for the number of paths.
+// The frame as it is by default; at full size with all of the volume.
 std::unique_ptr<FrameRenderer> render_frames(const Scene& scene, const FloatImage& size) {
   FrameSettings settings;
   settings.width = size.width;
@@ -57,7 +57,7 @@ std::unique_ptr<FrameRenderer> render_frames(const Scene& scene, const FloatImag
   settings.seed = 0;
   settings.effects = choose_effects({"all"});
   settings.denoise = default_denoise(DenoiseMethod::kSvgf);
-  settings.volume.samples = is_full_size() ? 1024 : 64;
+  settings.volume.whole = is_full_size();
   settings.moving = true;
   auto renderer = FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
   for (std::uint32_t i = 0; i < kFrames; ++i) {

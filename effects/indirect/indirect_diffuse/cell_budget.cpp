@@ -18,10 +18,6 @@ struct Spread {
   double mean = 0, variance = 0;  // of one sample
 };
 
-double luminance(const glm::vec3& radiance) {
-  return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 Spread spread_of(const CellSums& sums, double samples) {
   if (samples < 1) return {};
   const double mean = luminance(sums.mean) / samples;
@@ -99,6 +95,10 @@ class Neighbours {
 };
 
 }  // namespace
+
+double luminance(const glm::vec3& radiance) {
+  return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
 
 std::vector<std::uint32_t> samples_of_halves(const std::vector<std::uint32_t>& cells,
                                              const std::vector<CellSums>& pilot,

@@ -24,6 +24,9 @@ struct CellSums {
 };
 static_assert(sizeof(CellSums) == 64);
 
+/// The luminance of a radiance, as the samples of a bake count it.
+double luminance(const glm::vec3& radiance);
+
 /// Samples that every half of a cell gets before the number of the others is decided.
 inline constexpr std::uint32_t kPilotSamples = 32;
 /// A cell that sees back faces in more than this part of its directions lies in a solid.

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-double luminance(const glm::vec3& radiance) {
-  return glm::dot(glm::dvec3(radiance), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 // Two cells that can see each other, and the square of their distance in cells.
 struct Pair {
   std::uint32_t a, b;
@@ -124,9 +120,9 @@ class CellFilter {
     }
   }
 
-  // Of each cell's mean and slopes, in luminance, by its number of samples. The variance of a
-  // sample is that of the cells around, too: a cell that happened to miss what is bright would
-  // count too much by its own.
+  // Estimates how much a sample of a cell's mean and slopes varies, in luminance. The samples of
+  // the cells around count too: a cell that happened to miss what is bright would trust itself too
+  // much.
   void estimate_variances() {
     struct Moments {
       double samples = 0, squares = 0;

@@ -7,10 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <numeric>
 #include <utility>
-
-#include "effects/indirect/indirect_diffuse/packed_cell.h"
 
 namespace kaamos::effects {
 

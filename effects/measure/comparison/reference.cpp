@@ -25,6 +25,8 @@ Options reference_options(const Options& options) {
     if (name == "transparent") settings.set_constants(sorted_reference());
   }
   out.frame.denoise = default_denoise(DenoiseMethod::kNone);
+  // More rays read cells that a frame's few do not ask for.
+  out.frame.volume.whole = true;
   // Random numbers that the frame itself has not used.
   out.frame.seed = options.frame.seed ^ 0x5EED0000u;
   return out;

@@ -27,7 +27,7 @@ struct Part {
   std::string name;
   Options options;
   bool times_ao = false;  // multiply the indirect light with ambient occlusion
-  // Of the frame, those that make up its radiance; empty: all.
+  // The effects of the frame that make up its radiance; empty: all.
   std::vector<std::string> signals = {};
 };
 

@@ -13,8 +13,8 @@ namespace kaamos::measure {
 // From the shadows of the sun, for one light; nothing where they were not measured.
 std::vector<StudyTable> shadow_tables(const std::vector<StudyResult>& results);
 
-// Of the sun alone and of four lights, over a traced and over a drawn G-buffer. [light_costs.h]
-// What an earlier run has found is taken from options.out/study.
+// Makes the table for the sun alone and for four lights, over a traced and over a drawn G-buffer.
+// [light_costs.h] What an earlier run has found is taken from options.out/study.
 rtapi::Result<Outcome> study_figure_18(const Options& options, const effects::Scene& scene,
                                        const Progress& progress, std::vector<StudyTable>& tables);
 

@@ -184,7 +184,7 @@ class LightStudy {
     return renderer_->read(find_effect(effects_, effect)->signals.front().name);
   }
 
-  // Of all lights, the sun first, by many rays.
+  // The visibility of all lights by many rays, the sun's first.
   rtapi::Status find_right(std::vector<FloatImage>& right) {
     double ignored = 0;
     auto sun = look("sun", EffectSettings{.samples = kManyRays}, 0, ignored);
