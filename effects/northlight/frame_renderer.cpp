@@ -134,6 +134,19 @@ rtapi::Result<Outcome> FrameRenderer::bake_on_demand(const Progress& progress) {
   return Outcome::kDone;
 }
 
+rtapi::Result<Outcome> FrameRenderer::bake_for_frame(const Progress& progress) {
+  LightStage& lights = stages_->lights;
+  if (!lights.bakes_on_demand()) return Outcome::kDone;
+  PassRunner& runner = context_.runner;
+  context_.device.ResetStatistics();
+  const double start = runner.now_ms();
+  if (const auto s = lights.bake_read(false, progress); !is_done(s)) return s;
+  if (lights.baked() > 0) {
+    runner.add({"indirect light bake", runner.now_ms() - start, context_.device.GetStatistics()});
+  }
+  return Outcome::kDone;
+}
+
 rtapi::Status FrameRenderer::begin_frame(const FrameMoment& moment) {
   if (const auto s = scene_->begin_frame(moment); !s) return s;
   has_begun_ = true;
@@ -162,9 +175,7 @@ rtapi::Result<Outcome> FrameRenderer::run_early_effects(const Progress& progress
   if (const auto s = effects.begin(); !s) return s.error();
   if (context_.settings.whole_frame) {
     if (const auto s = lights.run(); !s) return s.error();
-    if (lights.bakes_on_demand()) {
-      if (const auto s = lights.bake_read(false, progress); !is_done(s)) return s;
-    }
+    if (const auto s = bake_for_frame(progress); !is_done(s)) return s;
   }
   if (const auto s = effects.run(false, progress); !is_done(s)) return s;
   if (const auto s = filters.run(false); !s) return s.error();

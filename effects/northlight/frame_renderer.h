@@ -142,6 +142,8 @@ class FrameRenderer {
   rtapi::Result<Outcome> create_stages(const Progress& progress);
   // Bakes what the first frame reads of the volume.
   rtapi::Result<Outcome> bake_on_demand(const Progress& progress);
+  // Bakes what the frame before has read of it; a pass of the frame if there is anything to bake.
+  rtapi::Result<Outcome> bake_for_frame(const Progress& progress);
   rtapi::Result<Outcome> run_early_effects(const Progress& progress);
   rtapi::Result<Outcome> run_effects(const Progress& progress);
   rtapi::Result<ActiveEffect*> find_runnable(const std::string& effect,

@@ -177,16 +177,16 @@ rtapi::Result<Outcome> LightStage::bake_volume(IndirectVolume& volume, const Pro
 }
 
 rtapi::Result<Outcome> LightStage::bake_read(bool is_first, const Progress& progress) {
+  baked_ = 0;
   const auto reads = gpu_volume_.take_reads(context_.device, context_.runner.queue());
   if (!reads) return reads.error();
   const auto step = [&](double done) { return !progress || progress("indirect light", done); };
-  std::uint32_t baked = 0;
-  const auto done = on_demand_->bake(*reads, context_.moment.camera.position(), step, baked);
+  const auto done = on_demand_->bake(*reads, context_.moment.camera.position(), step, baked_);
   if (!is_done(done)) return done;
   if (is_first) {
     gpu_volume_.set_cells(on_demand_->asking());
     is_asking_ = true;
-  } else if (is_asking_ || baked > 0) {
+  } else if (is_asking_ || baked_ > 0) {
     const auto known = on_demand_->known();
     if (!known) return known.error();
     gpu_volume_.set_cells(*known);

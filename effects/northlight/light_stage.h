@@ -45,6 +45,8 @@ class LightStage {
   /// Precondition: bakes_on_demand.
   /// @errors those of the device.
   rtapi::Result<Outcome> bake_read(bool is_first, const Progress& progress);
+  /// The cells that the last bake_read baked.
+  std::uint32_t baked() const { return baked_; }
   /// Records the lists, the maps and main lighting, as far as frames read them.
   void record(rtapi::CommandList& list);
   /// Executes that as a pass of the frame.
@@ -101,6 +103,7 @@ class LightStage {
   GpuVolume gpu_volume_, no_volume_;
   std::optional<BakeStatistics> bake_;
   std::optional<VolumeOnDemand> on_demand_;
+  std::uint32_t baked_ = 0;
   bool is_asking_ = true;  // the volume on the device is VolumeOnDemand::asking()
 };
 
