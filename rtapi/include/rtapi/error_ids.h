@@ -434,7 +434,7 @@ inline constexpr ErrorId kBitFieldName{2286};  ///< '{0}' behind ':' is a semant
 inline constexpr ErrorId kSemanticIgnored{2287};  ///< semantic '{0}' is ignored: the first one, '{1}', counts
 inline constexpr ErrorId kKeywordInExpression{2300};  ///< keyword '{0}' cannot be used as a value
 inline constexpr ErrorId kModifierPlace{2301};  ///< '{0}' cannot be used on {1}; it is for {2}
-inline constexpr ErrorId kNeedsShaderModel{2302};  ///< '{0}' needs Shader Model {1}; the highest here is 6.8
+inline constexpr ErrorId kNeedsShaderModel{2302};  ///< '{0}' of Shader Model {1} is not supported
 inline constexpr ErrorId kInterfaceMember{2303};  ///< an interface can only hold methods without a body, not {0}
 inline constexpr ErrorId kInterfaceBase{2304};  ///< interface '{0}' cannot inherit from another type
 inline constexpr ErrorId kVkAttributeIgnored{2340};  ///< [[vk::{0}]] is ignored: {1}
@@ -595,8 +595,9 @@ inline constexpr ErrorId kSubobjectRange{2592};  ///< the value {0} is out of ra
 inline constexpr ErrorId kRootSignatureStage{2593};  ///< DXC does not allow [RootSignature] on a {0} shader
 inline constexpr ErrorId kAttributeTwice{2594};  ///< [{0}] is written twice; the first one counts
 inline constexpr ErrorId kExportedResource{2596};  ///< DXC does not export '{0}', because a parameter or its result holds resources
-inline constexpr ErrorId kUnknownTarget{2600};  ///< unknown target '{0}'; the targets are lib_6_3 to lib_6_8, lib_6_x, cs_6_0 to cs_6_8, and, to check only, vs_6_0 to vs_6_8 and ps_6_0 to ps_6_8
+inline constexpr ErrorId kUnknownTarget{2600};  ///< unknown target '{0}'; the targets are lib_6_3 to lib_6_9, lib_6_x, and cs_6_0 to cs_6_9, vs and ps too
 inline constexpr ErrorId kExportSyntax{2601};  ///< '{0}' is not a list of exports; write "A;B1,B2=C"
+inline constexpr ErrorId kPreviewTarget{2602};  ///< the target '{0}' is not supported: Shader Model 6.10 is a preview, and 6.9 is the highest here
 inline constexpr ErrorId kPayloadTarget{2610};  ///< -enable-payload-qualifiers needs lib_6_6 or higher; the target is {0}
 inline constexpr ErrorId kPayloadIgnored{2611};  ///< the access qualifiers of payload '{0}' are ignored: they take effect from lib_6_7 on, and in lib_6_6 with -enable-payload-qualifiers
 inline constexpr ErrorId kPayloadFieldPlain{2612};  ///< payload field '{0}' has no access qualifiers; write ': read(..) : write(..)'

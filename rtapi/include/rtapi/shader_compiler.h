@@ -34,7 +34,7 @@ struct ShaderSourceFile {
 struct ShaderCompileOptions {
   std::string File = {};                   ///< the main source file; also names it in messages
   std::optional<std::string> Source = {};  ///< the text, instead of reading File
-  std::string Target = "lib_6_6";          ///< -T: lib_6_3 to lib_6_8, cs_6_x, vs_6_x, ps_6_x
+  std::string Target = "lib_6_6";          ///< -T: lib_6_3 to lib_6_9, cs_6_x, vs_6_x, ps_6_x
   std::string EntryPoint = {};             ///< -E, unless a library
   std::vector<ShaderDefine> Defines = {};  ///< -D
   std::vector<std::string> IncludeDirectories = {};  ///< -I

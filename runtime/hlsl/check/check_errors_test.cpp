@@ -269,6 +269,9 @@ const std::vector<Case>& cases() {
        "[shader(\"compute\")][numthreads(1, 1, 1)] void main(float3 @id : SV_GroupID) {}"},
       {"NoEntryPoint", Id::kNoEntryPoint, "void f() {}", target("cs_6_6")},
       {"UnknownTarget", Id::kUnknownTarget, "void f() {}", target("gs_6_6")},
+      {"UnknownMinor", Id::kUnknownTarget, "void f() {}", target("lib_6_11")},
+      {"PreviewTarget", Id::kPreviewTarget, "void f() {}", target("lib_6_10")},
+      {"PreviewPixelTarget", Id::kPreviewTarget, "void f() {}", target("ps_6_10")},
       {"TraceRayFromAnyHit", Id::kStage,
        kRayTypes + "[shader(\"anyhit\")] void H(inout Payload p, Attributes a) {\n"
                    "  RayDesc r = (RayDesc)0;\n  @TraceRay(scene, 0, 255, 0, 0, 0, r, p);\n}"},

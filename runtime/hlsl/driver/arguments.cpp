@@ -212,7 +212,7 @@ const char* help_text() {
   return R"(kaamos-hlsl [options] FILE.hlsl: compiles HLSL shader libraries for Kaamos
 
 As in DXC:
-  -T PROFILE                lib_6_3 to lib_6_8 (default lib_6_6), or cs_6_0 to cs_6_8, vs, ps
+  -T PROFILE                lib_6_3 to lib_6_9 (default lib_6_6), or cs_6_0 to cs_6_9, vs, ps
   -E NAME                   entry point of a cs, vs or ps profile
   -D NAME[=VALUE]           defines a macro
   -I FOLDER                 where to look for #include files

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/driver/frontend.h"
 
+#include <string_view>
+#include <utility>
+
 #include "runtime/hlsl/driver/embedded_source.h"
 #include "runtime/hlsl/front/parse.h"
 #include "runtime/hlsl/front/preprocess.h"
@@ -20,18 +23,24 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
   return parts;
 }
 
+// Splits lib_6_3 into "lib" and "3"; "" and "" if it is not a profile of model 6 of an offered stage.
+std::pair<std::string_view, std::string_view> stage_and_minor(std::string_view target) {
+  for (const std::string_view stage : {"lib", "cs", "vs", "ps"}) {
+    if (!target.starts_with(stage) || !target.substr(stage.size()).starts_with("_6_")) continue;
+    return {stage, target.substr(stage.size() + 3)};
+  }
+  return {};
+}
+
 // For lib_6_3, cs_6_6, vs_6_0 or ps_6_0, the digit after "6_", where x counts as 8; -1 for any
 // other profile.
 int minor_version(const std::string& target) {
-  const bool known = (target.starts_with("lib_6_") && target.size() == 7) ||
-                     ((target.starts_with("cs_6_") || target.starts_with("vs_6_") ||
-                       target.starts_with("ps_6_")) &&
-                      target.size() == 6);
-  if (!known) return -1;
-  const char digit = target.back();
-  const bool library = target.starts_with("lib");
+  const auto [stage, minor] = stage_and_minor(target);
+  if (minor.size() != 1) return -1;
+  const char digit = minor[0];
+  const bool library = stage == "lib";
   if (digit == 'x') return library ? 8 : -1;
-  if (digit < (library ? '3' : '0') || digit > '8') return -1;
+  if (digit < (library ? '3' : '0') || digit > '9') return -1;
   return digit - '0';
 }
 
@@ -59,7 +68,9 @@ std::optional<TokenList> preprocess_source(const FrontendOptions& options, Sourc
                                            DiagnosticEngine& diagnostics) {
   const int minor = minor_version(options.target);
   if (minor < 0) {
-    diagnostics.report(DiagnosticId::kUnknownTarget, {}, {options.target});
+    const bool is_preview = stage_and_minor(options.target).second == "10";
+    diagnostics.report(is_preview ? DiagnosticId::kPreviewTarget : DiagnosticId::kUnknownTarget, {},
+                       {options.target});
     return std::nullopt;
   }
   PreprocessOptions preprocess;

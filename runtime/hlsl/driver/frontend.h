@@ -23,7 +23,7 @@ struct FrontendOptions {
   std::optional<std::string> text;  // the source itself; if empty, the file is read
   std::vector<std::string> include_folders;
   std::vector<std::string> defines;  // "NAME" or "NAME=VALUE"
-  std::string target = "lib_6_6";    // lib_6_3 .. lib_6_8, lib_6_x, cs_6_0 .. cs_6_8
+  std::string target = "lib_6_6";    // lib_6_3 .. lib_6_9, lib_6_x, cs_6_0 .. cs_6_9
   std::string entry_point = "main";  // cs_6_x only [-E]
   std::string exports;               // as DXC's -exports: "A;B1,B2=C"
   bool external_linkage = false;     // [-default-linkage external]; lib_6_x always has it

@@ -202,7 +202,7 @@ constexpr Mistake kMistakes[] = {
     {"InterfaceBase", "interface I { };\ninterface J : I { };", "KA2304 2:13",
      "interface 'J' cannot inherit from another type"},
     {"HitObject", "void f() { HitObject h; }", "KA2302 1:12",
-     "'HitObject' needs Shader Model 6.9; the highest here is 6.8"},
+     "'HitObject' of Shader Model 6.9 is not supported"},
     {"Friend", "struct S { friend void f(); };", "KA2232 1:12", "'friend' is reserved"},
     {"Long", "long a;", "KA2233 1:1", "HLSL has no type 'long'; use int64_t"},
     {"LongLong", "void f() { unsigned a; signed long long b; }", "KA2233 1:24",

@@ -19,7 +19,7 @@ struct ExportRequest {
 
 struct CheckOptions {
   std::string name;                // the main file's, for ir::Module::name
-  std::string target = "lib_6_6";  // lib_6_3 .. lib_6_8, lib_6_x, cs_6_0 .. cs_6_8
+  std::string target = "lib_6_6";  // lib_6_3 .. lib_6_9, lib_6_x, cs_6_0 .. cs_6_9
   std::string entry_point;         // cs_6_x: the kernel's name
   std::vector<ExportRequest> exports;
   // If true, every non-static function with a body is exported. [-default-linkage external]
