@@ -24,6 +24,22 @@ std::string backend_of(IUnknown* adapter) {
   return chosen != nullptr ? chosen : "";
 }
 
+// The level that KAAMOS_RAYTRACING_TIER and KAAMOS_SHADER_MODEL ask for, as programs of others
+// cannot; without them, that of DeviceDesc.
+rtapi::Status read_level(rtapi::DeviceDesc& desc) {
+  if (const char* text = std::getenv("KAAMOS_RAYTRACING_TIER")) {
+    const auto tier = rtapi::ParseRaytracingTier(text);
+    if (!tier) return tier.error();
+    desc.Tier = *tier;
+  }
+  if (const char* text = std::getenv("KAAMOS_SHADER_MODEL")) {
+    const auto model = rtapi::ParseShaderModel(text);
+    if (!model) return model.error();
+    desc.ShaderModel = *model;
+  }
+  return {};
+}
+
 // The number of a backend in the list of devices, which DXGI's adapters have too.
 LUID luid_of(const std::string& backend) {
   const auto devices = rtapi::EnumerateDevices();
@@ -72,6 +88,9 @@ HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, v
   }
   desc.Backend = backend;
   desc.Checked = debug_layer_enabled();
+  if (const auto chosen = read_level(desc); !chosen.ok()) {
+    return process_reporter().fail(chosen.error());
+  }
   const auto reporter = std::make_shared<Reporter>();
   desc.OnMessage = [reporter](const rtapi::Message& message) {
     const rtapi::Error error{message.Id, rtapi::ErrorCode::kFailed, message.Text};

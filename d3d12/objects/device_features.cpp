@@ -4,6 +4,7 @@
 
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/format_support.h"
+#include "d3d12/objects/newer_features.h"
 
 namespace kaamos::d3d12 {
 
@@ -39,8 +40,52 @@ HRESULT options(const Query& query, const Fill& fill) {
 }
 
 constexpr D3D_FEATURE_LEVEL kHighestLevel = D3D_FEATURE_LEVEL_12_1;
-constexpr D3D_SHADER_MODEL kHighestShaderModel = D3D_SHADER_MODEL_6_6;
+// The compiler takes 6.7 and 6.8, but not all that they require: GatherRaw, Barrier, and
+// SV_StartVertexLocation are missing.
+constexpr D3D_SHADER_MODEL kHighestWholeModel = D3D_SHADER_MODEL_6_6;
 constexpr UINT kAddressBits = 40;  // of a buffer; BufferDesc::SizeInBytes
+
+D3D_SHADER_MODEL highest_model(const rtapi::Device& device) {
+  const auto model = static_cast<D3D_SHADER_MODEL>(device.GetDesc().ShaderModel);
+  return std::min(model, kHighestWholeModel);
+}
+
+// The options behind D3D12_FEATURE_D3D12_OPTIONS15. E_INVALIDARG if there is no such feature.
+HRESULT newer_feature(const Query& query, D3D12_FEATURE feature) {
+  switch (static_cast<newer::Feature>(feature)) {
+    case newer::Feature::kOptions16:
+      return options<newer::Options16>(query, [](auto&) {});
+    case newer::Feature::kOptions17:
+      return options<newer::Options17>(query, [](auto&) {});
+    case newer::Feature::kOptions18:
+      return options<newer::Options18>(query, [](auto&) {});
+    case newer::Feature::kOptions19:
+      return options<newer::Options19>(query, [](auto& out) {
+        out.SupportedSampleCountsWithNoOutputs = 1;  // one bit for each: a single sample
+        out.MaxSamplerDescriptorHeapSize = rtapi::kMaxShaderVisibleSamplerHeapSize;
+        out.MaxSamplerDescriptorHeapSizeWithStaticSamplers =
+            rtapi::kMaxShaderVisibleSamplerHeapSize;
+        out.MaxViewDescriptorHeapSize = rtapi::kMaxViewHeapSize;
+      });
+    case newer::Feature::kOptions20:
+      return options<newer::Options20>(query, [](auto&) {});
+    case newer::Feature::kPredication:
+    case newer::Feature::kHardwareCopy:
+    case newer::Feature::kTightAlignment:
+      return options<newer::Support>(query, [](auto&) {});
+    case newer::Feature::kOptions21:
+      return options<newer::Options21>(query, [](auto& out) {
+        out.ExecuteIndirectTier = newer::kExecuteIndirectTier1_0;
+        out.SampleCmpGradientAndBiasSupported = TRUE;
+      });
+    case newer::Feature::kOptions22:
+      return options<newer::Options22>(query, [](auto& out) {
+        out.Max1DDispatchSize = rtapi::kCsDispatchMaxThreadGroupsPerDimension;
+      });
+    default:
+      return E_INVALIDARG;  // as D3D12 answers of features that it does not know
+  }
+}
 
 HRESULT feature_levels(D3D12_FEATURE_DATA_FEATURE_LEVELS& out) {
   if (out.NumFeatureLevels == 0 || out.pFeatureLevelsRequested == nullptr) return E_INVALIDARG;
@@ -105,9 +150,9 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
       });
     case D3D12_FEATURE_SHADER_MODEL:
       // A program asks with the highest model it knows and gets the lower of the two.
-      return answer<D3D12_FEATURE_DATA_SHADER_MODEL>(query, [](auto& out) {
+      return answer<D3D12_FEATURE_DATA_SHADER_MODEL>(query, [this](auto& out) {
         if (out.HighestShaderModel < D3D_SHADER_MODEL_5_1) return E_INVALIDARG;
-        out.HighestShaderModel = std::min(out.HighestShaderModel, kHighestShaderModel);
+        out.HighestShaderModel = std::min(out.HighestShaderModel, highest_model(device_));
         return S_OK;
       });
     case D3D12_FEATURE_ROOT_SIGNATURE:
@@ -190,7 +235,7 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_DISPLAYABLE:
       return options<D3D12_FEATURE_DATA_DISPLAYABLE>(query, [](auto&) {});
     default:
-      return E_INVALIDARG;  // as D3D12 answers of features that it does not know
+      return newer_feature(query, feature);
   }
 }
 

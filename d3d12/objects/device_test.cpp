@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "d3d12/objects/d3d12_fixture.h"
+#include "d3d12/objects/newer_features.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -219,6 +220,63 @@ TEST_F(DeviceCalls, FeaturesAreWhatRtapiHas) {
   EXPECT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS5, &five, 1), E_INVALIDARG);
   EXPECT_EQ(device_->CheckFeatureSupport(static_cast<D3D12_FEATURE>(999), &five, sizeof(five)),
             E_INVALIDARG);
+}
+
+// A device of the level that the two variables ask for; null if there is none.
+ComPtr<ID3D12Device> device_of_level(const char* tier, const char* model) {
+  setenv("KAAMOS_RAYTRACING_TIER", tier, 1);
+  setenv("KAAMOS_SHADER_MODEL", model, 1);
+  ComPtr<ID3D12Device> device;
+  D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(device.GetAddressOf()));
+  unsetenv("KAAMOS_RAYTRACING_TIER");
+  unsetenv("KAAMOS_SHADER_MODEL");
+  return device;
+}
+
+TEST_F(DeviceCalls, VariablesChooseTheLevel) {
+  struct Row {
+    const char* tier;
+    const char* model;
+    D3D12_RAYTRACING_TIER reported;
+    D3D_SHADER_MODEL reported_model;
+  };
+  for (const Row& row :
+       {Row{"none", "6.0", D3D12_RAYTRACING_TIER_NOT_SUPPORTED, D3D_SHADER_MODEL_6_0},
+        Row{"1.0", "6.3", D3D12_RAYTRACING_TIER_1_0, D3D_SHADER_MODEL_6_3},
+        Row{"1.1", "6.5", D3D12_RAYTRACING_TIER_1_1, D3D_SHADER_MODEL_6_5}}) {
+    const auto device = device_of_level(row.tier, row.model);
+    ASSERT_NE(device, nullptr) << row.tier;
+    D3D12_FEATURE_DATA_D3D12_OPTIONS5 five = {};
+    EXPECT_EQ(device->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS5, &five, sizeof(five)), S_OK);
+    EXPECT_EQ(five.RaytracingTier, row.reported) << row.tier;
+    D3D12_FEATURE_DATA_SHADER_MODEL model = {D3D_SHADER_MODEL_6_8};
+    EXPECT_EQ(device->CheckFeatureSupport(D3D12_FEATURE_SHADER_MODEL, &model, sizeof(model)), S_OK);
+    EXPECT_EQ(model.HighestShaderModel, row.reported_model) << row.tier;
+  }
+  Listener listener;
+  const Quiet quiet;
+  EXPECT_EQ(device_of_level("1.1", "6.4"), nullptr);  // the tier needs 6.5
+  EXPECT_EQ(device_of_level("1.5", "6.5"), nullptr);
+  EXPECT_EQ(device_of_level("1.1", "7"), nullptr);
+  ASSERT_EQ(listener.messages.size(), 3u);
+  for (const std::string& message : listener.messages) EXPECT_EQ(message.substr(0, 6), "KA0914");
+}
+
+TEST_F(DeviceCalls, FeaturesOfNewerHeadersAreAnswered) {
+  const auto ask = [this](newer::Feature feature, auto& data) {
+    return device_->CheckFeatureSupport(static_cast<D3D12_FEATURE>(feature), &data, sizeof(data));
+  };
+  newer::Options22 reorder = {TRUE, TRUE, 1, 1};
+  ASSERT_EQ(ask(newer::Feature::kOptions22, reorder), S_OK);
+  EXPECT_FALSE(reorder.ShaderExecutionReorderingActuallyReorders);
+  EXPECT_EQ(reorder.Max1DDispatchSize, 65535u);
+  newer::Options19 heaps = {};
+  ASSERT_EQ(ask(newer::Feature::kOptions19, heaps), S_OK);
+  EXPECT_EQ(heaps.MaxSamplerDescriptorHeapSize, 2048u);
+  newer::Options21 indirect = {};
+  ASSERT_EQ(ask(newer::Feature::kOptions21, indirect), S_OK);
+  EXPECT_EQ(indirect.ExecuteIndirectTier, newer::kExecuteIndirectTier1_0);
+  EXPECT_EQ(ask(newer::Feature::kOptions22, indirect.WorkGraphsTier), E_INVALIDARG);  // too small
 }
 
 TEST_F(DeviceCalls, FormatsSupportWhatCanBeMade) {

@@ -8,6 +8,7 @@
 
 #include "rtapi/src/backends.h"
 #include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 
 namespace rtapi {
@@ -23,10 +24,7 @@ Status check_desc(const DeviceDesc& desc) {
                               static_cast<uint32_t>(desc.Precision),
                               "; it must be kFast, kRobust or kExact");
   }
-  if (desc.Tier != RaytracingTier::kTier1_0 && desc.Tier != RaytracingTier::kTier1_1) {
-    return detail::make_error(Id::kDeviceDesc, "Tier is ", static_cast<uint32_t>(desc.Tier),
-                              "; it must be kTier1_0 or kTier1_1");
-  }
+  if (Status s = detail::check_device_level(desc); !s.ok()) return s;
   if (desc.Threads > 4096) {
     return detail::make_error(Id::kDeviceDesc, "Threads is ", desc.Threads,
                               "; it must be 0 (all threads of the machine) to 4096");

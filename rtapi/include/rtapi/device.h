@@ -13,6 +13,7 @@
 #include <rtapi/command_queue.h>
 #include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
+#include <rtapi/device_level.h>
 #include <rtapi/message.h>
 #include <rtapi/pipeline_state.h>
 #include <rtapi/query.h>
@@ -55,7 +56,12 @@ struct DeviceDesc {
   /// it.
   uint32_t Threads = 0;
   TraversalPrecision Precision = TraversalPrecision::kRobust;  ///< of rays against triangles
-  RaytracingTier Tier = RaytracingTier::kTier1_1;              ///< 1.0 refuses what 1.1 brought
+  /// What the device has; it refuses what a higher tier brought. At most kHighestRaytracingTier
+  /// (KA0914).
+  RaytracingTier Tier = kHighestRaytracingTier;
+  /// Libraries that were compiled for a higher one are refused (KA0544). At most
+  /// kHighestShaderModel, and at least what the tier needs: 6.3 for 1.0, 6.5 for 1.1 (KA0914).
+  rtapi::ShaderModel ShaderModel = kHighestShaderModel;
   /// Lanes of a wave in compute shaders on the CPU: 4, 8, 16 or 32 (KA0914); 0: 8. Vulkan ignores
   /// it: there the driver decides. In ray shaders each thread is a wave of its own.
   /// [HLSL: WaveGetLaneCount]
@@ -94,7 +100,8 @@ class Device;
 /// Makes a device. Several may live at once; their objects do not mix (KA0903).
 /// [D3D12: D3D12CreateDevice]
 /// @errors KA0900 the build has no backend; KA0901 unknown backend, and the message lists the known
-/// ones; KA0914 Precision, Tier, Threads or WaveLanes out of range. Embree: KA0992 it cannot be
+/// ones; KA0914 Precision, Tier, ShaderModel, Threads or WaveLanes
+/// out of range, or a tier without the shader model that it needs. Embree: KA0992 it cannot be
 /// started. Vulkan: KA0950 no device with ray tracing pipelines, KA0951 validation layers absent,
 /// KA0952 a call failed, KA0953 no device of that name, KA0991 precision kExact.
 Result<Device> CreateDevice(const DeviceDesc& desc = {});
@@ -138,8 +145,9 @@ class Device {
 
   /// Makes a buffer of zeros. [D3D12: CreateCommittedResource]
   /// @errors KA0904 empty handle; KA0905 size; KA0906 heap, flags or state; KA0907 the state
-  /// kRaytracingAccelerationStructure without what it needs; KA0990 no memory; on Vulkan KA0956
-  /// over a limit of the device; the reason if the device is removed.
+  /// kRaytracingAccelerationStructure without what it needs, KA0545 on a device without ray
+  /// tracing; KA0990 no memory; on Vulkan KA0956 over a limit of the device; the reason if the
+  /// device is removed.
   Result<Buffer> CreateBuffer(const BufferDesc& desc) const;
   /// Makes a texture of zeros on the default heap. [D3D12: CreateCommittedResource]
   /// @errors KA0904 empty handle; KA0907 a state for buffers; KA0908 dimension, size or mip levels;
@@ -179,8 +187,8 @@ class Device {
   /// keep the resource alive. [D3D12: CreateShaderResourceView; DXR: Additional SRV type]
   /// @errors KA0904 empty device; KA0903 resource of another device; KA0622 `dest` is no such slot;
   /// KA0623 dimension; KA0624 elements outside of the buffer; KA0625 stride or offset; KA0626
-  /// format or component mapping; KA0629 acceleration structure; KA0630 mips or slices; on Vulkan
-  /// KA0956 too many views, KA0961 no such view.
+  /// format or component mapping; KA0629, KA0545 acceleration structure; KA0630 mips or slices; on
+  /// Vulkan KA0956 too many views, KA0961 no such view.
   Status CreateShaderResourceView(const Resource& resource, const ShaderResourceViewDesc& desc,
                                   CpuDescriptorHandle dest) const;
   /// A view of the whole texture, with its own format and dimension. Several elements make an array
@@ -270,7 +278,8 @@ class Device {
   /// @errors KA0904 an empty handle, KA0903 an object of another device. Subobjects: KA0500-0502,
   /// KA0519-0521, KA0536, KA0538, KA0539. Exports: KA0503-0506. Associations: KA0507-0510, KA0515.
   /// Configs: KA0511-0514. Hit groups: KA0516-0518, KA0524. Sizes: KA0522, KA0523. Collections:
-  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Tier: KA0542. Functions without a body:
+  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Device: KA0542, KA0544,
+  /// KA0545. Functions without a body:
   /// KA0560 none defines it, KA0561 another signature, KA0562 a collection's flags, KA0563 no
   /// source, KA0564 what the compiler says of the libraries together. On Vulkan: KA0952, KA0954 a
   /// library without SPIR-V, KA0956, KA0963 RayQuery that the device lacks. The reason if the
@@ -290,24 +299,25 @@ class Device {
   /// @errors KA0904 an empty handle; KA0903 a root signature of another device; KA0528, KA0529 the
   /// root signature does not feed a resource; KA0536 a local root signature; KA0537 no such shader,
   /// several where EntryPoint is empty, or its thread group (up to 1024 x 1024 x 64, 1024 in all);
-  /// KA0542 RayQuery on a device of tier 1.0; KA0550 [WaveSize] that the device's waves do not
-  /// have; on Vulkan KA0551 no subgroup operations, KA0952, KA0954, KA0956, KA0963; the reason if
-  /// the device is removed.
+  /// KA0542 RayQuery on a device of tier 1.0; KA0544 a library of a higher shader model; KA0550
+  /// [WaveSize] that the device's waves do not have; on Vulkan KA0551 no subgroup operations,
+  /// KA0952, KA0954, KA0956, KA0963; the reason if the device is removed.
   Result<PipelineState> CreateComputePipelineState(const ComputePipelineStateDesc& desc) const;
   /// Makes a graphics pipeline. Stages are linked by semantics: elements of the layout to inputs of
   /// the vertex shader, its outputs to inputs of the pixel shader.
   /// [D3D12: CreateGraphicsPipelineState]
   /// @errors KA0904 an empty handle; KA0903 a root signature of another device; KA0536 a local root
   /// signature; KA0528, KA0529, KA0543 it does not feed a resource; KA0542 RayQuery on a device of
-  /// tier 1.0; KA0720-KA0727 the description; on Vulkan KA0551 no subgroup operations in pixel
-  /// shaders, KA0952, KA0954, KA0956, KA0963; the reason if the device is removed. Warning: KA0728.
+  /// tier 1.0; KA0544 a library of a higher shader model; KA0720-KA0727 the description; on Vulkan
+  /// KA0551 no subgroup operations in pixel shaders, KA0952, KA0954, KA0956, KA0963; the reason if
+  /// the device is removed. Warning: KA0728.
   Result<PipelineState> CreateGraphicsPipelineState(const GraphicsPipelineStateDesc& desc) const;
   /// Makes a command signature for ExecuteIndirect. `root_signature` is a global one; it is needed
   /// if an argument sets a root argument, and ignored otherwise.
   /// [D3D12: CreateCommandSignature; DXR: D3D12_COMMAND_SIGNATURE_DESC]
   /// @errors KA0904 empty handle; KA0903 a root signature of another device; KA0536 a local one;
-  /// KA0540 an argument or the stride; KA0541 kDispatchRays on a device of tier 1.0; the reason if
-  /// the device is removed.
+  /// KA0540 an argument or the stride; KA0541 kDispatchRays on a device below tier 1.1; the reason
+  /// if the device is removed.
   Result<CommandSignature> CreateCommandSignature(const CommandSignatureDesc& desc,
                                                   const RootSignature& root_signature = {}) const;
 
@@ -324,7 +334,8 @@ class Device {
   /// index buffer. [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
   /// @errors KA0904 empty handle; KA0700 types, layout or flags; KA0701 build flags; KA0702 mixed
   /// geometry; KA0703 vertex format; KA0704 index format; KA0705, KA0708 stride; KA0709
-  /// more than 2^24 geometries or instances, or 2^29 primitives; KA0710 null pointers.
+  /// more than 2^24 geometries or instances, or 2^29 primitives; KA0710 null pointers; KA0545 the
+  /// device has no ray tracing.
   Result<RaytracingAccelerationStructurePrebuildInfo>
   GetRaytracingAccelerationStructurePrebuildInfo(
       const BuildRaytracingAccelerationStructureInputs& inputs) const;

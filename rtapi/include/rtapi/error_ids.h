@@ -139,6 +139,8 @@ inline constexpr ErrorId kCommandSignature{540};  ///< invalid command signature
 inline constexpr ErrorId kCommandSignatureTier{541};  ///< indirect DispatchRays needs tier 1.1
 inline constexpr ErrorId kShaderTier{542};  ///< shader needs tier 1.1
 inline constexpr ErrorId kCallGraphSignatures{543};  ///< functions of a call graph have different root signatures
+inline constexpr ErrorId kLibraryShaderModel{544};  ///< shader needs a higher shader model
+inline constexpr ErrorId kNoRaytracing{545};  ///< device without ray tracing
 inline constexpr ErrorId kAttributesUnread{553};  ///< attributes declared of another size and not read
 inline constexpr ErrorId kFunctionUnresolved{560};  ///< function without a body
 inline constexpr ErrorId kFunctionDiffers{561};  ///< function declared with another signature

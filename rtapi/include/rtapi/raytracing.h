@@ -10,11 +10,6 @@
 
 namespace rtapi {
 
-/// The level of ray tracing that a device has; DeviceDesc::Tier chooses. Tier 1.1 adds RayQuery,
-/// the two skip flags of rays and pipelines, AddToStateObject, GeometryIndex, indirect DispatchRays
-/// and seven vertex formats. [DXR: D3D12_RAYTRACING_TIER]
-enum class RaytracingTier : uint32_t { kNotSupported = 0, kTier1_0 = 10, kTier1_1 = 11 };
-
 /// HLSL's RAY_FLAG values, for code that shares them with shaders. At most one of kForceOpaque,
 /// kForceNonOpaque, kCullOpaque and kCullNonOpaque; at most one of the two facing culls and
 /// kSkipTriangles; not both skips. The skips need tier 1.1 (KA0542). Checked mode reports illegal

@@ -11,6 +11,7 @@
 #include <rtapi/command_signature.h>  // IWYU pragma: export
 #include <rtapi/descriptor.h>         // IWYU pragma: export
 #include <rtapi/device.h>             // IWYU pragma: export
+#include <rtapi/device_level.h>       // IWYU pragma: export
 #include <rtapi/format.h>             // IWYU pragma: export
 #include <rtapi/pipeline_state.h>     // IWYU pragma: export
 #include <rtapi/query.h>              // IWYU pragma: export

@@ -78,6 +78,8 @@ inline constexpr uint32_t kReqTexture2DArrayAxisDimension = 2048;
 inline constexpr uint32_t kCsDispatchMaxThreadGroupsPerDimension = 65535;
 /// Most descriptors of a shader-visible sampler heap. [D3D12: hardware tiers]
 inline constexpr uint32_t kMaxShaderVisibleSamplerHeapSize = 2048;
+/// Most descriptors of a heap of views. [D3D12: hardware tiers]
+inline constexpr uint32_t kMaxViewHeapSize = 1'000'000;
 /// DescriptorRange::OffsetInDescriptorsFromTableStart: right behind the range before.
 /// [D3D12: D3D12_DESCRIPTOR_RANGE_OFFSET_APPEND]
 inline constexpr uint32_t kDescriptorRangeOffsetAppend = 0xFFFFFFFFu;

@@ -6,6 +6,7 @@
 #include <rtapi/graphics_pipeline.h>
 
 #include "rtapi/src/commands/command_signature_impl.h"
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 
 namespace rtapi {
@@ -50,8 +51,8 @@ Status LayoutMaker::add_work(const std::string& where, runtime::IndirectWork wor
   }
   if (work == runtime::IndirectWork::kDispatchRays &&
       device_.desc.Tier < RaytracingTier::kTier1_1) {
-    return make_error(Id::kCommandSignatureTier, where,
-                      ": kDispatchRays needs tier 1.1, but the device was created with tier 1.0");
+    return make_error(Id::kCommandSignatureTier, where, ": kDispatchRays needs tier 1.1, ",
+                      but_tier(device_));
   }
   const bool draws =
       work == runtime::IndirectWork::kDraw || work == runtime::IndirectWork::kDrawIndexed;

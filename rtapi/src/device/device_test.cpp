@@ -47,8 +47,10 @@ TEST(DeviceTest, DescriptionIsChecked) {
   EXPECT_ERROR(CreateDevice({.Backend = "null", .Threads = 5000}), "KA0914", "5000");
   EXPECT_ERROR(CreateDevice({.Backend = "null", .Precision = static_cast<TraversalPrecision>(9)}),
                "KA0914");
-  EXPECT_ERROR(CreateDevice({.Backend = "null", .Tier = static_cast<RaytracingTier>(12)}),
-               "KA0914");
+  EXPECT_ERROR(CreateDevice({.Backend = "null", .Tier = static_cast<RaytracingTier>(13)}), "KA0914",
+               "13");
+  EXPECT_ERROR(CreateDevice({.Backend = "null", .Tier = RaytracingTier::kTier2_0}), "KA0914",
+               "Tier is 2.0; the highest that is offered is ");
   for (const uint32_t lanes : {1u, 2u, 3u, 5u, 64u}) {
     EXPECT_ERROR(CreateDevice({.Backend = "null", .WaveLanes = lanes}), "KA0914",
                  "WaveLanes is " + std::to_string(lanes));
@@ -56,6 +58,62 @@ TEST(DeviceTest, DescriptionIsChecked) {
   for (const uint32_t lanes : {0u, 4u, 8u, 16u, 32u}) {
     EXPECT_TRUE(CreateDevice({.Backend = "null", .WaveLanes = lanes}).ok());
   }
+}
+
+TEST(DeviceTest, TierAndShaderModelFitEachOther) {
+  CreateNullDevice();
+  const auto create = [](RaytracingTier tier, ShaderModel model) {
+    return CreateDevice({.Backend = "null", .Tier = tier, .ShaderModel = model});
+  };
+  for (uint32_t model = 0x60; model <= static_cast<uint32_t>(kHighestShaderModel); ++model) {
+    const auto level = static_cast<ShaderModel>(model);
+    EXPECT_TRUE(create(RaytracingTier::kNotSupported, level).ok());
+    EXPECT_EQ(create(RaytracingTier::kTier1_0, level).ok(), model >= 0x63) << model;
+    EXPECT_EQ(create(RaytracingTier::kTier1_1, level).ok(), model >= 0x65) << model;
+  }
+  EXPECT_ERROR(create(RaytracingTier::kTier1_1, ShaderModel::k6_4), "KA0914",
+               "Tier 1.1 needs ShaderModel 6.5 or higher, but it is 6.4");
+  EXPECT_ERROR(create(RaytracingTier::kTier1_1, static_cast<ShaderModel>(0x70)), "KA0914", "0x70");
+  EXPECT_ERROR(create(RaytracingTier::kTier1_1, static_cast<ShaderModel>(0x51)), "KA0914", "0x51");
+}
+
+TEST(DeviceTest, TiersAndShaderModelsHaveNames) {
+  for (const RaytracingTier tier :
+       {RaytracingTier::kNotSupported, RaytracingTier::kTier1_0, RaytracingTier::kTier1_1,
+        RaytracingTier::kTier1_2, RaytracingTier::kTier2_0}) {
+    EXPECT_EQ(ParseRaytracingTier(GetName(tier)).value(), tier);
+  }
+  for (uint32_t model = 0x60; model <= 0x69; ++model) {
+    EXPECT_EQ(ParseShaderModel(GetName(static_cast<ShaderModel>(model))).value(),
+              static_cast<ShaderModel>(model));
+  }
+  EXPECT_STREQ(GetName(RaytracingTier::kTier1_1), "1.1");
+  EXPECT_EQ(GetName(ShaderModel::k6_5), "6.5");
+  EXPECT_EQ(GetName(static_cast<ShaderModel>(0x51)), "unknown");
+  EXPECT_ERROR(ParseRaytracingTier("11"), "KA0914", "\"11\"", "none, 1.0, 1.1, 1.2, 2.0");
+  EXPECT_ERROR(ParseShaderModel("6_6"), "KA0914", "\"6_6\"", "6.0 to 6.9");
+}
+
+TEST(DeviceTest, NoneOfRaytracingOnADeviceWithoutIt) {
+  const Device device = CreateNullDevice({.Tier = RaytracingTier::kNotSupported});
+  EXPECT_ERROR(device.GetRaytracingAccelerationStructurePrebuildInfo({}), "KA0545", "tier none");
+  EXPECT_ERROR(
+      device.CreateBuffer({.SizeInBytes = 256,
+                           .Flags = ResourceFlags::kAllowUnorderedAccess,
+                           .InitialState = ResourceStates::kRaytracingAccelerationStructure}),
+      "KA0545");
+  EXPECT_ERROR(device.CreateStateObject({}), "KA0545", "a state object");
+  const auto heap = device.CreateDescriptorHeap({.NumDescriptors = 1}).value();
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
+  EXPECT_ERROR(
+      device.CreateShaderResourceView(Resource(), view, heap.GetCPUDescriptorHandleForHeapStart()),
+      "KA0545");
+  CommandSignatureDesc rays;
+  rays.ByteStride = sizeof(DispatchRaysDesc);
+  rays.ArgumentDescs = {{.Type = IndirectArgumentType::kDispatchRays}};
+  EXPECT_ERROR(device.CreateCommandSignature(rays), "KA0541", "tier none");
+  EXPECT_TRUE(device.CreateBuffer({.SizeInBytes = 256}).ok());
 }
 
 TEST(DeviceTest, EmptyHandlesNeverCrash) {

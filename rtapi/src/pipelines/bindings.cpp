@@ -225,23 +225,4 @@ Status check_root_signatures_disjoint(const RootSignature& global, const RootSig
   return {};
 }
 
-Status check_tier(const DeviceImpl& device, const shader::ExportDesc& code,
-                  const std::string& where) {
-  if (device.desc.Tier >= RaytracingTier::kTier1_1) return {};
-  if ((code.flags & shader::kExportUsesRayQuery) != 0) {
-    return make_error(Id::kShaderTier, where,
-                      " uses RayQuery, but the device was created with tier 1.0");
-  }
-  constexpr uint32_t kSkipFlags = 0x300;
-  for (uint32_t i = 0; i < code.trace_call_count; ++i) {
-    const shader::TraceCall& call = code.trace_calls[i];
-    if ((call.known & shader::kKnowsRayFlags) == 0 || (call.ray_flags & kSkipFlags) == 0) continue;
-    return make_error(Id::kShaderTier, where, " calls TraceRay with ray flags ",
-                      hex(call.ray_flags), " (", call.file ? call.file : "", ":", call.line,
-                      "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES "
-                      "need tier 1.1, but the device was created with tier 1.0");
-  }
-  return {};
-}
-
 }  // namespace rtapi::detail

@@ -26,8 +26,4 @@ Result<std::vector<kaamos::shader::BindingSlot>> resolve_bindings(
 Status check_root_signatures_disjoint(const RootSignature& global, const RootSignature& local,
                                       const std::string& where);
 
-// Inline ray tracing, and the SKIP ray flags where they are constants, need a device of tier 1.1.
-Status check_tier(const DeviceImpl& device, const kaamos::shader::ExportDesc& code,
-                  const std::string& where);
-
 }  // namespace rtapi::detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Checks configs, root signatures and hit groups, whether the API or HLSL declares them.
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 #include "rtapi/src/pipelines/state_object_gatherer.h"
 
@@ -65,8 +66,8 @@ Status Gatherer::define_pipeline_config(const RaytracingPipelineConfig1& config,
                       config.MaxTraceRecursionDepth, "; it must be 0 to 31");
   }
   if (config1 && parts_.device->desc.Tier < RaytracingTier::kTier1_1) {
-    return make_error(Id::kPipelineConfig1Tier, where,
-                      " is a RaytracingPipelineConfig1, but this device was created with tier 1.0");
+    return make_error(Id::kPipelineConfig1Tier, where, " is a RaytracingPipelineConfig1, ",
+                      but_tier(*parts_.device));
   }
   const auto known =
       RaytracingPipelineFlags::kSkipTriangles | RaytracingPipelineFlags::kSkipProceduralPrimitives;

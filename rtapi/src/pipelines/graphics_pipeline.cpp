@@ -7,6 +7,7 @@
 
 #include <rtapi/device.h>
 
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/bindings.h"
 #include "rtapi/src/pipelines/graphics_link.h"
 #include "rtapi/src/pipelines/pipeline_state_impl.h"
@@ -187,11 +188,12 @@ Status link_shader(const DeviceImpl& device, const RootSignature& signature,
                    runtime::LinkedShader& linked) {
   const bool vertex = stage == shader::Stage::kVertex;
   const ShaderLibrary library = device.library_to_run(given.Library);
+  if (Status s = check_shader_model(device, library); !s.ok()) return s;
   auto code = find_shader(library, given.EntryPoint, stage, vertex ? "vertex" : "pixel");
   if (!code.ok()) return code.error();
   const std::string where =
       concat(vertex ? "vertex" : "pixel", " shader ", in_quotes((*code)->name));
-  if (Status s = check_tier(device, **code, where); !s.ok()) return s;
+  if (Status s = check_shader_tier(device, **code, where); !s.ok()) return s;
   const RootSignatureFlags denied = vertex ? RootSignatureFlags::kDenyVertexShaderRootAccess
                                            : RootSignatureFlags::kDenyPixelShaderRootAccess;
   if ((*code)->binding_count > 0 && HasAny(signature.GetDesc().Flags, denied)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 #include "rtapi/src/pipelines/state_object_gatherer.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
@@ -41,6 +42,7 @@ Status Gatherer::gather(const DxilLibraryDesc& sub, size_t i) {
     return make_error(Id::kLibraryTarget, where, ": ", in_quotes(sub.DXILLibrary.name()),
                       " was compiled for ", in_quotes(target), "; it must be lib_6_3 or later");
   }
+  if (Status s = check_shader_model(*parts_.device, sub.DXILLibrary); !s.ok()) return s;
   const int scope = static_cast<int>(parts_.libraries.size());
   parts_.libraries.push_back(sub.DXILLibrary);
   parts_.library_scopes.emplace_back();

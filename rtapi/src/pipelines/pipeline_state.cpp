@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <rtapi/pipeline_state.h>
 
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/bindings.h"
 #include "rtapi/src/pipelines/pipeline_state_impl.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
@@ -63,6 +64,7 @@ Result<PipelineState> Device::CreateComputePipelineState(
   ComputePipelineStateDesc desc = given;
   if (desc.CS) desc.CS = impl_->library_to_run(desc.CS);
   if (!desc.CS) return make_error(Id::kNullHandle, "CS is an empty shader library handle");
+  if (Status s = check_shader_model(*impl_, desc.CS); !s.ok()) return s.error();
   if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
     return s.error();
   }
@@ -74,7 +76,7 @@ Result<PipelineState> Device::CreateComputePipelineState(
   if (!kernel.ok()) return kernel.error();
   if (Status s = check_thread_group(**kernel); !s.ok()) return s.error();
   const std::string where = concat("compute shader ", in_quotes((*kernel)->name));
-  if (Status s = check_tier(*impl_, **kernel, where); !s.ok()) return s.error();
+  if (Status s = check_shader_tier(*impl_, **kernel, where); !s.ok()) return s.error();
   const auto& table = *desc.CS.impl()->desc;
   auto slots = resolve_bindings(table, **kernel, desc.pRootSignature, RootSignature(), where);
   if (!slots.ok()) return slots.error();

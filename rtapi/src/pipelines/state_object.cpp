@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/state_object_impl.h"
 
 namespace rtapi {
@@ -72,6 +73,7 @@ namespace {
 Result<std::shared_ptr<StateObjectImpl>> make_state_object(
     const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc, bool for_backend) {
   if (Status s = device->removed(); !s.ok()) return s.error();
+  if (Status s = check_has_raytracing(*device, "a state object"); !s.ok()) return s.error();
   auto parts = gather_parts(device, desc);
   if (!parts.ok()) return parts.error();
   if (Status s = link_functions(*parts); !s.ok()) return s.error();
@@ -83,7 +85,8 @@ Result<std::shared_ptr<StateObjectImpl>> make_state_object(
 Status check_addition(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& addition,
                       const StateObject& parent) {
   if (device->desc.Tier < RaytracingTier::kTier1_1) {
-    return make_error(Id::kAdditionNotAllowed, "AddToStateObject needs tier 1.1");
+    return make_error(Id::kAdditionNotAllowed, "AddToStateObject needs tier 1.1, ",
+                      but_tier(*device));
   }
   if (Status s = CheckHandle(device, parent, "the parent"); !s.ok()) return s;
   if (parent.impl()->type != StateObjectType::kRaytracingPipeline ||

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/bindings.h"
 #include "rtapi/src/pipelines/hit_attributes.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
@@ -359,7 +360,7 @@ class Linker {
     if (auto it = cache_.find(key); it != cache_.end()) return it->second;
     if (Status st = check_root_signatures_disjoint(global, local, where); !st.ok())
       return st.error();
-    if (Status st = check_tier(*parts_.device, *s.code, where); !st.ok()) return st.error();
+    if (Status st = check_shader_tier(*parts_.device, *s.code, where); !st.ok()) return st.error();
     const auto& library = *s.library.impl()->desc;
     auto slots = resolve_bindings(library, *s.code, global, local, where);
     if (!slots.ok()) return slots.error();

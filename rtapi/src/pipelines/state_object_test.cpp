@@ -231,6 +231,22 @@ TEST_F(StateObjectTest, SO_23_PipelineConfig1NeedsTier11) {
   EXPECT_ERROR(old.CreateStateObject(desc), "KA0520", "tier 1.0");
 }
 
+TEST_F(StateObjectTest, TIER_02_LibrariesOfAHigherShaderModel) {
+  Device old = CreateNullDevice({.ShaderModel = ShaderModel::k6_5});
+  const auto make = [&old](const char* target) {
+    LibraryBuilder b("lib.hlsl", target);
+    b.Export("RayGen", Stage::kRayGeneration);
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{b.Build()});
+    desc.Add(RaytracingShaderConfig{});
+    desc.Add(RaytracingPipelineConfig{1});
+    return old.CreateStateObject(desc);
+  };
+  EXPECT_OK(make("lib_6_5"));
+  EXPECT_ERROR(make("lib_6_6"), "KA0544", "\"lib.hlsl\" was compiled for lib_6_6",
+               "shader model 6.5");
+}
+
 TEST_F(StateObjectTest, FLG_05_ShadersOfTier11) {
   Device old = CreateNullDevice({.Tier = RaytracingTier::kTier1_0});
   LibraryBuilder b;

@@ -6,6 +6,7 @@
 
 #include <rtapi/device.h>
 
+#include "rtapi/src/device/device_level.h"
 #include "runtime/structures/serialized_identifier.h"
 
 namespace rtapi {
@@ -82,10 +83,9 @@ Status check_triangles(const DeviceImpl& device, const RaytracingGeometryTriangl
   const std::string where = geometry_text(index);
   const VertexFormatInfo* format = find_vertex_format(t.VertexFormat);
   if (!format || (format->tier_1_1 && device.desc.Tier < RaytracingTier::kTier1_1)) {
-    return make_error(Id::kVertexFormat, where, ": vertex format ",
-                      static_cast<uint32_t>(t.VertexFormat),
-                      format ? " needs tier 1.1; this device was created with tier 1.0"
-                             : " is not one of DXR's vertex formats");
+    return make_error(
+        Id::kVertexFormat, where, ": vertex format ", static_cast<uint32_t>(t.VertexFormat),
+        format ? " needs tier 1.1, " + but_tier(device) : " is not one of DXR's vertex formats");
   }
   // Only the low 32 bits of the stride count. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
   const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
@@ -258,6 +258,7 @@ Status check_scratch(const DeviceImpl& device, const BuildRaytracingAcceleration
 
 Status check_inputs(const DeviceImpl& device,
                     const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
+  if (Status s = check_has_raytracing(device, "an acceleration structure"); !s.ok()) return s;
   if (inputs.Type > StructureType::kBottomLevel) {
     return make_error(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
                       "; it must be kTopLevel (0) or kBottomLevel (1)");

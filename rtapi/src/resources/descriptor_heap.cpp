@@ -14,7 +14,6 @@ using namespace detail;
 
 namespace {
 
-constexpr uint32_t kMaxViews = 1'000'000;  // [D3D12: hardware tiers]
 const DescriptorHeapDesc kEmptyHeap;
 
 bool holds_targets(DescriptorHeapType type) {
@@ -37,7 +36,7 @@ Status check_heap(const DescriptorHeapDesc& desc) {
     return make_error(Id::kHeapType, name,
                       " has kShaderVisible, but shaders do not read heaps of RTVs and DSVs");
   }
-  const uint32_t limit = samplers && visible ? kMaxShaderVisibleSamplerHeapSize : kMaxViews;
+  const uint32_t limit = samplers && visible ? kMaxShaderVisibleSamplerHeapSize : kMaxViewHeapSize;
   if (desc.NumDescriptors == 0 || desc.NumDescriptors > limit) {
     return make_error(Id::kHeapSize, name, " has ", desc.NumDescriptors,
                       " descriptors; it must have 1 to ", limit);

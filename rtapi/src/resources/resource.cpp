@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/resources/resource_impl.h"
 
 namespace rtapi {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 40;
 
-Status check_buffer(const BufferDesc& desc) {
+Status check_buffer(const DeviceImpl& device, const BufferDesc& desc) {
   const std::string name = named("buffer", desc.Name);
   if (desc.SizeInBytes == 0 || desc.SizeInBytes > kMaxBufferBytes) {
     return make_error(Id::kBufferSize, name, " has ", desc.SizeInBytes,
@@ -37,6 +38,11 @@ Status check_buffer(const BufferDesc& desc) {
                       " has kAllowUnorderedAccess, which needs the default heap");
   }
   if (desc.InitialState == ResourceStates::kRaytracingAccelerationStructure) {
+    if (Status s = check_has_raytracing(device, name + ", which starts in state "
+                                                       "kRaytracingAccelerationStructure,");
+        !s.ok()) {
+      return s;
+    }
     if (!on_default || !unordered) {
       return make_error(Id::kAccelerationStructureBuffer, name,
                         " starts in state kRaytracingAccelerationStructure, which needs ",
@@ -271,7 +277,7 @@ void Texture::SetName(std::string name) {
 Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
   if (!impl_) return make_error(Id::kNullHandle, "CreateBuffer on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
-  if (Status s = check_buffer(desc); !s.ok()) return s.error();
+  if (Status s = check_buffer(*impl_, desc); !s.ok()) return s.error();
   auto memory = impl_->backend->create_buffer(desc);
   if (!memory.ok()) return memory.error();
   auto buffer = std::make_shared<BufferImpl>();

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/device/device_level.h"
 #include "rtapi/src/resources/resource_impl.h"
 #include "rtapi/src/resources/texture_view.h"
 
@@ -158,6 +159,9 @@ Status write_texture_view(const std::shared_ptr<DeviceImpl>& device, const Textu
 
 Status write_acceleration_structure_view(const DeviceImpl& device, const Resource& resource,
                                          GpuVirtualAddress location, CpuDescriptorHandle dest) {
+  if (Status s = check_has_raytracing(device, "a view of an acceleration structure"); !s.ok()) {
+    return s;
+  }
   if (!std::holds_alternative<std::monostate>(resource)) {
     return make_error(Id::kAccelerationStructureView,
                       "the resource must be empty: the view's Location names the structure");

@@ -23,7 +23,8 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
   return parts;
 }
 
-// Splits lib_6_3 into "lib" and "3"; "" and "" if it is not a profile of model 6 of an offered stage.
+// Splits lib_6_3 into "lib" and "3"; "" and "" if it is not a profile of model 6 of an offered
+// stage.
 std::pair<std::string_view, std::string_view> stage_and_minor(std::string_view target) {
   for (const std::string_view stage : {"lib", "cs", "vs", "ps"}) {
     if (!target.starts_with(stage) || !target.substr(stage.size()).starts_with("_6_")) continue;
