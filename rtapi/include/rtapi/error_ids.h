@@ -459,7 +459,7 @@ inline constexpr ErrorId kArraySize{2423};  ///< an array cannot have {0} elemen
 inline constexpr ErrorId kInnerUnbounded{2424};  ///< only the outermost dimension of an array can be unbounded
 inline constexpr ErrorId kUnboundedVariable{2425};  ///< array '{0}' needs a size; only arrays of resources can be unbounded
 inline constexpr ErrorId kVectorElement{2426};  ///< vectors and matrices can only hold scalars, not '{0}'
-inline constexpr ErrorId kVectorSize{2427};  ///< a vector or matrix can have 1 to 4 components per dimension, not {0}
+inline constexpr ErrorId kVectorSize{2427};  ///< a vector or matrix can have 1 to {0} components per dimension here, not {1}
 inline constexpr ErrorId kMissingElement{2428};  ///< '{0}' needs an element type: {0}\<float4>
 inline constexpr ErrorId kElementType{2429};  ///< '{0}' takes {1}, not '{2}'
 inline constexpr ErrorId kNotAnInteger{2430};  ///< {0} must be an integer, not '{1}'
@@ -634,6 +634,9 @@ inline constexpr ErrorId kInterfaceObject{2643};  ///< '{0}' is an interface, so
 inline constexpr ErrorId kInterfaceMethod{2644};  ///< '{0}' does not implement '{1}' of interface '{2}'
 inline constexpr ErrorId kGraphicsSemantic{2646};  ///< {0} of {1} shader '{2}' needs a semantic
 inline constexpr ErrorId kPixelOutput{2647};  ///< '{0}' is not an output of pixel shader '{1}'; the outputs are SV_Target0 to SV_Target7 and SV_Depth
+inline constexpr ErrorId kLongSwizzle{2650};  ///< '{1}' has no swizzle '{0}': vectors of over 4 components have none
+inline constexpr ErrorId kLongVectorPlace{2651};  ///< vectors of over 4 components are not supported in {0}, and '{1}' is or has one
+inline constexpr ErrorId kLongVectorArgument{2652};  ///< argument {0} of '{1}' is a '{2}'; it takes vectors of up to 4 components
 inline constexpr ErrorId kTexelIndex{2665};  ///< '{0}' is indexed with a vector of {1} integers, not with '{2}'
 inline constexpr ErrorId kVkIgnored{2666};  ///< '{0}' is ignored: {1}
 inline constexpr ErrorId kRootSignatureAttribute{2667};  ///< [RootSignature] takes one string, not {0}

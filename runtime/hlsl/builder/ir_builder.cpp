@@ -95,8 +95,8 @@ const ir::Expr* IrBuilder::element(const ir::Expr* base, const ir::Expr* index) 
                            : type->kind == ir::TypeKind::kMatrix
                                ? vector_type(type->scalar, type->columns)
                                : scalar_type(type->scalar);
-  if (type->kind == ir::TypeKind::kVector && index->kind == ir::ExprKind::kLiteral &&
-      index->literal[0] < type->columns) {
+  if (type->kind == ir::TypeKind::kVector && !type->is_long_vector() &&
+      index->kind == ir::ExprKind::kLiteral && index->literal[0] < type->columns) {
     return swizzle(base, {static_cast<uint8_t>(index->literal[0])});
   }
   return fold(expr(ir::ExprKind::kElement, result, {base, index}));

@@ -17,14 +17,14 @@ ir::Type* IrTypes::make(ir::TypeKind kind) {
 const ir::Type* IrTypes::numeric(Scalar scalar, uint32_t rows, uint32_t columns) {
   assert(is_plain(scalar));
   if (rows == 0 && columns == 1) columns = 0;
-  const ir::Type*& slot = numeric_[static_cast<uint32_t>(scalar) << 16 | rows << 8 | columns];
+  const ir::Type*& slot = numeric_[static_cast<uint32_t>(scalar) << 24 | rows << 16 | columns];
   if (slot) return slot;
   ir::Type* type = make(rows      ? ir::TypeKind::kMatrix
                         : columns ? ir::TypeKind::kVector
                                   : ir::TypeKind::kScalar);
   type->scalar = scalar;
   type->rows = static_cast<uint8_t>(std::max(rows, 1u));
-  type->columns = static_cast<uint8_t>(std::max(columns, 1u));
+  type->columns = static_cast<uint16_t>(std::max(columns, 1u));
   return slot = type;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "runtime/hlsl/builder/finish/finish_module.h"
+#include "runtime/hlsl/builder/finish/long_vectors.h"
 #include "runtime/hlsl/check/finish/finish.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/name_parts.h"
@@ -46,6 +47,7 @@ class Checker final : Names {
     if (!messages.has_errors()) finish_.check_payload_uses();
     if (!messages.has_errors()) finish_.warn_skipped();
     if (messages.has_any_errors()) return nullptr;
+    make_long_vectors_arrays(program_.bench.module, program_.bench.build);
     set_aside_unlinked(program_.bench.module);
     return std::move(program_.bench.made);
   }
@@ -74,6 +76,7 @@ class Checker final : Names {
     check_initialisers();
     finish_.run();
     if (program_.bench.messages.has_any_errors()) return nullptr;
+    make_long_vectors_arrays(program_.bench.module, program_.bench.build);
     return std::move(program_.bench.made);
   }
 

@@ -88,6 +88,7 @@ TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
     options.native_16bit = text.find("OPTIONS: -enable-16bit-types") != std::string::npos;
     if (text.find("OPTIONS: -HV 2018") != std::string::npos) options.hlsl_version = 2018;
     if (text.find("OPTIONS: -T lib_6_7") != std::string::npos) options.target = "lib_6_7";
+    if (text.find(" -T lib_6_9") != std::string::npos) options.target = "lib_6_9";
     DiskFileLoader loader;
     SourceManager sources(loader);
     DiagnosticEngine diagnostics;

@@ -80,13 +80,15 @@ struct Type {
   TypeKind kind = TypeKind::kVoid;
   Scalar scalar = Scalar::kFloat32;  // scalar, vector, matrix; plain
   uint8_t rows = 1;                  // matrix
-  uint8_t columns = 1;               // vector: its size; matrix
+  uint16_t columns = 1;              // vector: its size; matrix
   const Type* element = nullptr;     // array; resource: element type T where there is one
   uint32_t count = 0;                // array; 0: unbounded (bindings only)
   const Struct* structure = nullptr;
   ResourceKind resource = ResourceKind::kByteAddressBuffer;
   uint32_t ray_query_flags = 0;
 
+  // Only while a module is made: finish/long_vectors.h makes arrays of them.
+  bool is_long_vector() const { return kind == TypeKind::kVector && columns > 4; }
   // A RayQuery is not a value: it can only be a local variable, or a parameter that stands for one.
   bool is_query() const {
     return kind == TypeKind::kResource && resource == ResourceKind::kRayQuery;

@@ -198,6 +198,14 @@ const ir::Expr* Conversions::convert_numeric(const ir::Expr* expr, const Type* f
     return build_.construct(to->ir, {build_.convert(expr, scalar)});
   }
   if (to->is_scalar()) return build_.convert(build_.matrix_swizzle(expr, {0}), scalar);
+  if (to->is_long_vector()) {
+    const ir::Expr* base = body_.repeatable(expr);
+    std::vector<const ir::Expr*> rows;
+    for (uint32_t row = 0; row < from->rows; ++row) {
+      rows.push_back(build_.convert(build_.element(base, build_.uint32(row)), scalar));
+    }
+    return build_.construct(to->ir, std::move(rows));
+  }
   if (to->is_vector()) {
     std::vector<uint8_t> components;
     for (uint8_t row = 0; row < from->rows; ++row) {
@@ -318,8 +326,8 @@ void Conversions::split(const Piece& piece, std::vector<Piece>& queue) {
   const ir::Expr* expr = body_.repeatable(piece.expr);
   std::vector<Piece> parts;
   if (type->is_vector()) {
-    for (uint8_t i = 0; i < type->columns; ++i) {
-      parts.push_back({build_.swizzle(expr, {i}), types_.scalar(type->scalar)});
+    for (uint32_t i = 0; i < type->columns; ++i) {
+      parts.push_back({build_.element(expr, build_.uint32(i)), types_.scalar(type->scalar)});
     }
   } else if (type->is_matrix()) {
     for (uint8_t row = 0; row < type->rows; ++row) {

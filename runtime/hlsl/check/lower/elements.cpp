@@ -181,6 +181,10 @@ Value Elements::component_of(const Value& base, const std::vector<uint8_t>& comp
 }
 
 Value Elements::swizzle_of(const Value& base, std::string_view text, SourceLocation location) {
+  if (base.type->is_long_vector()) {
+    report(CheckId::kLongSwizzle, location, {std::string(text), to_string(base.type)});
+    return error_value();
+  }
   const uint32_t size = base.type->is_scalar() ? 1 : base.type->columns;
   std::vector<uint8_t> components;
   int set = -1;

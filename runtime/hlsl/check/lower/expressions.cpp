@@ -403,10 +403,11 @@ Value Expressions::lower_cast(const CastExpr* expr) {
   }
   Value value = rvalue(lower_.conversions.convert(operand, type, expr->location, true), type);
   // `(float2)v = x` writes v.xy.
-  const bool writes =
-      operand.is_place && !operand.bits && operand.type->is_numeric() && type->is_numeric() &&
-      (type->components() == operand.type->components() ||
-       (type->components() < operand.type->components() && operand.type->is_vector()));
+  const bool writes = operand.is_place && !operand.bits && operand.type->is_numeric() &&
+                      type->is_numeric() &&
+                      (type->components() == operand.type->components() ||
+                       (type->components() < operand.type->components() &&
+                        operand.type->is_vector() && !operand.type->is_long_vector()));
   if (!value.failed() && writes) value.under_cast = std::make_shared<const Value>(operand);
   return value;
 }

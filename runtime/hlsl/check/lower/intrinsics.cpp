@@ -37,6 +37,15 @@ bool takes_floats_only(IntrinsicShape shape) {
          shape == S::kFloatToHalf;
 }
 
+// Functions of directions and the like, which are not for long vectors. [HLSL: 0026 Long vectors,
+// Disallowed vector intrinsics]
+bool takes_short_vectors_only(IntrinsicShape shape) {
+  using S = IntrinsicShape;
+  return shape == S::kLength || shape == S::kDistance || shape == S::kVector ||
+         shape == S::kRefract || shape == S::kCross || shape == S::kDst || shape == S::kLit ||
+         shape == S::kMsad4;
+}
+
 bool takes_vectors_only(IntrinsicShape shape) {
   using S = IntrinsicShape;
   return shape == S::kLength || shape == S::kDistance || shape == S::kVector ||
@@ -137,6 +146,7 @@ std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<
   }
   if (name == "D3DCOLORtoUBYTE4") {
     if (!check_count(name, count, 1, 1, location)) return error_value();
+    if (!is_short_argument(name, 0, arguments[0])) return error_value();
     const Type* type = types_.vector(Scalar::kFloat32, 4);
     const ir::Expr* value = lower_.conversions.convert(arguments[0], type, location);
     if (!value) return error_value();
@@ -185,6 +195,13 @@ std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<
   return std::nullopt;
 }
 
+bool Intrinsics::is_short_argument(std::string_view name, size_t index, const Value& argument) {
+  if (!argument.type || !argument.type->is_long_vector()) return true;
+  report(CheckId::kLongVectorArgument, argument.location,
+         {std::to_string(index + 1), std::string(name), to_string(argument.type)});
+  return false;
+}
+
 Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& arguments,
                              SourceLocation location) {
   using S = IntrinsicShape;
@@ -196,6 +213,9 @@ Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& argu
               arguments[i].type ? to_string(arguments[i].type) : "a resource"});
       return error_value();
     }
+  }
+  for (size_t i = 0; takes_short_vectors_only(shape) && i < arguments.size(); ++i) {
+    if (!is_short_argument(rule.name, i, arguments[i])) return error_value();
   }
   const size_t joined = joined_arguments(rule);
   const Type* type =

@@ -28,6 +28,8 @@ class Intrinsics : LowerPart {
   Value call_select(std::vector<Value>& arguments, SourceLocation location);
   bool check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
                    SourceLocation location);
+  // Reports a vector of over four components.
+  bool is_short_argument(std::string_view name, size_t index, const Value& argument);
   void use_in_stages(std::string_view name, uint32_t stages, SourceLocation location,
                      bool is_lenient = false);
 

@@ -121,6 +121,7 @@ Value PixelIntrinsics::evaluate_attribute(std::string_view name, std::vector<Val
     return error_value();
   }
   lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  if (!lower_.intrinsics.is_short_argument(name, 0, arguments[0])) return error_value();
   const Type* type = type_of_numbers(name, arguments[0]);
   if (!type) return error_value();
   if (count == 2 && !lower_.conversions.convert(arguments[1], types_.scalar(Scalar::kUint32),

@@ -33,6 +33,10 @@ const ir::Variable* RayIntrinsics::pass_by_reference(const Value& value, std::st
            {std::string(what), value.type ? to_string(value.type) : "a resource"});
     return nullptr;
   }
+  if (contains_long_vector(value.type)) {
+    report(CheckId::kLongVectorPlace, location, {std::string(what), to_string(value.type)});
+    return nullptr;
+  }
   if (!lower_.places.require_place(value, location, what)) return nullptr;
   const bool direct = value.kind == ValueKind::kExpr &&
                       value.expr->kind == ir::ExprKind::kVariable &&
@@ -104,6 +108,11 @@ Value RayIntrinsics::call_report_hit(std::vector<Value>& arguments, SourceLocati
   if (!attributes || !attributes->is_struct() || contains_resource(attributes)) {
     report(CheckId::kUserStruct, arguments[2].location,
            {"the attributes of ReportHit", attributes ? to_string(attributes) : "a resource"});
+    return error_value();
+  }
+  if (contains_long_vector(attributes)) {
+    report(CheckId::kLongVectorPlace, arguments[2].location,
+           {"the attributes of ReportHit", to_string(attributes)});
     return error_value();
   }
   if (payload_bytes(attributes) > 32) {

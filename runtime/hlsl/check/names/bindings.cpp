@@ -178,6 +178,10 @@ int64_t Bindings::pack_offset(const VariableDecl* decl, const BufferMember& memb
 BufferMember Bindings::make_member(const VariableDecl* decl, const Type* type, Scope* scope,
                                    BindingInfo* buffer, ir::Struct* structure) {
   BufferMember member{.name = decl->name, .location = decl->location, .type = type};
+  if (contains_long_vector(type)) {
+    report(CheckId::kLongVectorPlace, decl->location,
+           {"constant and texture buffers", to_string(type)});
+  }
   if (contains_resource(type)) {
     parts_.split_structs.declare_split(decl, type, scope, buffer, structure, &member);
     return member;

@@ -309,11 +309,14 @@ const Type* Resolver::resolve_builtin(const NamePart& part, SourceLocation locat
               std::to_string(arguments.size())});
       return types_.error();
     }
+    const bool is_long = is_vector && shader_model_minor(program_.options->target) >= 9;
+    const int64_t most = is_long ? kMostLongComponents : kMostComponents;
     for (size_t i = 1; i < arguments.size(); ++i) {
       const auto size = value_argument(arguments[i], scope);
       if (!size) return types_.error();
-      if (*size < 1 || *size > 4) {
-        report(CheckId::kVectorSize, arguments[i].location, {std::to_string(*size)});
+      if (*size < 1 || *size > most) {
+        report(CheckId::kVectorSize, arguments[i].location,
+               {std::to_string(most), std::to_string(*size)});
         return types_.error();
       }
       sizes[i - 1] = *size;
@@ -363,6 +366,16 @@ const Type* Resolver::resolve_resource(const ResourceTraits& traits, const NameP
   if (!fits || contains_resource(element)) {
     report(CheckId::kElementType, arguments[0].location,
            {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});
+    return types_.error();
+  }
+  if (texel && element->is_long_vector()) {
+    report(CheckId::kElementType, arguments[0].location,
+           {name, "a scalar or a vector of up to 4 components", to_string(element)});
+    return types_.error();
+  }
+  if (has_members(traits.kind) && contains_long_vector(element)) {
+    report(CheckId::kLongVectorPlace, arguments[0].location,
+           {"constant and texture buffers", to_string(element)});
     return types_.error();
   }
   if (texel && has_paired_texel(element) && element->components() > 2) {

@@ -37,6 +37,15 @@ bool contains_resource(const Type* type) {
                      [](const FieldInfo& field) { return contains_resource(field.type); });
 }
 
+bool contains_long_vector(const Type* type) {
+  if (type->is_long_vector()) return true;
+  if (type->is_array()) return contains_long_vector(type->element);
+  if (!type->is_struct()) return false;
+  if (type->structure->base && contains_long_vector(type->structure->base->type)) return true;
+  return std::any_of(type->structure->fields.begin(), type->structure->fields.end(),
+                     [](const FieldInfo& field) { return contains_long_vector(field.type); });
+}
+
 TypeTable::TypeTable(IrTypes& ir) : ir_(ir) {
   Type* error_type = make(TypeKind::kError);
   error_type->ir = ir_.void_type();
@@ -58,13 +67,13 @@ const Type* TypeTable::numeric(Scalar scalar, uint32_t rows, uint32_t columns, b
   if (rows == 0 && columns == 1) columns = 0;
   if (rows == 0) row_major = false;
   const uint32_t key =
-      static_cast<uint32_t>(scalar) << 16 | rows << 8 | columns << 1 | (row_major ? 1u : 0u);
+      static_cast<uint32_t>(scalar) << 24 | rows << 16 | columns << 1 | (row_major ? 1u : 0u);
   if (auto found = numeric_.find(key); found != numeric_.end()) return found->second;
   const Type* canonical = row_major ? numeric(scalar, rows, columns, false) : nullptr;
   Type* type = make(TypeKind::kNumeric);
   type->scalar = scalar;
   type->rows = static_cast<uint8_t>(rows);
-  type->columns = static_cast<uint8_t>(columns);
+  type->columns = static_cast<uint16_t>(columns);
   type->row_major = row_major;
   if (canonical) type->canonical = canonical;
   type->ir = ir_.numeric(plain_scalar(scalar), rows, columns);
@@ -198,6 +207,9 @@ std::string to_string(const Type* type) {
       if (type->rows) {
         return (type->row_major ? "row_major " : "") + text + std::to_string(type->rows) + "x" +
                std::to_string(type->columns);
+      }
+      if (type->is_long_vector()) {
+        return "vector<" + text + ", " + std::to_string(type->columns) + ">";
       }
       if (type->columns) text += std::to_string(type->columns);
       if (type->is_single) text += '1';

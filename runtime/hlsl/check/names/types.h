@@ -35,11 +35,16 @@ enum class TypeKind : uint8_t {
 struct StructInfo;
 struct EnumInfo;
 
+// Of a vector that can be swizzled, and of any vector in shader model 6.9. [HLSL: 0026 Long
+// vectors]
+inline constexpr uint32_t kMostComponents = 4;
+inline constexpr uint32_t kMostLongComponents = 1024;
+
 struct Type {
   TypeKind kind = TypeKind::kError;
   Scalar scalar = Scalar::kFloat32;
-  uint8_t rows = 0;     // 0: not a matrix
-  uint8_t columns = 0;  // 0: a scalar
+  uint8_t rows = 0;      // 0: not a matrix
+  uint16_t columns = 0;  // 0: a scalar
   bool row_major = false;
   bool is_single = false;         // float1: a scalar that can be indexed
   const Type* element = nullptr;  // array; resource
@@ -55,6 +60,8 @@ struct Type {
   bool is_numeric() const { return kind == TypeKind::kNumeric; }
   bool is_scalar() const { return kind == TypeKind::kNumeric && columns == 0; }
   bool is_vector() const { return kind == TypeKind::kNumeric && columns > 0 && rows == 0; }
+  // Of shader model 6.9: no swizzles, and not in everything that holds a vector.
+  bool is_long_vector() const { return is_vector() && columns > kMostComponents; }
   bool is_matrix() const { return kind == TypeKind::kNumeric && rows > 0; }
   bool is_array() const { return kind == TypeKind::kArray; }
   bool is_struct() const { return kind == TypeKind::kStruct; }
@@ -84,6 +91,7 @@ inline bool same_type(const Type* a, const Type* b) {
 // Saturates at 2^31 so that nested arrays cannot overflow.
 uint64_t flat_component_count(const Type* type);
 bool contains_resource(const Type* type);
+bool contains_long_vector(const Type* type);
 
 struct FieldInfo {
   std::string_view name;

@@ -179,6 +179,12 @@ bool EntryPoints::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& e
       valid = false;
       continue;
     }
+    if (contains_long_vector(parameter.type)) {
+      report(CheckId::kLongVectorPlace, location,
+             {"the parameters of an entry point", to_string(parameter.type)});
+      valid = false;
+      continue;
+    }
     const bool by_reference = parameter.is_in && parameter.is_out;
     if (i == 0 ? !by_reference : parameter.is_out) {
       report(CheckId::kEntryModifier, location,

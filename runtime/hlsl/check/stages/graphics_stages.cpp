@@ -172,6 +172,12 @@ class GraphicsSignature : StagePart {
       return nullptr;
     }
     if (type->is_array() && type->count != 0) return walk_array(type, name, source, value);
+    if (type->is_long_vector()) {
+      fail(CheckId::kLongVectorPlace, source.location,
+           {is_output_ ? "the outputs of an entry point" : "the parameters of an entry point",
+            to_string(type)});
+      return nullptr;
+    }
     const bool fits = type->is_numeric() && !has_paired_texel(type);
     if (!fits) {
       fail(CheckId::kSignatureType, source.location,
@@ -236,8 +242,9 @@ class GraphicsSignature : StagePart {
   // A matrix that is not row_major is passed by columns, as DXC does.
   const ir::Expr* walk_matrix(const Type* type, Name& name, const Source& source,
                               const ir::Expr* value) {
-    const uint8_t lines = type->row_major ? type->rows : type->columns;
-    const uint8_t size = type->row_major ? type->columns : type->rows;
+    const auto columns = static_cast<uint8_t>(type->columns);
+    const uint8_t lines = type->row_major ? type->rows : columns;
+    const uint8_t size = type->row_major ? columns : type->rows;
     const Type* line_type = types_.vector(type->scalar, size);
     std::vector<const ir::Expr*> components(size_t{type->rows} * type->columns);
     for (uint8_t line = 0; line < lines && !failed; ++line) {
