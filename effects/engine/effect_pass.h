@@ -5,8 +5,10 @@
 
 #include <rtapi/rtapi.h>
 
+#include <any>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +17,9 @@
 #include "effects/engine/frame.h"
 
 namespace kaamos::effects {
+
+/// What several effects of a frame read, by a name of its own: the first that asks for it makes it.
+using SharedParts = std::map<std::string, std::any>;
 
 /// Everything that an effect is made from. All of it but `settings` stays for the pass's life, and
 /// may be kept by reference.
@@ -30,6 +35,7 @@ struct EffectScope {
   /// effect may set others.
   PassViews& views;
   const EffectSettings& settings;  ///< those of the frame; of this call only
+  SharedParts& shared;             ///< of the frame's effects
 };
 
 class RayEffect;

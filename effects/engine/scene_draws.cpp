@@ -47,6 +47,7 @@ std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask) {
     std::memcpy(&draw.object_to_world, desc.Transform, sizeof desc.Transform);
     if (!invert(draw.object_to_world, draw.world_to_object)) continue;
     draw.instance = static_cast<std::uint32_t>(i);
+    draw.mask = desc.InstanceMask;
     const std::size_t first = desc.InstanceContributionToHitGroupIndex / kRayTypeCount;
     for (std::size_t g = first; g < end_of_mesh(gpu.geometries, first); ++g) {
       draw.geometry = static_cast<std::uint32_t>(g);

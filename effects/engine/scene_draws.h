@@ -19,7 +19,8 @@ struct SceneDraw {
   glm::mat3x4 world_to_object{0.0f};  ///< its inverse, rounded once from double
   std::uint32_t instance = 0;         ///< in GpuScene::instances
   std::uint32_t geometry = 0;         ///< in GpuScene::geometries
-  std::uint32_t padding[2] = {};      ///< to 112 bytes
+  std::uint32_t mask = 0;             ///< InstanceMask bits
+  std::uint32_t padding = 0;          ///< to 112 bytes
 };
 static_assert(sizeof(SceneDraw) == 112);
 

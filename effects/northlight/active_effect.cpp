@@ -139,7 +139,7 @@ rtapi::Status ActiveEffect::add_passes(const EffectSettings& settings) {
     return context_.libraries.at(file);
   };
   auto pass = make({context_.device, context_.runner.queue(), context_.frame, context_.scene,
-                    context_.gpu, library, out->views, settings});
+                    context_.gpu, library, out->views, settings, *inputs_->shared});
   if (!pass) return pass.error();
   if (const auto s = (*pass)->begin_frame(context_.moment.camera); !s) return s;
   out->pass = std::move(*pass);

@@ -89,6 +89,7 @@ rtapi::Result<Outcome> EffectStage::read_volume(const Progress& progress) {
 }
 
 rtapi::Status EffectStage::remake_readers() {
+  inputs_.shared->clear();
   for (const auto& effect : active_) {
     if (!effect->row().needs.volume || effect->rays() != nullptr) continue;
     if (const auto s = effect->remake(); !s) return s;

@@ -45,7 +45,7 @@ class EffectStage {
   /// which cells they read; their pictures are of no use.
   /// @errors those of the device.
   rtapi::Result<Outcome> read_volume(const Progress& progress);
-  /// Makes those again that read the volume when they are made.
+  /// Makes those again that read the volume when they are made, and what effects share.
   /// @errors those of ActiveEffect::create.
   rtapi::Status remake_readers();
   /// The host's work of a frame.

@@ -167,16 +167,20 @@ Effect environment_row() {
 
 Effect planar_row() {
   Effect effect =
-      row("planar", "reflections of flat mirrors, from the mirrored scene", "planar", false);
+      row("planar", "reflections of flat surfaces, from the mirrored scene", "planar", false);
   effect.library = {"reflections/planar/planar_reflections", planar_reflections_library};
   effect.make = make_planar_reflections;
   effect.needs.lights_once = false;
-  effect.may_equal = "without a flat mirror in view it is env-map";
-  effect.misses = "mirrors that are not flat show an environment map";
+  effect.may_equal =
+      "without a flat surface in view that mirrors it is env-map; draws show what rays show";
+  effect.misses = "what is not flat shows an environment map";
   set_constants(effect, PlanarConstants{}, planar_settings());
-  effect.steps = {{"hits without the sun", EffectSettings().set_constants(
-                                               PlanarConstants{.sun_at_hits = SunAtHits::kNone})},
-                  {"hits with the sun", EffectSettings().set_constants(PlanarConstants{})}};
+  const auto add = [&](const char* label, const PlanarConstants& constants) {
+    effect.steps.push_back({label, EffectSettings().set_constants(constants)});
+  };
+  add("hits without the sun", {.sun_at_hits = SunAtHits::kNone});
+  add("hits with the sun", {});
+  add("by draws", {.source = PlanarSource::kDraws});
   return effect;
 }
 

@@ -115,9 +115,21 @@ SettingTable<HybridConstants> hybrid_settings() {
 
 SettingTable<PlanarConstants> planar_settings() {
   using C = PlanarConstants;
-  SettingTable<C> out = {number_setting("longest", &C::longest, {0, kFar}, "m",
-                                        "behind the plane that are seen", kControl),
-                         sun_at_hits<C>(), closed_setting(&C::plane_count)};
+  SettingTable<C> out = {
+      number_setting("longest", &C::longest, {0, kFar}, "m", "behind the plane that are seen",
+                     kControl),
+      sun_at_hits<C>(),
+      word_setting("source", &C::source, {"rays", "draws"},
+                   "of planes' pictures; they are the same, but for edges", "survey 6.1"),
+      number_setting("roughest", &C::roughest, {0, 1}, "roughness",
+                     "rougher surfaces are no planes"),
+      count_setting("planes", &C::most_planes, {0, double{kMostMirrorPlanes}}, "",
+                    "that are mirrored, those of most area and smoothness"),
+      count_setting("taps", &C::taps, {1, 256}, "", "directions in which a rough plane looks"),
+      closed_setting(&C::plane_count),
+      closed_setting(&C::level),
+      closed_setting(&C::draw),
+      closed_setting(&C::clip_scale)};
   SettingOf<C> fallback = switch_setting(
       "environment", &C::fallback,
       "surfaces that are not flat show the environment map; off: they mirror nothing");
@@ -140,7 +152,9 @@ SettingTable<EnvironmentConstants> environment_settings() {
                          "texels along a face of the probe's cube"),
           count_setting("rays", &C::rays, {1, 65536}, "", "of each texel"),
           count_setting("directions", &C::directions, {1, 65536}, "",
-                        "that a texel of a blurred level is the mean of")};
+                        "that a texel of a blurred level is the mean of"),
+          count_setting("probes", &C::probes, {1, 64}, "",
+                        "places that are found, at most, where the scene names none")};
 }
 
 }  // namespace kaamos::effects

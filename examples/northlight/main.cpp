@@ -27,6 +27,7 @@
 #include "effects/measure/run/frame_result.h"
 #include "effects/measure/study/study.h"
 #include "effects/measure/truth/path_reference.h"
+#include "effects/reflections/environment_map/probe_places.h"
 #include "inspect.h"
 #include "look.h"
 #include "options.h"
@@ -286,6 +287,7 @@ bool make_scene(const Options& options, Scene& scene) {
   const auto step = Profile::enter(options.profile, ProfilePart::kStart, "scene");
   if (!load_scene(options, scene) || !override_materials(options, scene)) return false;
   place_sun(options, scene);
+  if (options.probes == "camera") scene.probes = {kaamos::effects::camera_probe(scene)};
   if (!options.write_glb.empty()) {
     if (const auto written = kaamos::effects::write_glb(options.write_glb, scene); !written.ok()) {
       say_error(written.error().message);

@@ -122,6 +122,11 @@ void add_scene(CLI::App& app, Options& options) {
                  "split meshes of more triangles than this; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0u, 1u << 29));
+  app.add_option("--probes", options.probes,
+                 "where environment maps are seen from: found (open places, in boxes of their "
+                 "rooms), camera (the first camera, which flatters its picture)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"found", "camera"}));
 }
 
 void add_device(CLI::App& app, Options& options) {

@@ -20,6 +20,7 @@ struct Options : kaamos::measure::Options {
   std::uint32_t piece_triangles = 0;  // split larger meshes; 0: split none
   bool measure_left_out = false;      // instead of writing files
   std::string write_glb;              // empty: none
+  std::string probes = "found";       // or "camera": of environment maps
   std::uint32_t frames = 0;           // of a sequence; 0: a still
   bool watch = false;
   std::vector<std::string> layers;  // that are written; empty: those of named effects

@@ -155,22 +155,34 @@ struct Camera {
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target,
                    const glm::dvec3& up = glm::dvec3(0, 1, 0));
 
+/// A point from which an environment map shows the scene, world space.
+struct EnvironmentProbe {
+  glm::dvec3 position{0.0};  ///< outside of everything solid
+  /// The walls that its picture is taken to show: reflections are looked up where their rays meet
+  /// this box. Not empty.
+  ///@{
+  glm::dvec3 box_min{-1.0};
+  glm::dvec3 box_max{1.0};
+  ///@}
+};
+
 /// Everything that is rendered. Indices between its parts are places in its vectors.
 struct Scene {
-  std::string name;                   ///< for people and files
-  std::vector<Mesh> meshes;           ///< each becomes a bottom level
-  std::vector<Instance> instances;    ///< the top level
-  std::vector<Material> materials;    ///< at least one
-  std::vector<TextureImage> images;   ///< of the materials
-  std::vector<Sampler> samplers;      ///< at least one
-  std::vector<Camera> cameras;        ///< at least one; the first is the default
-  std::optional<Sun> sun;             ///< none: no sun shines
-  std::vector<Light> lights;          ///< all but the sun
-  std::vector<Node> nodes;            ///< parents first; only what skins and animations need
-  std::vector<Skin> skins;            ///< of skinned instances
-  std::vector<Animation> animations;  ///< of nodes
-  Sky sky;                            ///< what rays see that miss
-  float exposure = 1.0f;              ///< radiance times this goes to the tone curve
+  std::string name;                      ///< for people and files
+  std::vector<Mesh> meshes;              ///< each becomes a bottom level
+  std::vector<Instance> instances;       ///< the top level
+  std::vector<Material> materials;       ///< at least one
+  std::vector<TextureImage> images;      ///< of the materials
+  std::vector<Sampler> samplers;         ///< at least one
+  std::vector<Camera> cameras;           ///< at least one; the first is the default
+  std::optional<Sun> sun;                ///< none: no sun shines
+  std::vector<Light> lights;             ///< all but the sun
+  std::vector<Node> nodes;               ///< parents first; only what skins and animations need
+  std::vector<Skin> skins;               ///< of skinned instances
+  std::vector<Animation> animations;     ///< of nodes
+  Sky sky;                               ///< what rays see that miss
+  float exposure = 1.0f;                 ///< radiance times this goes to the tone curve
+  std::vector<EnvironmentProbe> probes;  ///< of environment maps; empty: they are found
 };
 
 /// Triangles after instancing.

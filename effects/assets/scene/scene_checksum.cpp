@@ -13,7 +13,7 @@ class SceneChecksum {
 
   void add(const Scene& scene) {
     const auto& [name, meshes, instances, materials, images, samplers, cameras, sun, lights, nodes,
-                 skins, animations, sky, exposure] = scene;
+                 skins, animations, sky, exposure, probes] = scene;
     add_all(meshes);
     add_all(instances);
     add_all(materials);
@@ -31,6 +31,9 @@ class SceneChecksum {
     add_all(animations);
     const auto& [zenith, horizon, ground] = sky;
     checksum_.add_each(zenith, horizon, ground, exposure);
+    for (const auto& [position, box_min, box_max] : probes) {
+      checksum_.add_each(position, box_min, box_max);
+    }
   }
 
  private:

@@ -13,6 +13,7 @@
 #include "effects/assets/built_in/glass_scenes.h"
 #include "effects/assets/built_in/scene_parts.h"
 #include "effects/northlight/frame_renderer.h"
+#include "effects/reflections/environment_map/probe_places.h"
 #include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
@@ -106,10 +107,12 @@ TEST_P(DrawnGlasses, TheNearestLayerAloneHasATracedMirrorImage) {
   }
 }
 
-// All that bright panes in the dark mirror is the wall, which the environment map has as well: with
-// it the second layer is nearer to what rays find than without.
+// All that bright panes in the dark mirror is the wall, which an environment map from near the
+// panes has as well: with it the second layer is nearer to what rays find than without.
 TEST(DrawnGlass, TheEnvironmentStandsInForFurtherLayers) {
-  GlassFrame frame(two_panes());
+  Scene scene = two_panes();
+  scene.probes = {camera_probe(scene)};
+  GlassFrame frame(scene);
   const FloatImage all = frame.traced(2);
   const double nothing = difference(all, frame.drawn(DrawnGlassFallback::kNothing));
   const double environment = difference(all, frame.drawn(DrawnGlassFallback::kEnvironment));

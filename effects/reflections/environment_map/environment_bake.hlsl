@@ -3,6 +3,7 @@
 // reflections are, and then a blur for each level of roughness. Nothing that moves is seen, nor
 // lamps, which surfaces have as lights. [Karis 2013, Real Shading in UE4]
 #include "hit_indirect.hlsli"
+#include "probe_sights.hlsli"
 #include "sampling.hlsli"
 
 RWTexture2DArray<float4> texels : register(u20, space3);  // one level; six faces for each probe
@@ -18,19 +19,7 @@ struct BakeConstants {
 };
 ConstantBuffer<BakeConstants> constants : register(b0, space3);
 
-static const uint kMaskBaked = 0x20;  // what stands still [effects/assets/scene/scene.h: InstanceMask]
 static const uint kEnvironmentPair = 2;
-
-// The direction of a place on a face of a cube, 0..1. [D3D11.3 7.18.11]
-float3 FaceDirection(uint face, float2 uv) {
-  const float2 p = uv * 2.0 - 1.0;
-  if (face == 0) return float3(1.0, -p.y, -p.x);
-  if (face == 1) return float3(-1.0, -p.y, p.x);
-  if (face == 2) return float3(p.x, 1.0, p.y);
-  if (face == 3) return float3(p.x, -1.0, -p.y);
-  if (face == 4) return float3(p.x, -p.y, 1.0);
-  return float3(-p.x, -p.y, -1.0);
-}
 
 struct EnvironmentPayload {
   float3 radiance;

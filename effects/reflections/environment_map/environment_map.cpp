@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "effects/reflections/environment_map/environment_map.h"
 
+#include <fmt/format.h>
 #include <shaders/environment_bake.h>
 
-#include <algorithm>
+#include <any>
 #include <string>
 #include <utility>
 
 #include "effects/assets/common/errors.h"
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/ray_pass.h"
+#include "effects/reflections/environment_map/probe_places.h"
 
 namespace kaamos::effects {
 
@@ -137,25 +139,6 @@ rtapi::Result<rtapi::ShaderLibrary> environment_bake_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_environment_bake());
 }
 
-std::vector<EnvironmentProbe> default_environment_probes(const Scene& scene) {
-  EnvironmentProbe probe;
-  probe.position = scene.cameras.front().position();
-  Bounds box = scene_bounds(scene);
-  box.add(probe.position);
-  // Walls that the camera does not stand before, the sky above flat ground say, are put as far away
-  // as things in this scene are: a length of the scene's own.
-  const glm::dvec3 sides = box.size();
-  const double longest = std::max({sides.x, sides.y, sides.z});
-  const double beyond = longest > 0 ? longest / 4 : 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(box.min[axis] < probe.position[axis])) box.min[axis] -= beyond;
-    if (!(box.max[axis] > probe.position[axis])) box.max[axis] += beyond;
-  }
-  probe.box_min = box.min;
-  probe.box_max = box.max;
-  return {probe};
-}
-
 rtapi::Status check_environment(const EnvironmentDesc& desc) {
   const auto fail = [](const std::string& text) {
     return make_error(ErrorId::kEnvironmentMap, text);
@@ -214,6 +197,26 @@ rtapi::Result<EnvironmentMap> EnvironmentMap::create(const EffectScope& scope,
   return out;
 }
 
+rtapi::Result<EnvironmentMap> EnvironmentMap::of_scene(const EffectScope& scope,
+                                                       const EnvironmentConstants& constants) {
+  const auto& [side, rays, directions, most_probes] = constants;
+  std::any& kept =
+      scope
+          .shared[fmt::format("environment map: {} {} {} {}", side, rays, directions, most_probes)];
+  if (!kept.has_value()) {
+    auto probes = environment_probes(scope, most_probes);
+    if (!probes) return probes.error();
+    auto map = create(scope, {std::move(*probes), side, rays, directions});
+    if (!map) return map.error();
+    kept = std::move(*map);
+  }
+  auto out = std::any_cast<EnvironmentMap>(kept);
+  if (const auto s = out.bind(scope.views); !s) return s.error();
+  const glm::dvec3 camera = scope.scene.cameras.front().position();
+  if (const auto s = out.set_origin(scope.device, camera, scope.views); !s) return s.error();
+  return out;
+}
+
 rtapi::Status EnvironmentMap::set_origin(const rtapi::Device& device, const glm::dvec3& camera,
                                          PassViews& views) {
   std::vector<ProbeConstants> constants;
@@ -246,7 +249,7 @@ rtapi::Result<EnvironmentFallback> EnvironmentFallback::create(const EffectScope
                                                                bool is_wanted) {
   EnvironmentFallback out;
   if (!is_wanted) return out;
-  auto map = EnvironmentMap::create(scope, {.probes = default_environment_probes(scope.scene)});
+  auto map = EnvironmentMap::of_scene(scope);
   if (!map) return map.error();
   out.device_ = &scope.device;
   out.views_ = &scope.views;

@@ -16,20 +16,6 @@
 
 namespace kaamos::effects {
 
-/// A point that the scene is seen from, world space.
-struct EnvironmentProbe {
-  glm::dvec3 position{0.0};  ///< outside of everything solid
-  /// The walls that its picture is taken to show: reflections are looked up where their rays meet
-  /// this box. Not empty.
-  ///@{
-  glm::dvec3 box_min{-1.0};
-  glm::dvec3 box_max{1.0};
-  ///@}
-};
-
-/// One probe where the scene's first camera stands, in the box of the scene.
-std::vector<EnvironmentProbe> default_environment_probes(const Scene& scene);
-
 /// Describes how the maps are made.
 struct EnvironmentDesc {
   std::vector<EnvironmentProbe> probes;  ///< 1 to 64
@@ -43,6 +29,7 @@ struct EnvironmentConstants {
   std::uint32_t side = 64;         ///< EnvironmentDesc::side
   std::uint32_t rays = 4;          ///< EnvironmentDesc::rays
   std::uint32_t directions = 256;  ///< EnvironmentDesc::directions
+  std::uint32_t probes = 4;        ///< that are found, at most, where the scene has none
 };
 
 /// Checks whether maps can be made as `desc` says.
@@ -61,6 +48,11 @@ class EnvironmentMap {
   /// @errors those of check_environment and of the device.
   static rtapi::Result<EnvironmentMap> create(const EffectScope& scope,
                                               const EnvironmentDesc& desc);
+  /// That of the scene's probes, which the effects of a frame with such constants share. Needs as
+  /// `create`.
+  /// @errors those of environment_probes and of `create`.
+  static rtapi::Result<EnvironmentMap> of_scene(const EffectScope& scope,
+                                                const EnvironmentConstants& constants = {});
   /// Sets the place of the camera, to which the probes are relative from now on. Nothing that reads
   /// them may run.
   /// @errors those of rtapi::Device::CreateBuffer.
@@ -82,8 +74,8 @@ class EnvironmentMap {
 /// The environment map of an effect that looks up there what it does not find otherwise; or none.
 class EnvironmentFallback {
  public:
-  /// With `is_wanted` a map of the scene's default probes. The scope's device and views must stay.
-  /// @errors those of EnvironmentMap::create.
+  /// With `is_wanted` a map of the scene's probes. The scope's device and views must stay.
+  /// @errors those of EnvironmentMap::of_scene.
   static rtapi::Result<EnvironmentFallback> create(const EffectScope& scope, bool is_wanted);
   /// Its part of EffectPass::begin_frame.
   /// @errors those of EnvironmentMap::set_origin.
@@ -104,7 +96,7 @@ class EnvironmentFallback {
 rtapi::Result<rtapi::ShaderLibrary> environment_bake_library();
 /// Reflections from the maps alone. Register u0 of space3 is no sum: radiance as reflections_pass
 /// has it. Needs as EnvironmentMap::create.
-/// @errors those of EnvironmentMap::create and of ComputePass::create.
+/// @errors those of EnvironmentMap::of_scene and of ComputePass::create.
 rtapi::Result<std::unique_ptr<EffectPass>> make_environment_reflections(const EffectScope& scope);
 /// Its shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

@@ -43,13 +43,7 @@ rtapi::Result<rtapi::ShaderLibrary> environment_reflections_library() {
 }
 
 rtapi::Result<std::unique_ptr<EffectPass>> make_environment_reflections(const EffectScope& scope) {
-  EnvironmentDesc desc;
-  desc.probes = default_environment_probes(scope.scene);
-  const auto constants = scope.settings.get_constants<EnvironmentConstants>();
-  desc.side = constants.side;
-  desc.rays = constants.rays;
-  desc.directions = constants.directions;
-  auto map = EnvironmentMap::create(scope, desc);
+  auto map = EnvironmentMap::of_scene(scope, scope.settings.get_constants<EnvironmentConstants>());
   if (!map) return map.error();
   auto pass =
       ComputePass::create(scope.device, scope.frame,

@@ -26,13 +26,6 @@ uint2 SendingPixel(uint2 ray, uint sample, uint2 size) {
   return min(2 * ray + offset, size - 1);
 }
 
-// Density of the directions that SampleGgxHalfVector gives, about the normal.
-float GgxDirectionDensity(ReflectionPoint surface, float3 local_light) {
-  const float3 half_vector = normalize(surface.local_view + local_light);
-  const float d = GgxDensity(surface.brdf.alpha, float3(0, 0, 1), half_vector);
-  return d / (2.0 * (surface.cosine_view + GgxShadowing(surface.brdf.alpha, surface.cosine_view)));
-}
-
 // The specular part of the BRDF times cosine, without Fresnel's factor, which the sum is over.
 float GgxLobe(ReflectionPoint surface, float3 local_light) {
   const float n_l = local_light.z;

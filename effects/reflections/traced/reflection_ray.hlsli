@@ -63,6 +63,13 @@ float3 SampleHalfVector(ReflectionPoint surface, float2 u) {
   return SampleGgxHalfVector(u, surface.local_view, surface.brdf.alpha);
 }
 
+// Density of the directions that SampleGgxHalfVector gives, about the normal.
+float GgxDirectionDensity(ReflectionPoint surface, float3 local_light) {
+  const float3 half_vector = normalize(surface.local_view + local_light);
+  const float d = GgxDensity(surface.brdf.alpha, float3(0, 0, 1), half_vector);
+  return d / (2.0 * (surface.cosine_view + GgxShadowing(surface.brdf.alpha, surface.cosine_view)));
+}
+
 struct ReflectionRay {
   bool exists;  // false: below the surface, the geometric or the normal-mapped one, is no light
   float3 direction;

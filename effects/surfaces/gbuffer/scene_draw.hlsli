@@ -9,7 +9,8 @@ struct SceneDraw {
   float4 world_to_object[3];
   uint instance;  // InstanceIndex() of a ray that hits it
   uint geometry;  // in `geometries`
-  uint2 padding;
+  uint mask;      // of the instance
+  uint padding;
 };
 
 float3x4 ObjectToWorld(SceneDraw draw) {
