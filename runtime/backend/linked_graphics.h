@@ -41,6 +41,8 @@ struct LinkedVarying {
 struct VertexSystemColumns {
   uint32_t vertex_id = kNoColumn;             // in
   uint32_t instance_id = kNoColumn;           // in
+  uint32_t start_vertex = kNoColumn;          // in
+  uint32_t start_instance = kNoColumn;        // in
   uint32_t position = kNoColumn;              // out
   uint32_t target_array_index = kNoColumn;    // out
   uint32_t viewport_array_index = kNoColumn;  // out

@@ -8,6 +8,7 @@
 #include "runtime/checks/code_findings.h"
 #include "runtime/embree/compute.h"
 #include "runtime/embree/fault.h"
+#include "runtime/embree/hit_object.h"
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/intersection.h"
 #include "runtime/embree/trace.h"
@@ -63,6 +64,9 @@ shader::Services make_services() {
   table.trace_rays = trace_rays;
   table.report_hit = report_hit;
   table.call_shader = call_shader;
+  table.trace_hit_object = trace_hit_object;
+  table.invoke_hit_object = invoke_hit_object;
+  table.record_constant = record_constant;
   table.begin_query = begin_query;
   table.proceed = proceed;
   table.group_barrier = group_barrier;

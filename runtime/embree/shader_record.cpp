@@ -24,6 +24,7 @@ const RecordTarget kNothing = {};
 RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_bytes,
                          RecordKind kind, TargetLookup lookup, RecordProblems* problems)
     : start_(reinterpret_cast<const uint8_t*>(start)),
+      size_bytes_(size_bytes),
       stride_bytes_(stride_bytes),
       index_mask_(stride_bytes == 0 ? 0 : UINT64_MAX),
       kind_(kind),
@@ -35,6 +36,15 @@ RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_by
   // calloc, so that pages of a large table that no ray reaches are never touched.
   cache_.reset(static_cast<Cell*>(std::calloc(wanted, sizeof(Cell))));
   cached_ = cache_ ? wanted : 0;
+}
+
+uint32_t RecordTable::argument(uint64_t index, uint32_t offset) const {
+  const uint64_t slot = index & index_mask_;
+  if (slot >= count_) return 0;
+  const uint64_t at = slot * stride_bytes_ + kIdentifierBytes + offset;
+  uint32_t value = 0;
+  if (at + sizeof(value) <= size_bytes_) std::memcpy(&value, start_ + at, sizeof(value));
+  return value;
 }
 
 ShaderRecord RecordTable::resolve(uint64_t slot, uint64_t index) const {

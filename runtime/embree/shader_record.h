@@ -97,6 +97,10 @@ class RecordTable {
     return resolve(slot, index);
   }
 
+  // The DWORD `offset` bytes into the local root arguments of a record, whatever its identifier; 0
+  // past the table's end.
+  uint32_t argument(uint64_t index, uint32_t offset) const;
+
   // The number of records inside size_bytes; 1 for a stride of 0.
   uint64_t count() const { return count_; }
 
@@ -109,6 +113,7 @@ class RecordTable {
   ShaderRecord resolve(uint64_t slot, uint64_t index) const;
 
   const uint8_t* start_ = nullptr;
+  uint64_t size_bytes_ = 0;
   uint64_t stride_bytes_ = 0;
   uint64_t index_mask_ = 0;  // 0 if the stride is 0
   uint64_t count_ = 0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay: check, traverse, then run the closest-hit or the miss shader.
+// TraceRay: check, traverse, then run the closest-hit or the miss shader. HitObject::TraceRay
+// writes down what they would run for.
 #include "runtime/embree/trace.h"
+
+#include <cstring>
 
 #include "runtime/embree/far_rays.h"
 #include "runtime/embree/fault.h"
@@ -27,6 +30,19 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
   return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
 }
 
+uint64_t record_of(const TraceRayArguments& arguments, const RTCRayHit& ray_hit,
+                   const InstanceNode& instance) {
+  return hit_record_index(arguments.ray_contribution_to_hit_group_index,
+                          arguments.multiplier_for_geometry_contribution, ray_hit.hit.geomID,
+                          instance.contribution);
+}
+
+// If a search was ended early, Embree's ray no longer has its t.
+template <bool some_exact>
+float hit_t(const RayState& state, const RTCRayHit& ray_hit) {
+  return some_exact || state.ended ? state.committed_t : ray_hit.ray.tfar;
+}
+
 // `some_exact`: a bottom level of the top level is exact.
 template <bool some_exact>
 void run_closest_hit(Worker& worker, const shader::Invocation& caller,
@@ -34,16 +50,14 @@ void run_closest_hit(Worker& worker, const shader::Invocation& caller,
                      const RTCRayHit& ray_hit) {
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
-  const ShaderRecord record = worker.dispatch->hit_table.at(hit_record_index(
-      arguments.ray_contribution_to_hit_group_index, arguments.multiplier_for_geometry_contribution,
-      ray_hit.hit.geomID, instance.contribution));
+  const ShaderRecord record =
+      worker.dispatch->hit_table.at(record_of(arguments, ray_hit, instance));
   const Shader& shader = record.target->closest_hit;
   if (!shader.runs()) [[unlikely]]
     return;
   ++worker.counters.closest_hit_calls;
 
-  // If a search was ended early, Embree's ray no longer has its t.
-  const float t = some_exact || state.ended ? state.committed_t : ray_hit.ray.tfar;
+  const float t = hit_t<some_exact>(state, ray_hit);
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
@@ -78,6 +92,73 @@ void run_miss(Worker& worker, const shader::Invocation& caller, const TraceRayAr
   shader.as<shader::MissFn>()(invocation, state.payload);
 }
 
+// What TraceRay does with what it finds.
+struct RunShaders {
+  static constexpr bool kWantsHit = false;  // with RAY_FLAG_SKIP_CLOSEST_HIT_SHADER
+
+  template <bool some_exact>
+  void hit(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
+           RayState& state, const RTCRayHit& ray_hit) const {
+    if ((state.ray_flags & kRaySkipClosestHitShader) != 0) return;
+    run_closest_hit<some_exact>(worker, caller, arguments, state, ray_hit);
+  }
+  void miss(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
+            RayState& state) const {
+    run_miss(worker, caller, arguments, state);
+  }
+};
+
+// What HitObject::TraceRay does with it.
+struct WriteHitObject {
+  static constexpr bool kWantsHit = true;
+
+  template <bool some_exact>
+  void hit(Worker&, const shader::Invocation&, const TraceRayArguments& arguments, RayState& state,
+           const RTCRayHit& ray_hit) const {
+    const uint32_t index = ray_hit.hit.instID[0];
+    const InstanceNode& instance = state.top_level->nodes()[index];
+    uint32_t hit_kind = state.procedural_hit_kind;
+    if (instance.procedural) {
+      std::memcpy(out.attributes, state.procedural_attributes, sizeof(out.attributes));
+    } else {
+      hit_kind = some_exact && instance.exact ? state.exact->hit_kind
+                                              : committed_hit_kind(instance, ray_hit);
+      float barycentrics[2] = {ray_hit.hit.u, ray_hit.hit.v};
+      clamp_barycentrics(barycentrics[0], barycentrics[1]);
+      std::memcpy(out.attributes, barycentrics, sizeof(barycentrics));
+    }
+    set_hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind,
+                   hit_t<some_exact>(state, ray_hit), state.values);
+    write(state.values, shader::kHitObjectHit);
+    out.record = static_cast<uint32_t>(record_of(arguments, ray_hit, instance));
+    out.instance_index = state.values.instance_index;
+    out.instance_id = state.values.instance_id;
+    out.geometry_index = state.values.geometry_index;
+    out.primitive_index = state.values.primitive_index;
+    out.hit_kind = hit_kind;
+    std::memcpy(out.object_to_world, state.values.object_to_world, sizeof(out.object_to_world));
+    std::memcpy(out.world_to_object, state.values.world_to_object, sizeof(out.world_to_object));
+  }
+  void miss(Worker& worker, const shader::Invocation&, const TraceRayArguments& arguments,
+            RayState& state) const {
+    ++worker.counters.misses;
+    state.values.t_current = state.values.ray.t_max;
+    write(state.values, shader::kHitObjectMiss);
+    out.record = arguments.miss_shader_index & 0xFFFFu;
+  }
+  void write(const shader::RaySystemValues& values, uint32_t hit_state) const {
+    out.state = hit_state;
+    out.ray_flags = values.ray_flags;
+    std::memcpy(out.origin, values.ray.origin, sizeof(out.origin));
+    out.t_min = values.ray.t_min;
+    std::memcpy(out.direction, values.ray.direction, sizeof(out.direction));
+    out.t = values.t_current;
+    out.is_bound = 1;
+  }
+
+  shader::HitObject& out;
+};
+
 // Traversals from the top level on, and from known box entries on.
 struct WholeTraversal {
   void intersect(RayState& state, RTCRayHit& ray_hit) const { embree::intersect(state, ray_hit); }
@@ -98,44 +179,35 @@ struct LaneTraversal {
   int lane;
 };
 
-// Traverses, then runs the shader for what was found.
-template <bool some_exact, typename Traversal>
+// Traverses, and passes on what was found.
+template <bool some_exact, typename Traversal, typename End>
 void search(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
-            RayState& state, RTCRayHit& ray_hit, Traversal traversal) {
-  if (asks_visibility(state)) {
+            RayState& state, RTCRayHit& ray_hit, Traversal traversal, End end) {
+  if (!End::kWantsHit && asks_visibility(state)) {
     ++worker.counters.visibility_rays;
     traversal.occlude(state, ray_hit.ray);
-    if (ray_hit.ray.tfar >= 0) run_miss(worker, caller, arguments, state);
+    if (ray_hit.ray.tfar >= 0) end.miss(worker, caller, arguments, state);
     return;
   }
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   traversal.intersect(state, ray_hit);
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-    return run_miss(worker, caller, arguments, state);
+    return end.miss(worker, caller, arguments, state);
   }
-  if ((state.ray_flags & kRaySkipClosestHitShader) != 0) return;
-  run_closest_hit<some_exact>(worker, caller, arguments, state, ray_hit);
+  end.template hit<some_exact>(worker, caller, arguments, state, ray_hit);
 }
 
 // Out of line, because it needs much stack and few scenes get here.
+template <typename End>
 [[gnu::noinline]] void search_exactly(Worker& worker, const shader::Invocation& caller,
                                       const TraceRayArguments& arguments, RayState& state,
-                                      const ObjectRay& world) {
+                                      const ObjectRay& world, End end) {
   RTCRayHit ray_hit;
   ExactState exact;
   if (!begin_exact_ray(state, exact, world, ray_hit.ray))
-    return run_miss(worker, caller, arguments, state);
-  search<true>(worker, caller, arguments, state, ray_hit, WholeTraversal());
-}
-
-void check_depth(Worker& worker, const shader::Invocation& caller) {
-  check_stack(worker);
-  // Ray generation is depth 0; TraceRay at the declared depth removes the device. [DXR: Ray
-  // recursion limit]
-  if (caller.depth >= worker.dispatch->max_recursion_depth) [[unlikely]] {
-    remove_device(worker, shader::RemovalReason::kRecursionDepth);
-  }
+    return end.miss(worker, caller, arguments, state);
+  search<true>(worker, caller, arguments, state, ray_hit, WholeTraversal(), end);
 }
 
 // With fewer than three rays it does not pay to test them against the boxes together.
@@ -180,14 +252,15 @@ void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayAr
           begin_embree_ray(state, world, ray_hit.ray);
         }
         search<some_exact>(worker, caller, arguments, state, ray_hit,
-                           LaneTraversal<some_exact>{searches, lane});
+                           LaneTraversal<some_exact>{searches, lane}, RunShaders());
       });
 }
 
-}  // namespace
-
-void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload,
-               shader::RayLanes origin_t_min, shader::RayLanes direction_t_max) {
+template <typename End>
+[[gnu::always_inline]] inline void trace(shader::Invocation& caller,
+                                         const TraceRayArguments& arguments, void* payload,
+                                         shader::RayLanes origin_t_min,
+                                         shader::RayLanes direction_t_max, End end) {
   Worker& worker = worker_of(caller);
   check_depth(worker, caller);
   ++worker.counters.rays;
@@ -205,7 +278,7 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   const float t_max = direction_t_max[3];
   if (top_level == nullptr || top_level->empty() || !is_valid(world, t_min, t_max)) [[unlikely]] {
     if (top_level != nullptr && !top_level->empty()) note_far_ray(worker, world, t_min, t_max);
-    return run_miss(worker, caller, arguments, state);
+    return end.miss(worker, caller, arguments, state);
   }
   if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
     top_level = &top_level->for_non_opaque();
@@ -213,11 +286,33 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
                arguments.instance_inclusion_mask, top_level, t_min, t_max);
   if (top_level->has_exact()) [[unlikely]] {
-    return search_exactly(worker, caller, arguments, state, world);
+    return search_exactly(worker, caller, arguments, state, world, end);
   }
   RTCRayHit ray_hit;
   begin_embree_ray(state, world, ray_hit.ray);
-  search<false>(worker, caller, arguments, state, ray_hit, WholeTraversal());
+  search<false>(worker, caller, arguments, state, ray_hit, WholeTraversal(), end);
+}
+
+}  // namespace
+
+void check_depth(Worker& worker, const shader::Invocation& caller) {
+  check_stack(worker);
+  // Ray generation is depth 0; TraceRay at the declared depth removes the device. [DXR: Ray
+  // recursion limit]
+  if (caller.depth >= worker.dispatch->max_recursion_depth) [[unlikely]] {
+    remove_device(worker, shader::RemovalReason::kRecursionDepth);
+  }
+}
+
+void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload,
+               shader::RayLanes origin_t_min, shader::RayLanes direction_t_max) {
+  trace(caller, arguments, payload, origin_t_min, direction_t_max, RunShaders());
+}
+
+void trace_hit_object(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload,
+                      shader::RayLanes origin_t_min, shader::RayLanes direction_t_max,
+                      shader::HitObject& hit) {
+  trace(caller, arguments, payload, origin_t_min, direction_t_max, WriteHitObject{hit});
 }
 
 void trace_rays(shader::Invocation& caller, const TraceRayArguments& arguments, void* payloads,

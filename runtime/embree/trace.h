@@ -7,9 +7,19 @@
 
 namespace kaamos::embree {
 
+struct Worker;
+
 // Services::trace_ray. Returns when all shaders of the ray have run.
 void trace_ray(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
                void* payload, shader::RayLanes origin_t_min, shader::RayLanes direction_t_max);
+
+// Services::trace_hit_object: the same without closest-hit and miss shaders.
+void trace_hit_object(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
+                      void* payload, shader::RayLanes origin_t_min,
+                      shader::RayLanes direction_t_max, shader::HitObject& hit);
+
+// Removes the device if the caller may trace no more. [DXR: Ray recursion limit]
+void check_depth(Worker& worker, const shader::Invocation& caller);
 
 // Services::trace_rays.
 void trace_rays(shader::Invocation& caller, const shader::TraceRayArguments& arguments,

@@ -20,6 +20,15 @@ using runtime::RecordKind;
 // stack for CallShader.
 constexpr uint32_t kMaxNesting = 96;
 
+void set_range(const std::shared_ptr<runtime::BackendBuffer>& heap,
+               const shader::Descriptor*& begin, const shader::Descriptor*& end) {
+  if (heap == nullptr || heap->host() == nullptr) return;
+  begin = reinterpret_cast<const shader::Descriptor*>(heap->host());
+  end = begin + heap->size_bytes() / sizeof(shader::Descriptor);
+}
+
+}  // namespace
+
 const char* table_name(RecordKind kind) {
   switch (kind) {
     case RecordKind::kRayGeneration:
@@ -34,15 +43,6 @@ const char* table_name(RecordKind kind) {
   }
   return "hit group";
 }
-
-void set_range(const std::shared_ptr<runtime::BackendBuffer>& heap,
-               const shader::Descriptor*& begin, const shader::Descriptor*& end) {
-  if (heap == nullptr || heap->host() == nullptr) return;
-  begin = reinterpret_cast<const shader::Descriptor*>(heap->host());
-  end = begin + heap->size_bytes() / sizeof(shader::Descriptor);
-}
-
-}  // namespace
 
 Replay::Replay(const Environment& environment, const runtime::DispatchRaysCommand& command)
     : environment_(environment), command_(command), scenes_(*environment.backend) {
@@ -147,13 +147,17 @@ Replay::Record Replay::find_record(const rtapi::GpuVirtualAddressRangeAndStride&
   return out;
 }
 
-Replay::Record Replay::hit_record(const Trace& trace, const Candidate& candidate) const {
+uint64_t Replay::hit_record_index(const Trace& trace, const Candidate& candidate) const {
   const rtapi::RaytracingInstanceDesc& instance = trace.scene->instances()[candidate.instance].desc;
-  const uint64_t index =
-      uint64_t{trace.arguments->ray_contribution_to_hit_group_index & 15u} +
-      uint64_t{trace.arguments->multiplier_for_geometry_contribution & 15u} * candidate.geometry +
-      instance.InstanceContributionToHitGroupIndex;
-  return find_record(command_.desc.HitGroupTable, RecordKind::kHitGroup, index);
+  return uint64_t{trace.arguments->ray_contribution_to_hit_group_index & 15u} +
+         uint64_t{trace.arguments->multiplier_for_geometry_contribution & 15u} *
+             candidate.geometry +
+         instance.InstanceContributionToHitGroupIndex;
+}
+
+Replay::Record Replay::hit_record(const Trace& trace, const Candidate& candidate) const {
+  return find_record(command_.desc.HitGroupTable, RecordKind::kHitGroup,
+                     hit_record_index(trace, candidate));
 }
 
 void Replay::describe_hit_record(const Trace& trace, const Candidate& candidate,
@@ -162,8 +166,7 @@ void Replay::describe_hit_record(const Trace& trace, const Candidate& candidate,
   const uint32_t ray = trace.arguments->ray_contribution_to_hit_group_index & 15u;
   const uint32_t multiplier = trace.arguments->multiplier_for_geometry_contribution & 15u;
   out.Table = table_name(RecordKind::kHitGroup);
-  out.Index = uint64_t{ray} + uint64_t{multiplier} * candidate.geometry +
-              instance.InstanceContributionToHitGroupIndex;
+  out.Index = hit_record_index(trace, candidate);
   out.Arithmetic = std::to_string(ray) + " (ray) + " + std::to_string(multiplier) +
                    " (multiplier) * " + std::to_string(candidate.geometry) + " (geometry) + " +
                    std::to_string(instance.InstanceContributionToHitGroupIndex) + " (instance)";

@@ -60,13 +60,19 @@ class Replay {
   // Records of shader tables
   Record find_record(const rtapi::GpuVirtualAddressRangeAndStride& table, runtime::RecordKind kind,
                      uint64_t index) const;
+  // The record that a hit object is bound to.
+  Record bound_record(const shader::HitObject& hit) const;
+  uint64_t hit_record_index(const Trace& trace, const Candidate& candidate) const;
   Record hit_record(const Trace& trace, const Candidate& candidate) const;
   void describe_hit_record(const Trace& trace, const Candidate& candidate, const Record& record,
                            rtapi::ExplainedRecord& out) const;
 
   // TraceRay
+  // Runs no closest-hit or miss shader if there is a hit object, but fills it in.
   void trace_ray(Frame& caller, const shader::TraceRayArguments& arguments, void* payload,
-                 const shader::RayDesc& ray);
+                 const shader::RayDesc& ray, shader::HitObject* hit_object = nullptr);
+  void invoke(Frame& caller, const shader::HitObject& hit, void* payload, uint32_t payload_bytes);
+  uint32_t record_constant(const shader::HitObject& hit, uint32_t offset) const;
   void search(Trace& trace);
   void offer(Trace& trace, const Candidate& candidate, rtapi::ExplainedCandidate* node);
   void offer_triangle(Trace& trace, const Candidate& candidate, const Record& record,
@@ -75,6 +81,7 @@ class Replay {
                  rtapi::ExplainedCandidate* node);
   void commit(Trace& trace, const Candidate& candidate, const Record& record, float t,
               uint32_t hit_kind, const void* attributes, bool end_search);
+  shader::HitObject hit_object_of(const Trace& trace) const;
   void run_closest_hit(Trace& trace);
   void run_miss(Trace& trace);
   shader::AnyHitResult run_any_hit(Trace& trace, const Candidate& candidate, const Record& record,
@@ -92,6 +99,8 @@ class Replay {
   void settle(Query& state, const shader::RayQuery& query);
   void finish_queries(const rtapi::ExplainedShader* node);
   rtapi::ExplainedCall* add_call(Frame& caller, rtapi::ExplainedCallKind kind);
+  // Ends the replay if the caller may trace no more.
+  void check_depth(const Frame& caller) const;
   void enter();  // counts nested shaders, and ends the replay when there are too many
   void leave() { --nesting_; }
 

@@ -91,6 +91,8 @@ inline rtapi::ShaderStage stage_of(const runtime::LinkedShader& linked) {
   return static_cast<rtapi::ShaderStage>(linked.stage);
 }
 
+const char* table_name(runtime::RecordKind kind);
+
 rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& instance,
                                    uint32_t flags);
 

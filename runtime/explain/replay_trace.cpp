@@ -58,12 +58,16 @@ rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& i
   return out;
 }
 
-void Replay::trace_ray(Frame& caller, const shader::TraceRayArguments& arguments, void* payload,
-                       const shader::RayDesc& ray) {
+void Replay::check_depth(const Frame& caller) const {
   // Ray generation is depth 0. [DXR: Ray recursion limit]
   if (caller.depth >= command_.linked->max_recursion_depth) {
-    explain::leave("TraceRay past the declared MaxTraceRecursionDepth");
+    explain::leave("TraceRay or Invoke past the declared MaxTraceRecursionDepth");
   }
+}
+
+void Replay::trace_ray(Frame& caller, const shader::TraceRayArguments& arguments, void* payload,
+                       const shader::RayDesc& ray, shader::HitObject* hit_object) {
+  check_depth(caller);
   ++statistics_.TraceRayCalls;
   statistics_.MaxDepth = std::max(statistics_.MaxDepth, caller.depth + 1);
   Trace trace;
@@ -105,7 +109,13 @@ void Replay::trace_ray(Frame& caller, const shader::TraceRayArguments& arguments
     }
   }
   if (trace.scene != nullptr && is_valid(ray)) search(trace);
-  if (!trace.search.committed) {
+  if (hit_object != nullptr) {
+    *hit_object = hit_object_of(trace);
+    if (trace.call != nullptr) {
+      trace.call->Note += trace.call->Note.empty() ? "" : "; ";
+      trace.call->Note += "gives a hit object: Invoke runs the closest-hit or miss shader";
+    }
+  } else if (!trace.search.committed) {
     run_miss(trace);
   } else if (!has(trace.search.flags, RayFlags::kSkipClosestHitShader)) {
     run_closest_hit(trace);

@@ -58,14 +58,16 @@ struct Services {
   static Replay::Frame& frame_of(shader::Invocation& invocation) {
     return *static_cast<Replay::Frame*>(invocation.backend);
   }
+  static shader::RayDesc ray_of(shader::RayLanes origin, shader::RayLanes direction) {
+    return {{origin[0], origin[1], origin[2]},
+            origin[3],
+            {direction[0], direction[1], direction[2]},
+            direction[3]};
+  }
   static void trace_ray(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
                         void* payload, shader::RayLanes origin, shader::RayLanes direction) {
-    const shader::RayDesc ray = {{origin[0], origin[1], origin[2]},
-                                 origin[3],
-                                 {direction[0], direction[1], direction[2]},
-                                 direction[3]};
     Replay::Frame& frame = frame_of(caller);
-    frame.replay->trace_ray(frame, arguments, payload, ray);
+    frame.replay->trace_ray(frame, arguments, payload, ray_of(origin, direction));
   }
   // Rays of a shader that runs several invocations at once; here only the explained one is active.
   static void trace_rays(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
@@ -89,6 +91,22 @@ struct Services {
     Replay::Frame& frame = frame_of(caller);
     frame.replay->call_shader(frame, index, data, bytes);
   }
+  static void trace_hit_object(shader::Invocation& caller,
+                               const shader::TraceRayArguments& arguments, void* payload,
+                               shader::RayLanes origin, shader::RayLanes direction,
+                               shader::HitObject& hit) {
+    Replay::Frame& frame = frame_of(caller);
+    frame.replay->trace_ray(frame, arguments, payload, ray_of(origin, direction), &hit);
+  }
+  static void invoke_hit_object(shader::Invocation& caller, const shader::HitObject& hit,
+                                void* payload, uint32_t bytes) {
+    Replay::Frame& frame = frame_of(caller);
+    frame.replay->invoke(frame, hit, payload, bytes);
+  }
+  static uint32_t record_constant(shader::Invocation& caller, const shader::HitObject& hit,
+                                  uint32_t offset) {
+    return frame_of(caller).replay->record_constant(hit, offset);
+  }
   static void begin_query(shader::Invocation& caller, shader::RayQuery& query,
                           const shader::RayQueryArguments& arguments, const shader::RayDesc& ray) {
     Replay::Frame& frame = frame_of(caller);
@@ -111,6 +129,9 @@ shader::Services make_services() {
   table.trace_rays = Services::trace_rays;
   table.report_hit = Services::report_hit;
   table.call_shader = Services::call_shader;
+  table.trace_hit_object = Services::trace_hit_object;
+  table.invoke_hit_object = Services::invoke_hit_object;
+  table.record_constant = Services::record_constant;
   table.begin_query = Services::begin_query;
   table.proceed = Services::proceed;
   table.remove_device = Services::remove;

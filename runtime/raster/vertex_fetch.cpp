@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/raster/vertex_fetch.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "runtime/shader/texture/format_codec.h"
 
@@ -20,6 +22,8 @@ bool is_plain_words(rtapi::Format format) {
 void VertexFetch::bind(const Draw& draw) {
   vertex_id_column_ = draw.linked->vertex_columns.vertex_id;
   instance_id_column_ = draw.linked->vertex_columns.instance_id;
+  start_vertex_column_ = draw.linked->vertex_columns.start_vertex;
+  start_instance_column_ = draw.linked->vertex_columns.start_instance;
   base_vertex_ = draw.indexed ? static_cast<uint32_t>(draw.arguments.BaseVertexLocation)
                               : draw.arguments.StartIndexLocation;
   base_instance_ = draw.arguments.StartInstanceLocation;
@@ -49,8 +53,10 @@ void VertexFetch::read(uint32_t instance, const uint32_t* ids, uint32_t count,
   if (vertex_id_column_ != runtime::kNoColumn) {
     for (uint32_t i = 0; i < count; ++i) inputs[vertex_id_column_][i] = ids[i];
   }
-  if (instance_id_column_ != runtime::kNoColumn) {
-    for (uint32_t i = 0; i < count; ++i) inputs[instance_id_column_][i] = instance;
+  for (const auto& [column, value] : {std::pair(instance_id_column_, instance),
+                                      std::pair(start_vertex_column_, base_vertex_),
+                                      std::pair(start_instance_column_, base_instance_)}) {
+    if (column != runtime::kNoColumn) std::fill_n(inputs[column], count, value);
   }
 }
 

@@ -39,6 +39,8 @@ class VertexFetch {
   std::vector<Element> elements_;
   uint32_t vertex_id_column_ = runtime::kNoColumn;
   uint32_t instance_id_column_ = runtime::kNoColumn;
+  uint32_t start_vertex_column_ = runtime::kNoColumn;
+  uint32_t start_instance_column_ = runtime::kNoColumn;
   uint32_t base_vertex_ = 0;
   uint32_t base_instance_ = 0;
 };

@@ -67,6 +67,10 @@ class Context {
   rtapi::CommandQueue& queue() { return queue_; }
   std::map<std::string, SharedDevice::Pipeline>& pipelines() { return shared_->pipelines; }
 
+  // From now on Standard traces by HitObject::TraceRay and Invoke.
+  void trace_through_hit_objects(bool on) { hit_objects_ = on; }
+  bool traces_through_hit_objects() const { return hit_objects_; }
+
   // Checks: a failed one fails the rule and reports what was found and expected.
   template <class T>
   void equal(const std::string& what, const T& found, const std::type_identity_t<T>& expected) {
@@ -142,6 +146,7 @@ class Context {
   rtapi::CommandQueue queue_;
   std::vector<rtapi::Buffer> keep_;
   std::vector<std::string> failures_;
+  bool hit_objects_ = false;
 };
 
 rtapi::RaytracingInstanceDesc instance(const rtapi::Buffer& bottom_level, float x = 0,
@@ -183,6 +188,8 @@ std::vector<RuleTest> as_update_tests();
 std::vector<RuleTest> as_copy_tests();
 std::vector<RuleTest> pay_qualifier_tests();
 std::vector<RuleTest> rq_tests();
+std::vector<RuleTest> ser_tests();
+std::vector<RuleTest> ser_compile_tests();
 std::vector<RuleTest> err_tests();
 std::vector<RuleTest> ras_assembler_tests();
 std::vector<RuleTest> ras_element_tests();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/program.h"
 
+#include <shaders/ser.h>
 #include <shaders/standard.h>
 
 namespace kaamos::conformance {
@@ -166,7 +167,10 @@ std::vector<std::string> with_standard_exports(std::vector<std::string> exports)
 
 Standard::Standard(Context& t, const shader::LibraryDesc* library,
                    std::vector<std::string> more_exports, const char* global_signature)
-    : Program(t, library == nullptr ? kaamos_shaders_standard() : library,
+    : Program(t,
+              library != nullptr               ? library
+              : t.traces_through_hit_objects() ? kaamos_shaders_ser()
+                                               : kaamos_shaders_standard(),
               with_standard_exports(more_exports), global_signature),
       context_(&t) {
   group("Plain", "Closest");
@@ -178,7 +182,8 @@ Standard::Standard(Context& t, const shader::LibraryDesc* library,
   local(kRecordSignature,
         {"Plain", "Counted", "Ignored", "Box", "BoxCounted", "BoxIgnored", "Miss", "WriteOrdinal"});
   if (library == nullptr && more_exports.empty()) {
-    share_as(std::string("standard, ") + global_signature);
+    share_as(std::string(t.traces_through_hit_objects() ? "by hit objects, " : "standard, ") +
+             global_signature);
   }
 }
 

@@ -14,12 +14,13 @@ constexpr Rule kRules[] = {
 #define LATER(section, number, tag, title, reason) \
   {#section "-" #number, #tag[0], title, nullptr, nullptr, reason},
 #include "tests/conformance/ras_rules.inc"
+#include "tests/conformance/ser_rules.inc"
 #undef LATER
 #undef RULE
 };
 
 static_assert(std::count_if(std::begin(kRules), std::end(kRules),
-                            [](const Rule& rule) { return rule.tag == 'R'; }) == 407);
+                            [](const Rule& rule) { return rule.tag == 'R'; }) == 444);
 
 }  // namespace
 

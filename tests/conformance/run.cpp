@@ -106,6 +106,8 @@ std::vector<Section> all_sections() {
           {"pay", pay_tests()},
           {"pay_qualifier", pay_qualifier_tests()},
           {"rq", rq_tests()},
+          {"ser", ser_tests()},
+          {"ser_compile", ser_compile_tests()},
           {"so", so_tests()},
           {"so_collection", so_collection_tests()},
           {"so_object", so_object_tests()},
@@ -155,6 +157,10 @@ bool test_covers(const RuleTest& test, std::string_view rule) {
 bool may_provoke(const RuleTest& test, std::string_view report) {
   const std::string_view allowed = test.provokes;
   return allowed == "*" || allowed.find(report.substr(0, 6)) != std::string_view::npos;
+}
+
+bool lacks_hit_objects(const std::string& failures) {
+  return failures.rfind("KA0968 ", 0) == 0;
 }
 
 std::string run_here(const RuleTest& test, const Target& target) {
@@ -235,20 +241,23 @@ std::vector<RuleTest> tests_of(const std::string& filter) {
   return out;
 }
 
-// The device refused the test's shaders because it has no ray queries.
-bool lacks_ray_queries(const std::string& failures) {
-  return failures.rfind("KA0963 ", 0) == 0;
+// What the device lacks, if it refused the test's shaders for that; else empty.
+std::string lacking(const std::string& failures) {
+  if (failures.rfind("KA0963 ", 0) == 0) {
+    return "the device has no VK_KHR_ray_query, which the test needs";
+  }
+  return lacks_hit_objects(failures) ? "the backend has no HitObject" : "";
 }
 
 RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
                      const std::vector<std::string>& failures, const std::vector<double>& seconds,
                      const Target& target, const std::string& device_name) {
   RuleResult result = result_without_run(rule);
-  bool lacks = false;
+  std::string lacks;
   for (size_t i = 0; i < tests.size(); ++i) {
     if (!test_covers(tests[i], rule.id)) continue;
-    if (lacks_ray_queries(failures[i])) {
-      lacks = true;
+    if (std::string lacked = lacking(failures[i]); !lacked.empty()) {
+      lacks = std::move(lacked);
       continue;
     }
     if (result.outcome != Outcome::kFailed && result.outcome != Outcome::kPassed) {
@@ -259,9 +268,8 @@ RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
     result.detail += failures[i];
     result.seconds += seconds[i];
   }
-  if (lacks && result.outcome != Outcome::kFailed) {
-    return {&rule, Outcome::kNotOffered,
-            "the device has no VK_KHR_ray_query, which the test needs"};
+  if (!lacks.empty() && result.outcome != Outcome::kFailed) {
+    return {&rule, Outcome::kNotOffered, lacks};
   }
   if (result.outcome != Outcome::kFailed) return result;
   if (const Deviation* known = find_deviation(rule.id, target.name(), device_name)) {

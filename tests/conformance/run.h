@@ -20,6 +20,9 @@ bool test_covers(const RuleTest& test, std::string_view rule);
 // Tells whether this message of checked mode is one that the test's violations must cause.
 bool may_provoke(const RuleTest& test, std::string_view report);
 
+// The backend refused the test's shaders because of HitObject.
+bool lacks_hit_objects(const std::string& failures);
+
 // Runs in this process. Returns what was expected and found, one a line; empty: the rules hold.
 std::string run_here(const RuleTest& test, const Target& target);
 // Runs the tests in order in another process, so that a driver that crashes or hangs fails only one

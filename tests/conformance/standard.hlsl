@@ -7,8 +7,16 @@ void Trace() {
   const uint i = DispatchRaysIndex().x;
   const Ray ray = rays[i];
   Seen seen = nothingSeen();
+#ifdef THROUGH_HIT_OBJECTS
+  const dx::HitObject hit =
+      dx::HitObject::TraceRay(scene, ray.flags, ray.mask, ray.contribution, ray.multiplier,
+                              ray.miss, describe(ray), seen);
+  dx::MaybeReorderThread(hit);
+  dx::HitObject::Invoke(hit, seen);
+#else
   TraceRay(scene, ray.flags, ray.mask, ray.contribution, ray.multiplier, ray.miss, describe(ray),
            seen);
+#endif
   words.Store<Seen>(64 * i, seen);
 }
 

@@ -32,6 +32,15 @@ Vertex WholeTarget(uint vertex : SV_VertexID) {
   return result;
 }
 
+// The same, with where the draw starts.
+[shader("vertex")]
+Vertex StartsAt(uint vertex : SV_VertexID, int first : SV_StartVertexLocation,
+                uint instance : SV_StartInstanceLocation) {
+  Vertex result = WholeTarget(vertex);
+  result.id = uint(first * 100) + instance;
+  return result;
+}
+
 [shader("pixel")]
 float4 Color(Vertex input) : SV_Target0 {
   return float4(input.color * tint.xyz, 1.0);

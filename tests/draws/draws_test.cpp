@@ -136,6 +136,25 @@ TEST_P(Draws, RAS_08_10_12_IdsBeginAtZeroWhereverTheDrawStarts) {
   EXPECT_EQ(canvas.texel<uint32_t>(9, 9, 3), 0u);  // nothing of the first instance
 }
 
+TEST_P(Draws, VertexShadersReadWhereTheDrawStarts) {
+  Canvas canvas(GetParam(), Format::kR32G32B32A32Uint);
+  const PipelineState pipeline = canvas.make(canvas.desc("StartsAt", "Facts"));
+  const Buffer indices = CreateUploadBuffer(canvas.device, std::vector<uint16_t>{0, 1, 2}).value();
+  const auto id_of = [&](const std::function<void(CommandList&)>& draw) {
+    canvas.run([&](CommandList& list) {
+      Canvas::use(list, pipeline);
+      const IndexBufferView view = {indices.GetGPUVirtualAddress(), 6, Format::kR16Uint};
+      list.IASetIndexBuffer(&view);
+      draw(list);
+    });
+    return canvas.texel<uint32_t>(20, 20, 0);
+  };
+  EXPECT_EQ(id_of([](CommandList& list) { list.DrawInstanced(3, 1, 5, 7); }), 507u);
+  EXPECT_EQ(id_of([](CommandList& list) { list.DrawIndexedInstanced(3, 1, 0, 9, 3); }), 903u);
+  EXPECT_EQ(id_of([](CommandList& list) { list.DrawIndexedInstanced(3, 1, 0, -2, 3); }), 3u - 200u);
+  EXPECT_EQ(id_of([](CommandList& list) { list.DrawInstanced(3, 1, 0, 0); }), 0u);
+}
+
 TEST_P(Draws, RAS_61_101_TheNearestWinsInAnyOrder) {
   const PipelineState pipeline = canvas_->make(canvas_->desc("WholeTarget", "Constant"));
   canvas_->run([&](CommandList& list) {

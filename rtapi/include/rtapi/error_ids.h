@@ -302,6 +302,7 @@ inline constexpr ErrorId kVulkanTableLimit{964};  ///< shader table too large fo
 inline constexpr ErrorId kNoGraphics{965};  ///< the Vulkan device has no graphics pipelines
 inline constexpr ErrorId kVertexFormatUnsupported{966};  ///< vertex format not supported by the Vulkan device
 inline constexpr ErrorId kNoBarycentrics{967};  ///< the Vulkan device has no barycentrics
+inline constexpr ErrorId kNoHitObject{968};  ///< HitObject is not offered on Vulkan
 inline constexpr ErrorId kOutOfMemory{990};  ///< out of memory
 inline constexpr ErrorId kPrecisionUnsupported{991};  ///< traversal precision not available
 inline constexpr ErrorId kEmbreeUnusable{992};  ///< Embree cannot be used
@@ -436,7 +437,7 @@ inline constexpr ErrorId kBitFieldName{2286};  ///< '{0}' behind ':' is a semant
 inline constexpr ErrorId kSemanticIgnored{2287};  ///< semantic '{0}' is ignored: the first one, '{1}', counts
 inline constexpr ErrorId kKeywordInExpression{2300};  ///< keyword '{0}' cannot be used as a value
 inline constexpr ErrorId kModifierPlace{2301};  ///< '{0}' cannot be used on {1}; it is for {2}
-inline constexpr ErrorId kNeedsShaderModel{2302};  ///< '{0}' of Shader Model {1} is not supported
+inline constexpr ErrorId kNeedsShaderModel{2302};  ///< '{0}' needs Shader Model {1}
 inline constexpr ErrorId kInterfaceMember{2303};  ///< an interface can only hold methods without a body, not {0}
 inline constexpr ErrorId kInterfaceBase{2304};  ///< interface '{0}' cannot inherit from another type
 inline constexpr ErrorId kVkAttributeIgnored{2340};  ///< [[vk::{0}]] is ignored: {1}
@@ -480,7 +481,7 @@ inline constexpr ErrorId kFunctionRedefined{2445};  ///< '{0}' already has a bod
 inline constexpr ErrorId kSizeof{2446};  ///< '{0}' has no size
 inline constexpr ErrorId kUnsignedBase{2447};  ///< 'unsigned {0}' is no type: only signed integers have a twin
 inline constexpr ErrorId kNormType{2448};  ///< '{0}' has no effect on '{1}': it is for floating-point numbers
-inline constexpr ErrorId kCoherentType{2449};  ///< '{0}' of type '{1}' cannot be globallycoherent, which is for resources that are written
+inline constexpr ErrorId kCoherentType{2449};  ///< '{0}' of type '{1}' cannot be {2}, which is for resources that are written
 inline constexpr ErrorId kNotATemplate{2450};  ///< '{0}' takes no template arguments
 inline constexpr ErrorId kTemplateCount{2451};  ///< '{0}' takes at most {1} template arguments; {2} given
 inline constexpr ErrorId kTemplateArguments{2452};  ///< the template arguments do not match the parameters of '{0}'
@@ -550,6 +551,7 @@ inline constexpr ErrorId kEndlessLoop{2528};  ///< nothing ends this loop
 inline constexpr ErrorId kUnrollCount{2529};  ///< [unroll] cannot tell how often the loop runs
 inline constexpr ErrorId kReturnsThis{2530};  ///< DXC cannot return 'this' as a whole
 inline constexpr ErrorId kNeverReturns{2531};  ///< '{0}' has no return; it returns zero
+inline constexpr ErrorId kBarrierFlags{2532};  ///< Barrier's {0} are {1}; {2}
 inline constexpr ErrorId kRegisterClass{2540};  ///< register '{0}' cannot be used for '{2}'; a '{1}' register is needed
 inline constexpr ErrorId kTwoRegisters{2541};  ///< '{0}' already has a register
 inline constexpr ErrorId kRegisterRange{2542};  ///< the registers of '{0}' extend past 4294967295
@@ -581,6 +583,7 @@ inline constexpr ErrorId kSemanticType{2575};  ///< {0} has type '{1}', which do
 inline constexpr ErrorId kStage{2576};  ///< '{0}' is only available in {1}, but {2} shader '{3}' reaches it
 inline constexpr ErrorId kExportNotFound{2577};  ///< cannot export '{0}': there is no such function
 inline constexpr ErrorId kSkipped{2578};  ///< {0} function(s) are not checked, because no entry point reaches them: {1}
+inline constexpr ErrorId kHitObjectPlace{2579};  ///< 'dx::HitObject' is not allowed in {0}
 inline constexpr ErrorId kRayQueryFlags{2580};  ///< {0} is not a valid set of ray flags; a RayQuery takes 0 to 1023 (0x3FF)
 inline constexpr ErrorId kRayQueryCopy{2581};  ///< a {0} cannot be copied; call its methods, pass the variable to a function, or declare a second name that is initialised with it
 inline constexpr ErrorId kRayQueryPlace{2582};  ///< a {0} cannot be {1}; make it a local variable, or a parameter of a function

@@ -106,12 +106,12 @@ struct ExplainedCandidate {
 };
 
 /// The kind of call that a shader made.
-enum class ExplainedCallKind : uint32_t { kTraceRay, kCallShader, kRayQuery, kReportHit };
+enum class ExplainedCallKind : uint32_t { kTraceRay, kCallShader, kRayQuery, kReportHit, kInvoke };
 
 /// One call of a shader, and what came of it.
 struct ExplainedCall {
   ExplainedCallKind Kind = ExplainedCallKind::kTraceRay;  ///< which of the members count
-  uint32_t Depth = 0;                ///< TraceRay: of the shaders that it runs, from 1
+  uint32_t Depth = 0;                ///< TraceRay, Invoke: of the shaders that it runs, from 1
   AddressDescription Scene = {};     ///< TraceRay, RayQuery: the top level
   RayFlags Flags = RayFlags::kNone;  ///< with those of the pipeline
   /// Arguments of TraceRay or TraceRayInline.

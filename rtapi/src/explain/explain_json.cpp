@@ -107,6 +107,10 @@ Json to_json_value(const ExplainedCall& call) {
     case ExplainedCallKind::kCallShader:
       json["call"] = "CallShader";
       break;
+    case ExplainedCallKind::kInvoke:
+      json["call"] = "Invoke";
+      json["depth"] = call.Depth;
+      break;
     case ExplainedCallKind::kReportHit:
       json["call"] = "ReportHit";
       json["t"] = number_json(call.HitT);

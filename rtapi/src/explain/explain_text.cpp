@@ -26,6 +26,8 @@ class Writer {
   }
   void write_call(const ExplainedCall& call, int indent);
   void write_trace_ray(const ExplainedCall& call, int indent);
+  void write_plain_call(const ExplainedCall& call, const std::string& title,
+                        const std::string& what, int indent);
   void write_candidate(const ExplainedCandidate& candidate, int indent);
 
   std::string& out_;
@@ -109,6 +111,15 @@ void Writer::write_trace_ray(const ExplainedCall& call, int indent) {
   if (!call.After.empty()) write_line(indent + 1, "payload after: " + values_text(call.After));
 }
 
+void Writer::write_plain_call(const ExplainedCall& call, const std::string& title,
+                              const std::string& what, int indent) {
+  write_line(indent, title);
+  if (!call.Note.empty()) write_line(indent + 1, "note: " + call.Note);
+  if (!call.Before.empty()) write_line(indent + 1, what + " before: " + values_text(call.Before));
+  for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
+  if (!call.After.empty()) write_line(indent + 1, what + " after: " + values_text(call.After));
+}
+
 void Writer::write_call(const ExplainedCall& call, int indent) {
   switch (call.Kind) {
     case ExplainedCallKind::kTraceRay:
@@ -120,12 +131,9 @@ void Writer::write_call(const ExplainedCall& call, int indent) {
       for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
       return;
     case ExplainedCallKind::kCallShader:
-      write_line(indent, "CallShader");
-      if (!call.Note.empty()) write_line(indent + 1, "note: " + call.Note);
-      if (!call.Before.empty()) write_line(indent + 1, "data before: " + values_text(call.Before));
-      for (const ExplainedShader& shader : call.Shaders) write_shader(shader, indent + 1);
-      if (!call.After.empty()) write_line(indent + 1, "data after: " + values_text(call.After));
-      return;
+      return write_plain_call(call, "CallShader", "data", indent);
+    case ExplainedCallKind::kInvoke:
+      return write_plain_call(call, concat("Invoke, depth ", call.Depth), "payload", indent);
   }
 }
 

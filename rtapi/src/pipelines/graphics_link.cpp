@@ -145,6 +145,12 @@ Status link_vertex_input(const GraphicsPipelineStateDesc& desc, std::span<const 
     case SystemValue::kInstanceId:
       linked.vertex_columns.instance_id = input.first_column;
       return {};
+    case SystemValue::kStartVertexLocation:
+      linked.vertex_columns.start_vertex = input.first_column;
+      return {};
+    case SystemValue::kStartInstanceLocation:
+      linked.vertex_columns.start_instance = input.first_column;
+      return {};
     default:
       break;
   }

@@ -165,6 +165,7 @@ class Analysis {
         }
         return facts.masked ? kReturns : kNone;
       case StmtKind::kTraceRay:
+        if (stmt.result != nullptr) refuse("it has hit objects");
         write(stmt.place->variable, true, region);
         return kNone;
       case StmtKind::kWave: {

@@ -67,6 +67,7 @@ struct FunctionFacts {
   std::vector<StageUse> stage_uses;
   bool traces = false;
   bool queries = false;
+  bool hit_objects = false;
   bool calls_shader = false;
   bool ends_shader = false;
   uint32_t reported_bytes = 0;  // size of the largest attributes that it passes to ReportHit

@@ -62,6 +62,17 @@ uint8_t payload_stage_of(uint32_t stage) {
   }
 }
 
+PayloadAccessBits as_caller(PayloadAccessBits access, PayloadRoles roles) {
+  if ((access.read & roles.reads) != 0) access.read |= kPayloadCaller;
+  if ((access.write & roles.writes) != 0) access.write |= kPayloadCaller;
+  return access;
+}
+
+PayloadLeaves as_caller(PayloadLeaves leaves, PayloadRoles roles) {
+  for (PayloadLeaf& leaf : leaves) leaf.access = as_caller(leaf.access, roles);
+  return leaves;
+}
+
 bool all_access(const PayloadLeaves& leaves, uint8_t stage) {
   for (const PayloadLeaf& leaf : leaves) {
     if (!(leaf.access.read & leaf.access.write & stage)) return false;

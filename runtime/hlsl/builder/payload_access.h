@@ -37,6 +37,14 @@ struct PayloadAccessBits {
   uint8_t write = 0;
 };
 
+// A hit object splits one TraceRay into two calls: what other stages may read, or write, counts as
+// the caller's, too. [DXR: HitObject, interaction with payload access qualifiers]
+struct PayloadRoles {
+  uint8_t reads = 0;  // PayloadStageBits
+  uint8_t writes = 0;
+};
+PayloadAccessBits as_caller(PayloadAccessBits access, PayloadRoles roles);
+
 // A field with qualifiers of its own, at any depth of nested payload structs.
 struct PayloadLeaf {
   std::vector<uint32_t> path;  // indices in ir::Struct::fields
@@ -46,6 +54,8 @@ struct PayloadLeaf {
 };
 // Those of a struct, in the order of declaration.
 using PayloadLeaves = std::vector<PayloadLeaf>;
+
+PayloadLeaves as_caller(PayloadLeaves leaves, PayloadRoles roles);
 
 // Returns whether the stage may read and write every field, so that nothing needs a separate copy.
 bool all_access(const PayloadLeaves& leaves, uint8_t stage);

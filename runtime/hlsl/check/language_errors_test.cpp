@@ -60,7 +60,7 @@ const std::vector<LanguageCase>& language_cases() {
       {"LocalAgain", Id::kRedefinition, kernel("int i;\nfor (uint @i = 0; i < 3; ++i) {}"),
        "lib_6_6", 2018},
       {"RayQuerySecondFlags", Id::kRayQuerySecondFlags, kernel("RayQuery<0, @2> q;")},
-      {"RayQueryMicromaps", Id::kNeedsShaderModel,
+      {"RayQueryMicromaps", Id::kUnsupported,
        kernel("RayQuery<0, @RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS> q;")},
       {"RayQueryThreeArguments", Id::kTemplateCount, kernel("@RayQuery<0, 0, 0> q;")},
       {"RayQuerySecondNotConstant", Id::kNotConstant, kernel("uint n = 0;\nRayQuery<0, @n> q;")},

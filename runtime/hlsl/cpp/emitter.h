@@ -116,6 +116,7 @@ class CppEmitter {
   void store(const ir::Stmt& stmt);
   std::string atomic_text(const ir::Stmt& stmt, const TextOf& text);
   void call_function(const ir::Stmt& stmt, bool declares_result);
+  void invoke(const ir::Stmt& stmt);
   void trace_ray(const ir::Stmt& stmt);
   void report_hit(const ir::Stmt& stmt);
   void query(const ir::Stmt& stmt);

@@ -453,6 +453,11 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kDimensions:
       return "ks::dimensions(ctx.invocation, " + value(expr.operands[0]) + ", " +
              (expr.operands.size() > 1 ? "uint32_t(" + value(expr.operands[1]) + ")" : "0u") + ")";
+    case ExprKind::kSameBytes:
+      return call("ks::same_bytes<" + type(expr.type) + ">", expr.operands);
+    case ExprKind::kRecordConstant:
+      return "ks::record_constant(ctx.invocation, " + value(expr.operands[0]) + ", " +
+             value(expr.operands[1]) + ")";
     case ExprKind::kQuad:  // a statement by now
       break;
   }

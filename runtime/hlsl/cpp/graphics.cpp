@@ -24,7 +24,9 @@ const char* system_value_name(shader::SystemValue value) {
                                     "kViewportArrayIndex",
                                     "kTarget",
                                     "kDepth",
-                                    "kCoverage"};
+                                    "kCoverage",
+                                    "kStartVertexLocation",
+                                    "kStartInstanceLocation"};
   return kNames[static_cast<size_t>(value)];
 }
 

@@ -223,9 +223,12 @@ std::string CppEmitter::accessed(const char* result, const Expr* resource, const
 }
 
 void CppEmitter::trace_ray(const Stmt& stmt) {
-  std::string text = "ks::trace_ray(ctx.invocation";
+  const std::string function =
+      stmt.result != nullptr ? "trace_hit_object<" + type(stmt.result->type) + ">" : "trace_ray";
+  const std::string result = stmt.result != nullptr ? variable(stmt.result) + " = " : "";
+  std::string text = result + "ks::" + function + "(ctx.invocation";
   if (module_.check_access) {
-    text = "ks::checked::trace_ray(ctx.invocation, " + site(stmt.location) + ", " +
+    text = result + "ks::checked::" + function + "(ctx.invocation, " + site(stmt.location) + ", " +
            std::to_string(type_hash(stmt.place->type)) + "u, " +
            (is_unknown(module_, stmt) ? "true" : "false");
   }
@@ -233,6 +236,14 @@ void CppEmitter::trace_ray(const Stmt& stmt) {
     text += ", " + value(operand);
   }
   line(text + ", " + place(stmt.place) + ");");
+}
+
+void CppEmitter::invoke(const Stmt& stmt) {
+  const std::string checks =
+      module_.check_access ? "checked::invoke_hit_object(ctx.invocation, " + site(stmt.location) +
+                                 ", " + std::to_string(type_hash(stmt.place->type)) + "u, "
+                           : std::string("invoke_hit_object(ctx.invocation, ");
+  line("ks::" + checks + value(stmt.operands[0]) + ", " + place(stmt.place) + ");");
 }
 
 void CppEmitter::report_hit(const Stmt& stmt) {
@@ -340,6 +351,9 @@ void CppEmitter::statement(const Stmt& stmt) {
       break;
     case StmtKind::kTraceRay:
       trace_ray(stmt);
+      break;
+    case StmtKind::kInvoke:
+      invoke(stmt);
       break;
     case StmtKind::kQuery:
       query(stmt);

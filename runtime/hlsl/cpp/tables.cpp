@@ -135,6 +135,7 @@ void CppEmitter::emit_tables() {
     unlinked.emplace_back(bindings, emit_list("unlinked_imports_" + n, e.imports));
   }
   for (size_t i = 0; i < options_.spirv.size(); ++i) {
+    if (options_.spirv[i].empty()) continue;
     out_ += "static const uint32_t spirv_" + std::to_string(i) + "[] = {";
     for (const uint32_t word : options_.spirv[i]) {
       out_ += std::to_string(word);
@@ -162,8 +163,8 @@ void CppEmitter::emit_tables() {
     const bool callable = e.stage == kStageCallable;
     const std::string storage = e.payload != nullptr ? "sizeof(" + type(e.payload) + ")" : "0u";
     uint32_t flags = (e.function->may_trace ? 1u : 0u) | (e.function->uses_query ? 32u : 0u) |
-                     (e.function->may_call ? 2u : 0u) | (e.uses_view_heap ? 4u : 0u) |
-                     (e.uses_sampler_heap ? 8u : 0u) |
+                     (e.function->uses_hit_object ? 512u : 0u) | (e.function->may_call ? 2u : 0u) |
+                     (e.uses_view_heap ? 4u : 0u) | (e.uses_sampler_heap ? 8u : 0u) |
                      (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u) |
                      (e.unbounded_payload ? 64u : 0u) | (reads_bound_ && !compute ? 128u : 0u) |
                      (e.attributes != nullptr && !reads_attributes(e) ? 256u : 0u);
@@ -175,8 +176,9 @@ void CppEmitter::emit_tables() {
          number(e.attribute_bytes) + ", " + number(callable ? e.payload_bytes : 0) + ", " +
          number(stack_[e.function]) + ", " + number(flags) + ", bindings_" + n + ", " +
          number(e.bindings.size()) +
-         (i < options_.spirv.size() ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
-                                    : ", nullptr, 0u") +
+         (i < options_.spirv.size() && !options_.spirv[i].empty()
+              ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
+              : ", nullptr, 0u") +
          ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
          number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
          quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) +

@@ -115,6 +115,10 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
     case Emit::kGlsl:
       for (const ir::EntryPoint& entry : module.entry_points) {
         if (module.entry_points.size() > 1) text += "// ---- " + entry.name + "\n";
+        if (entry.function->uses_hit_object) {
+          text += "// uses dx::HitObject, which is not offered on Vulkan\n";
+          continue;
+        }
         text += emit_glsl(module, entry).text;
       }
       break;
@@ -126,6 +130,10 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
       const SpirvLibrary library = compile_spirv(module);
       if (library.error) return fail(library.error.message());
       const auto& words = library.modules[0];
+      if (words.empty()) {
+        return fail("'" + module.entry_points[0].name +
+                    "' uses dx::HitObject, which is not offered on Vulkan");
+      }
       text.assign(reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t));
       break;
     }

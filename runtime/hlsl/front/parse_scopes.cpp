@@ -43,6 +43,10 @@ void ParseScopes::add_base(ScopeId scope, ScopeId base) {
 }
 
 void ParseScopes::add_using(ScopeId scope, ScopeId target) {
+  if (target == kBuiltinScope) {
+    scopes_[scope].uses_builtin = true;
+    return;
+  }
   add_base(scope, target);
 }
 
@@ -86,6 +90,11 @@ ParsedSymbol ParseScopes::find(const Token& name) {
   if (found.kind == BuiltinName::kType) return {ParsedKind::kType, kNoScope};
   if (found.kind == BuiltinName::kNamespace) return {ParsedKind::kNamespace, kBuiltinScope};
   if (found.kind == BuiltinName::kSubobject) return {ParsedKind::kSubobject, kNoScope};
+  if (found.kind == BuiltinName::kScopedType) {
+    for (ScopeId scope = current_; scope != kNoScope; scope = scopes_[scope].parent) {
+      if (scopes_[scope].uses_builtin) return {ParsedKind::kType, kNoScope};
+    }
+  }
   return {};
 }
 

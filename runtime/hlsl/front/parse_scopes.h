@@ -67,6 +67,7 @@ class ParseScopes {
   struct Scope {
     ScopeId parent;
     std::vector<ScopeId> linked;  // Base structs and namespaces of `using namespace`.
+    bool uses_builtin = false;    // `using namespace dx`
   };
   struct NameInfo {
     bool is_recorded = false;  // Declared in some scope.

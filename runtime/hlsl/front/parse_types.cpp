@@ -137,10 +137,6 @@ TypeSyntax* Parser::unknown_type() {
   }
   const SourceLocation location = here();
   const std::string text = text_between(begin, end);
-  if (text == "HitObject") {
-    fail(DiagnosticId::kNeedsShaderModel, location, {text, "6.9"});
-    return error_type(location);
-  }
   const bool reads_on = is_name(end) || token_at(end).is(Kind::kOperator);
   auto message = reads_on ? report(DiagnosticId::kUnknownTypeName, location, {text})
                           : fail(DiagnosticId::kUnknownTypeName, location, {text});

@@ -291,6 +291,8 @@ std::string GlslEmitter::value(const Expr* e) {
       return sample(expr);
     case ExprKind::kDimensions:
       return dimensions(expr);
+    case ExprKind::kSameBytes:  // of hit objects, which have no GLSL
+    case ExprKind::kRecordConstant:
     case ExprKind::kQuad:  // a statement by now
       break;
   }

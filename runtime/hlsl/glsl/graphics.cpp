@@ -30,6 +30,10 @@ std::string GlslEmitter::graphics_input(size_t index) {
       return type + "(gl_VertexIndex - gl_BaseVertex)";
     case shader::SystemValue::kInstanceId:
       return type + "(gl_InstanceIndex - gl_BaseInstance)";
+    case shader::SystemValue::kStartVertexLocation:
+      return type + "(gl_BaseVertex)";
+    case shader::SystemValue::kStartInstanceLocation:
+      return type + "(gl_BaseInstance)";
     case shader::SystemValue::kPrimitiveId:
       return type + "(gl_PrimitiveID)";
     case shader::SystemValue::kIsFrontFace:

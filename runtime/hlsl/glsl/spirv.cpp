@@ -110,6 +110,10 @@ std::string spirv_version() {
 SpirvLibrary compile_spirv(const ir::Module& module) {
   SpirvLibrary out;
   for (const ir::EntryPoint& entry : module.entry_points) {
+    if (entry.function->uses_hit_object) {  // not offered on Vulkan
+      out.modules.emplace_back();
+      continue;
+    }
     SpirvModule spirv = compile_spirv(emit_glsl(module, entry), entry.name);
     if (spirv.error) {
       out.error = std::move(spirv.error);

@@ -265,6 +265,10 @@ void Compiler::compile(Node& node) {
       return in_slot(node, evaluate_sample());
     case ExprKind::kDimensions:
       return in_slot(node, evaluate_dimensions());
+    case ExprKind::kSameBytes:
+      return in_slot(node, evaluate_same_bytes());
+    case ExprKind::kRecordConstant:
+      return in_slot(node, evaluate_record_constant());
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -4,6 +4,7 @@
 #include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/hlsl/ir/texture_shape.h"
@@ -266,6 +267,22 @@ const std::byte* heap_resource(const Node& node, Frame& frame) {
   return keep(node, frame, shader::heap_resource(*frame.context->invocation, index, sampler));
 }
 
+const std::byte* same_bytes(const Node& node, Frame& frame) {
+  const std::byte* from = evaluate(*node.operands[0], frame);
+  std::byte* to = frame.temporaries + node.slot;
+  const uint32_t bytes = std::min(node.bytes, node.operands[0]->bytes);
+  std::memcpy(to, from, bytes);
+  std::memset(to + bytes, 0, node.bytes - bytes);
+  return to;
+}
+
+const std::byte* record_constant(const Node& node, Frame& frame) {
+  const auto hit = evaluate_as<shader::HitObject>(*node.operands[0], frame);
+  const auto offset = evaluate_as<uint32_t>(*node.operands[1], frame);
+  shader::Invocation& invocation = *frame.context->invocation;
+  return keep(node, frame, invocation.dispatch->services->record_constant(invocation, hit, offset));
+}
+
 }  // namespace
 
 void make_variable(Node& node, Storage storage, bool reference) {
@@ -335,6 +352,12 @@ Evaluate evaluate_system_value() {
 }
 Evaluate evaluate_query_value() {
   return query_value;
+}
+Evaluate evaluate_same_bytes() {
+  return same_bytes;
+}
+Evaluate evaluate_record_constant() {
+  return record_constant;
 }
 Evaluate evaluate_binding() {
   return binding;

@@ -26,6 +26,8 @@ Evaluate evaluate_logical_and();
 Evaluate evaluate_logical_or();
 Evaluate evaluate_system_value();
 Evaluate evaluate_query_value();
+Evaluate evaluate_same_bytes();
+Evaluate evaluate_record_constant();
 Evaluate evaluate_binding();
 Evaluate evaluate_heap_resource();
 

@@ -191,6 +191,7 @@ shader::ExportDesc describe(const EntryCode& code) {
   out.flags |=
       (entry.function->may_trace ? shader::kExportTraces : 0u) |
       (entry.function->uses_query ? shader::kExportUsesRayQuery : 0u) |
+      (entry.function->uses_hit_object ? shader::kExportUsesHitObject : 0u) |
       (entry.function->may_call ? shader::kExportCalls : 0u) |
       (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
       (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |

@@ -136,9 +136,29 @@ void trace_ray(const Action& action, Frame& frame) {
     shader::checked::check_trace(invocation, site_of(action.stmt->location), arguments.ray_flags,
                                  ray);
   }
+  const shader::Services& services = *invocation.dispatch->services;
+  if (action.result == nullptr) {
+    return call_with_header(action, frame, [&](void* payload) {
+      services.trace_ray(invocation, arguments, payload, shader::origin_t_min(ray),
+                         shader::direction_t_max(ray));
+    });
+  }
+  shader::HitObject hit;
   call_with_header(action, frame, [&](void* payload) {
-    invocation.dispatch->services->trace_ray(
-        invocation, arguments, payload, shader::origin_t_min(ray), shader::direction_t_max(ray));
+    services.trace_hit_object(invocation, arguments, payload, shader::origin_t_min(ray),
+                              shader::direction_t_max(ray), hit);
+  });
+  std::memcpy(action.result->locate(*action.result, frame), &hit, sizeof(hit));
+}
+
+void invoke(const Action& action, Frame& frame) {
+  shader::Invocation& invocation = *frame.context->invocation;
+  const auto hit = evaluate_as<shader::HitObject>(*action.operands[0], frame);
+  if (frame.context->program->checked) {
+    shader::checked::check_depth(invocation, site_of(action.stmt->location));
+  }
+  call_with_header(action, frame, [&](void* payload) {
+    invocation.dispatch->services->invoke_hit_object(invocation, hit, payload, action.place->bytes);
   });
 }
 
@@ -336,6 +356,9 @@ Flow run(const Action& action, Frame& frame) {
       return context.ended && !stmt.outlives_end ? Flow::kReturn : Flow::kNext;
     case StmtKind::kTraceRay:
       trace_ray(action, frame);
+      return Flow::kNext;
+    case StmtKind::kInvoke:
+      invoke(action, frame);
       return Flow::kNext;
     case StmtKind::kQuery:
       run_query(action, frame);

@@ -295,6 +295,7 @@ constexpr std::string_view kPixelFunctions[] = {"ddx",
                                                 "IsHelperLane"};
 
 constexpr std::string_view kByName[] = {"mul",
+                                        "Barrier",
                                         "select",
                                         "and",
                                         "or",

@@ -148,6 +148,15 @@ const BuiltinConstant kBuiltinConstants[] = {
     {"RAYTRACING_PIPELINE_FLAG_NONE", 0x0},
     {"RAYTRACING_PIPELINE_FLAG_SKIP_TRIANGLES", 0x100},
     {"RAYTRACING_PIPELINE_FLAG_SKIP_PROCEDURAL_PRIMITIVES", 0x200},
+    {"UAV_MEMORY", kUavMemory, 8},
+    {"GROUP_SHARED_MEMORY", kGroupSharedMemory, 8},
+    {"NODE_INPUT_MEMORY", 0x4, 8},
+    {"NODE_OUTPUT_MEMORY", 0x8, 8},
+    {"ALL_MEMORY", 0xF, 8},
+    {"GROUP_SYNC", kGroupSyncSemantic, 8},
+    {"GROUP_SCOPE", kGroupScope, 8},
+    {"DEVICE_SCOPE", kDeviceScope, 8},
+    {"REORDER_SCOPE", kReorderScope, 9},
 };
 const size_t kBuiltinConstantCount = std::size(kBuiltinConstants);
 

@@ -73,11 +73,22 @@ inline bool is_sampler(ir::ResourceKind kind) {
   return kind == ir::ResourceKind::kSampler || kind == ir::ResourceKind::kSamplerComparison;
 }
 
+// MEMORY_TYPE_FLAG and BARRIER_SEMANTIC_FLAG. [HLSL: Barrier]
+enum BarrierArgument : uint32_t {
+  kUavMemory = 0x1,
+  kGroupSharedMemory = 0x2,
+  kGroupSyncSemantic = 0x1,
+  kGroupScope = 0x2,
+  kDeviceScope = 0x4,
+  kReorderScope = 0x8,
+};
+
 // Global constants that every library sees: RAY_FLAG_FORCE_OPAQUE, HIT_KIND_TRIANGLE_BACK_FACE ..
 // [DXR: Ray flags, Hit kinds]
 struct BuiltinConstant {
   std::string_view name;
   uint32_t value;
+  uint32_t minor = 0;  // the shader model that has it
 };
 extern const BuiltinConstant kBuiltinConstants[];
 extern const size_t kBuiltinConstantCount;

@@ -170,6 +170,10 @@ class Dumper {
         return call(std::string(kSampleNames[static_cast<size_t>(of->sample)]), *of);
       case ir::ExprKind::kDimensions:
         return call("dimensions", *of);
+      case ir::ExprKind::kSameBytes:
+        return call("same_bytes_" + dump(*of->type), *of);
+      case ir::ExprKind::kRecordConstant:
+        return call("record_constant", *of);
       case ir::ExprKind::kQuad:
         return call(std::string(wave_function_name(of->wave)), *of);
     }
@@ -238,8 +242,12 @@ class Dumper {
         text += ")";
         break;
       case ir::StmtKind::kTraceRay:
+      case ir::StmtKind::kInvoke:
       case ir::StmtKind::kCallShader:
-        line(of.kind == ir::StmtKind::kTraceRay ? "trace_ray(" : "call_shader(");
+        result_prefix(of);
+        text += of.kind == ir::StmtKind::kTraceRay ? "trace_ray("
+                : of.kind == ir::StmtKind::kInvoke ? "invoke("
+                                                   : "call_shader(";
         list(of.operands);
         text += ", inout ";
         expr(of.place);

@@ -183,6 +183,9 @@ enum class ExprKind : uint8_t {
   kQueryValue,  // operands: the kVariable of a RayQuery; query_value, index 1: of what is committed
   kDimensions,  // operands: resource, [mip level]. uint4: textures {width, height,
                 // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
+  kSameBytes,   // operands: a value whose bytes in memory are read as another type; without
+                // resources, zero beyond its bytes. The attributes of a hit object
+  kRecordConstant,  // operands: a hit object, byte offset (uint32). uint32
   kQuad,  // only while a module is made (quad_functions.h): operands[0] combined over the quad
           // of a pixel shader, by `wave`
 };
@@ -308,7 +311,9 @@ enum class StmtKind : uint8_t {
                 // (groupshared); value, compare; result or null
   kCall,        // function, arguments; result or null
   kTraceRay,    // operands: acceleration structure, flags, mask, ray contribution, multiplier, miss
-                // index (uint32), RayDesc; place: the payload variable
+                // index (uint32), RayDesc; place: the payload variable. result: a hit object, of
+                // which neither closest-hit nor miss shaders run; or null
+  kInvoke,      // operands: a hit object; place: the payload variable
   kReportHit,   // operands: t, hit kind, attributes; result (bool). May end the shader
   kCallShader,  // operands: index; place: the data variable
   kIgnoreHit,   // ends the shader
@@ -417,15 +422,16 @@ struct Function {
   std::vector<Variable*> parameters;  // a method's object is the first, named "this"
   Block body;
   Location location;
-  Location end_location;        // of the closing brace
-  uint32_t stages = 0;          // StageBits: which stages' entry points reach it
-  bool may_trace = false;       // can reach TraceRay
-  bool uses_query = false;      // can reach TraceRayInline
-  bool may_call = false;        // can reach CallShader
-  bool may_end_shader = false;  // can reach IgnoreHit, AcceptHitAndEndSearch or ReportHit: after a
-                                // call, the caller must return at once if the shader has ended
-  bool has_barrier = false;     // can reach a group barrier
-  bool has_waves = false;       // can reach kWave
+  Location end_location;         // of the closing brace
+  uint32_t stages = 0;           // StageBits: which stages' entry points reach it
+  bool may_trace = false;        // can reach TraceRay or HitObject::Invoke
+  bool uses_query = false;       // can reach TraceRayInline
+  bool uses_hit_object = false;  // can reach functions of HitObject
+  bool may_call = false;         // can reach CallShader
+  bool may_end_shader = false;   // can reach IgnoreHit, AcceptHitAndEndSearch or ReportHit: after a
+                                 // call, the caller must return at once if the shader has ended
+  bool has_barrier = false;      // can reach a group barrier
+  bool has_waves = false;        // can reach kWave
 };
 
 // The source of the value of an entry point's parameter.
@@ -542,6 +548,9 @@ struct Module {
   bool check_access = false;
   std::string source;  // all source files and options (embedded_source.h); empty: unknown
   const Struct* ray_desc = nullptr;  // the built-in RayDesc {Origin, TMin, Direction, TMax}
+  // The built-in dx::HitObject, with the members of shader::HitObject; null before Shader
+  // Model 6.9.
+  const Struct* hit_object = nullptr;
 
   // Owners of the nodes; addresses stay valid as long as the module lives.
   std::deque<Type> type_pool;

@@ -261,6 +261,15 @@ class Verifier {
         operand_count(of, 1, 2);
         resource(of, 0);
         break;
+      case ExprKind::kSameBytes:
+        operand_count(of, 1, 1);
+        break;
+      case ExprKind::kRecordConstant:
+        operand_count(of, 2, 2);
+        require(
+            is_hit_object(operands[0]->type) && is_scalar(operands[1]->type, ir::Scalar::kUint32),
+            "a record's constant", of);
+        break;
       default:
         break;
     }
@@ -386,6 +395,15 @@ class Verifier {
         require(of.place && of.place->kind == ExprKind::kVariable, "payload is not a variable",
                 of.place);
         expr(of.place);
+        require(!of.result || is_hit_object(of.result->type), "TraceRay's result", nullptr);
+        break;
+      case StmtKind::kInvoke:
+        require(
+            of.operands.size() == 1 && is_hit_object(of.operands[0]->type) && function_->may_trace,
+            "Invoke", nullptr);
+        require(of.place && of.place->kind == ExprKind::kVariable, "payload is not a variable",
+                of.place);
+        expr(of.place);
         break;
       case StmtKind::kCallShader:
         require(of.operands.size() == 1 && function_->may_call, "CallShader", nullptr);
@@ -440,6 +458,10 @@ class Verifier {
       default:
         break;
     }
+  }
+
+  bool is_hit_object(const Type* type) const {
+    return type->kind == TypeKind::kStruct && type->structure == module_.hit_object;
   }
 
   void wave(const Stmt& of) {

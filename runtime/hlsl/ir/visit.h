@@ -85,6 +85,7 @@ void visit_written(const Stmt& stmt, const VariableVisitor& on_variable) {
     case StmtKind::kAtomic:
     case StmtKind::kQuery:
     case StmtKind::kTraceRay:
+    case StmtKind::kInvoke:
     case StmtKind::kCallShader:
       if (stmt.place != nullptr) on_variable(root_of(stmt.place), nullptr);
       break;

@@ -113,6 +113,12 @@ StageList::~StageList() {
 }
 
 rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
+  if ((shader.code->flags & shader::kExportUsesHitObject) != 0) {
+    return runtime::make_error(runtime::Id::kNoHitObject,
+                               "shader \"" + shader.name + "\" of " + shader.library->name +
+                                   " uses dx::HitObject, which is not offered on Vulkan; use the "
+                                   "Embree backend, or TraceRay.");
+  }
   if (shader.code->spirv == nullptr) {
     return runtime::make_error(
         runtime::Id::kNoSpirv,

@@ -90,6 +90,7 @@ void propagate(const std::vector<FunctionFacts*>& functions) {
     ir::Function* node = function->ir;
     node->may_trace = function->traces;
     node->uses_query = function->queries;
+    node->uses_hit_object = function->hit_objects;
     node->may_call = function->calls_shader;
     node->may_end_shader = function->ends_shader;
     node->has_barrier = function->has_barrier;
@@ -97,6 +98,7 @@ void propagate(const std::vector<FunctionFacts*>& functions) {
       if (!callee->ir) continue;
       node->may_trace |= callee->ir->may_trace;
       node->uses_query |= callee->ir->uses_query;
+      node->uses_hit_object |= callee->ir->uses_hit_object;
       node->may_call |= callee->ir->may_call;
       node->may_end_shader |= callee->ir->may_end_shader;
       node->has_barrier |= callee->ir->has_barrier;
@@ -281,6 +283,7 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
     wrapper->stages = stage;
     wrapper->may_trace = function->ir->may_trace;
     wrapper->uses_query = function->ir->uses_query;
+    wrapper->uses_hit_object = function->ir->uses_hit_object;
     wrapper->may_call = function->ir->may_call;
     wrapper->may_end_shader = function->ir->may_end_shader;
     wrapper->has_barrier = function->ir->has_barrier;

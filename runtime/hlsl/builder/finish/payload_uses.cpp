@@ -184,12 +184,13 @@ class PayloadUses {
     Fields& fields = track(state, payload.variable, payload.structure);
     for (size_t i = 0; i < fields.leaves->size(); ++i) {
       const PayloadLeaf& leaf = (*fields.leaves)[i];
-      if (fields.of_stage && (leaf.access.write & kPayloadCaller)) passed_on_.insert(&leaf);
-      if (!(leaf.access.write & kPayloadCaller) && (fields.states[i] & kMayBeWritten)) {
+      const PayloadAccessBits access = as_caller(leaf.access, payload.roles);
+      if (fields.of_stage && (access.write & kPayloadCaller)) passed_on_.insert(&leaf);
+      if (!(access.write & kPayloadCaller) && (fields.states[i] & kMayBeWritten)) {
         report_.payload_fault(PayloadFault::kNotPassed, payload.place, leaf.name, stage_);
       }
       const uint8_t left = fields.states[i] & kMayBeLeft;
-      fields.states[i] = leaf.access.read & kPayloadCaller ? left : left | kUndefined | kAfterTrace;
+      fields.states[i] = access.read & kPayloadCaller ? left : left | kUndefined | kAfterTrace;
     }
   }
 
@@ -264,6 +265,7 @@ class PayloadUses {
         write(state, stmt.place);
         break;
       case StmtKind::kTraceRay:
+      case StmtKind::kInvoke:
         trace(state, stmt);
         break;
       case StmtKind::kBlock:

@@ -14,11 +14,12 @@
 
 namespace kaamos::hlsl {
 
-// A payload that is passed to TraceRay, and the place where that happens.
+// A payload that is passed to TraceRay or Invoke, and the place where that happens.
 struct TracePayload {
   const ir::Variable* variable = nullptr;
   const ir::Struct* structure = nullptr;
   SourcePlace place = 0;
+  PayloadRoles roles = {};
 };
 
 struct PayloadFacts {

@@ -30,6 +30,7 @@ constexpr Feature kFeatures[] = {
     {"pack_", false, 6},
     {"unpack_", false, 6},
     {"SampleCmpLevel", true, 7},
+    {"Barrier", true, 8},
     {"a 64-bit atomic operation", true, 6},
     {"InterlockedAdd64", true, 6},
     {"InterlockedAnd64", true, 6},

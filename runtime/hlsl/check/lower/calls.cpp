@@ -43,6 +43,7 @@ Value Calls::lower_call(const CallExpr* expr) {
     return error_value();
   }
   const QualifiedName& name = *callee->name;
+  if (auto result = lower_.hit_objects.call_function(name, expr)) return *result;
   Symbol* symbol = names_.resolve_name(name, body_.scope, true);
   if (symbol &&
       (symbol->kind == SymbolKind::kType || symbol->kind == SymbolKind::kStructTemplate)) {
@@ -132,6 +133,8 @@ Value Calls::call_method(const MemberExpr* callee, const CallExpr* call_expr) {
   }
   if (object.type->is_query())
     return lower_.ray_queries.call_query_method(object, part, arguments, location);
+  if (object.type->is_hit_object())
+    return lower_.hit_objects.call_method(object, part, arguments, location);
   if (object.type->is_resource()) {
     if (!has_members(object.type->resource)) {
       return lower_.resources.call_resource_method(object, part, arguments, location);

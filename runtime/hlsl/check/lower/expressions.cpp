@@ -420,6 +420,7 @@ Value Expressions::lower_construct(const Type* type, std::span<const Expr* const
   for (const Value& value : values) {
     if (value.failed()) return error_value();
   }
+  if (type->is_hit_object() && values.empty()) return rvalue(build_.zero(type->ir), type);
   if (!type->is_numeric()) {
     if (values.size() == 1 && (type->is_enum() || type->is_struct())) {
       return rvalue(lower_.conversions.convert(values[0], type, location, true), type);
@@ -503,7 +504,8 @@ Value Expressions::lower_sizeof(const SizeofExpr* expr) {
     type = types_.settled(value.type);
   }
   if (type->is_error()) return error_value();
-  if (type->is_void() || contains_resource(type) || (type->is_array() && type->count == 0)) {
+  if (type->is_void() || contains_resource(type) || contains_hit_object(type) ||
+      (type->is_array() && type->count == 0)) {
     report(CheckId::kSizeof, expr->location, {to_string(type)});
     return error_value();
   }

@@ -173,12 +173,9 @@ std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<
     if (!check_count(name, count, 0, 0, location)) return error_value();
     const bool group = rule->flags & (ir::kGroupMemory | ir::kGroupSync);
     if (group) use_in_stages(name, ir::kStageCompute, location, name == "AllMemoryBarrier");
-    if (body_.function && (rule->flags & ir::kGroupSync)) body_.function->has_barrier = true;
-    ir::Stmt* statement = build_.stmt(ir::StmtKind::kBarrier);
-    statement->barrier = rule->flags;
-    body_.emit(statement);
-    return rvalue(build_.int32(0), types_.void_type());
+    return emit_barrier(rule->flags);
   }
+  if (name == "Barrier") return call_barrier(arguments, location);
   if (is_pixel_function(name))
     return lower_.pixel_intrinsics.call_pixel_function(name, arguments, location);
   if (const AtomicRule* rule = find_atomic(name); rule && rule->name == name) {
@@ -200,6 +197,64 @@ bool Intrinsics::is_short_argument(std::string_view name, size_t index, const Va
   report(CheckId::kLongVectorArgument, argument.location,
          {std::to_string(index + 1), std::string(name), to_string(argument.type)});
   return false;
+}
+
+Value Intrinsics::emit_barrier(uint32_t flags) {
+  if (body_.function && (flags & ir::kGroupSync)) body_.function->has_barrier = true;
+  ir::Stmt* statement = build_.stmt(ir::StmtKind::kBarrier);
+  statement->barrier = flags;
+  body_.emit(statement);
+  return rvalue(build_.int32(0), types_.void_type());
+}
+
+// Barrier(memory types, semantics) and Barrier(resource, semantics). [HLSL: Barrier]
+Value Intrinsics::call_barrier(std::vector<Value>& arguments, SourceLocation location) {
+  if (!check_count("Barrier", arguments.size(), 2, 2, location)) return error_value();
+  uint32_t given[2] = {kUavMemory, 0};
+  constexpr const char* kWhat[] = {"memory types", "semantics"};
+  const Type* first = arguments[0].type;
+  const bool of_resource = first && first->is_resource();
+  if (of_resource && !traits_of(first->resource).is_writable) {
+    report(CheckId::kBarrierFlags, arguments[0].location,
+           {kWhat[0], "a " + to_string(first), "only resources that are written have barriers"});
+    return error_value();
+  }
+  for (size_t i = of_resource ? 1 : 0; i < 2; ++i) {
+    const ir::Expr* value = lower_.conversions.convert(arguments[i], types_.scalar(Scalar::kUint32),
+                                                       arguments[i].location);
+    if (!value) return error_value();
+    const auto bits = evaluate(value);
+    if (!bits) {
+      report(CheckId::kBarrierFlags, arguments[i].location,
+             {kWhat[i], "not constant", "they must be"});
+      return error_value();
+    }
+    given[i] = static_cast<uint32_t>((*bits)[0]);
+    if (given[i] > 0xF) {
+      report(CheckId::kBarrierFlags, arguments[i].location,
+             {kWhat[i], std::to_string(given[i]), "the largest is 15"});
+      return error_value();
+    }
+  }
+  const auto [memory, semantics] = given;
+  const bool reorders = (semantics & kReorderScope) != 0;
+  if (reorders && (memory != kUavMemory || (semantics & kGroupSyncSemantic) != 0)) {
+    report(CheckId::kBarrierFlags, location,
+           {"semantics", std::to_string(semantics),
+            "REORDER_SCOPE goes with UAV_MEMORY alone, and not with GROUP_SYNC"});
+    return error_value();
+  }
+  constexpr uint32_t kRayStages = ir::kStageRayGeneration | ir::kStageIntersection |
+                                  ir::kStageAnyHit | ir::kStageClosestHit | ir::kStageMiss |
+                                  ir::kStageCallable;
+  if (reorders) use_in_stages("REORDER_SCOPE", kRayStages, location);
+  const bool group = memory != 0xF && (memory & kGroupSharedMemory) != 0;
+  if (group || (semantics & (kGroupSyncSemantic | kGroupScope)) != 0) {
+    use_in_stages("Barrier of a thread group", ir::kStageCompute, location);
+  }
+  return emit_barrier(((memory & kUavMemory) != 0 ? ir::kDeviceMemory : 0u) |
+                      ((memory & kGroupSharedMemory) != 0 ? ir::kGroupMemory : 0u) |
+                      ((semantics & kGroupSyncSemantic) != 0 ? ir::kGroupSync : 0u));
 }
 
 Value Intrinsics::call_maths(const IntrinsicRule& rule, std::vector<Value>& arguments,

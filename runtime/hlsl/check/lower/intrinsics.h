@@ -34,6 +34,8 @@ class Intrinsics : LowerPart {
                      bool is_lenient = false);
 
  private:
+  Value emit_barrier(uint32_t flags);
+  Value call_barrier(std::vector<Value>& arguments, SourceLocation location);
   Value call_maths(const IntrinsicRule& rule, std::vector<Value>& arguments,
                    SourceLocation location);
   Value call_mul(std::vector<Value>& arguments, SourceLocation location);

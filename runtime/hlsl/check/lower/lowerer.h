@@ -16,6 +16,7 @@
 #include "runtime/hlsl/check/lower/counters.h"
 #include "runtime/hlsl/check/lower/elements.h"
 #include "runtime/hlsl/check/lower/expressions.h"
+#include "runtime/hlsl/check/lower/hit_objects.h"
 #include "runtime/hlsl/check/lower/initialisers.h"
 #include "runtime/hlsl/check/lower/intrinsics.h"
 #include "runtime/hlsl/check/lower/locals.h"
@@ -73,6 +74,7 @@ class Lowerer final : public Evaluator {
   PixelIntrinsics pixel_intrinsics{*this};
   RayIntrinsics ray_intrinsics{*this};
   RayQueries ray_queries{*this};
+  HitObjects hit_objects{*this};
   Resources resources{*this};
   Textures textures{*this};
   Multisampled multisampled{*this};

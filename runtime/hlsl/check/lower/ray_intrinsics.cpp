@@ -28,7 +28,8 @@ Value RayIntrinsics::call_system_value(const SystemValueRule& rule, SourceLocati
 // The variable that holds a payload, callable data or the like during the call.
 const ir::Variable* RayIntrinsics::pass_by_reference(const Value& value, std::string_view what,
                                                      SourceLocation location, bool& copied) {
-  if (!value.type || !value.type->is_struct() || contains_resource(value.type)) {
+  if (!value.type || !value.type->is_struct() || contains_resource(value.type) ||
+      contains_hit_object(value.type)) {
     report(CheckId::kUserStruct, location,
            {std::string(what), value.type ? to_string(value.type) : "a resource"});
     return nullptr;
@@ -46,7 +47,23 @@ const ir::Variable* RayIntrinsics::pass_by_reference(const Value& value, std::st
   return direct ? value.expr->variable : body_.temporary(lower_.places.load(value));
 }
 
-Value RayIntrinsics::call_trace_ray(std::vector<Value>& arguments, SourceLocation location) {
+// Emits the statement with the payload that is passed.
+bool RayIntrinsics::pass_payload(ir::Stmt* statement, const Value& given, std::string_view what,
+                                 PayloadRoles roles) {
+  bool copied = false;
+  Value payload = given;
+  size_t position = body_.block->size();
+  lower_.places.freeze(payload, &position);
+  const ir::Variable* variable = pass_by_reference(payload, what, payload.location, copied);
+  if (!variable) return false;
+  names_.check_payload_use(payload.type, payload.location);
+  emit_trace(statement, variable, payload.type, payload.location, roles);
+  if (copied) lower_.places.store(payload, build_.read(variable));
+  return true;
+}
+
+Value RayIntrinsics::call_trace_ray(std::vector<Value>& arguments, SourceLocation location,
+                                    bool to_hit_object) {
   if (!lower_.intrinsics.check_count("TraceRay", arguments.size(), 8, 8, location))
     return error_value();
   lower_.intrinsics.use_in_stages("TraceRay", kTraceStages, location);
@@ -62,16 +79,29 @@ Value RayIntrinsics::call_trace_ray(std::vector<Value>& arguments, SourceLocatio
     statement->operands.push_back(operand);
   }
   at(location);
-  bool copied = false;
-  Value payload = arguments[7];
-  size_t position = body_.block->size();
-  lower_.places.freeze(payload, &position);
-  const ir::Variable* variable =
-      pass_by_reference(payload, "the payload of TraceRay", payload.location, copied);
-  if (!variable) return error_value();
-  names_.check_payload_use(payload.type, payload.location);
-  emit_trace(statement, variable, payload.type, payload.location);
-  if (copied) lower_.places.store(payload, build_.read(variable));
+  const Type* type = to_hit_object ? names_.hit_object() : types_.void_type();
+  if (to_hit_object) statement->result = body_.empty_temporary(type->ir);
+  // What closest-hit and miss shaders would read comes back, for the Invoke to pass it on.
+  const PayloadRoles roles =
+      to_hit_object ? PayloadRoles{.reads = kPayloadClosestHit | kPayloadMiss} : PayloadRoles{};
+  if (!pass_payload(statement, arguments[7], "the payload of TraceRay", roles)) {
+    return error_value();
+  }
+  return rvalue(to_hit_object ? build_.read(statement->result) : build_.int32(0), type);
+}
+
+Value RayIntrinsics::call_invoke(std::vector<Value>& arguments, SourceLocation location) {
+  if (body_.function) body_.function->traces = true;
+  ir::Stmt* statement = build_.stmt(ir::StmtKind::kInvoke);
+  const ir::Expr* hit =
+      lower_.conversions.convert(arguments[0], names_.hit_object(), arguments[0].location);
+  if (!hit) return error_value();
+  statement->operands = {hit};
+  at(location);
+  // What any-hit shaders have written is passed on.
+  if (!pass_payload(statement, arguments[1], "the payload of Invoke", {.writes = kPayloadAnyHit})) {
+    return error_value();
+  }
   return rvalue(build_.int32(0), types_.void_type());
 }
 
@@ -105,7 +135,8 @@ Value RayIntrinsics::call_report_hit(std::vector<Value>& arguments, SourceLocati
   lower_.intrinsics.use_in_stages("ReportHit", ir::kStageIntersection, location);
   if (body_.function) body_.function->ends_shader = true;
   const Type* attributes = arguments[2].type;
-  if (!attributes || !attributes->is_struct() || contains_resource(attributes)) {
+  if (!attributes || !attributes->is_struct() || contains_resource(attributes) ||
+      contains_hit_object(attributes)) {
     report(CheckId::kUserStruct, arguments[2].location,
            {"the attributes of ReportHit", attributes ? to_string(attributes) : "a resource"});
     return error_value();
@@ -144,11 +175,11 @@ Value RayIntrinsics::call_report_hit(std::vector<Value>& arguments, SourceLocati
 }
 
 void RayIntrinsics::emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
-                               SourceLocation location) {
+                               SourceLocation location, PayloadRoles roles) {
   const StructInfo& structure = *type->structure;
   if (structure.is_payload) {
-    bench_.payloads.traces[statement] = {payload, structure.ir, location.raw};
-    const PayloadLeaves leaves = payload_leaves(structure);
+    bench_.payloads.traces[statement] = {payload, structure.ir, location.raw, roles};
+    const PayloadLeaves leaves = as_caller(payload_leaves(structure), roles);
     if (!all_access(leaves, kPayloadCaller)) {
       for (const ir::Stmt* one : trace_with_copy(build_, statement, payload, leaves))
         body_.emit(one);

@@ -180,6 +180,10 @@ std::optional<Value> Resources::call_raw_method(const Value& object, const NameP
                ? types_.scalar(Scalar::kUint32)
                : settled_value.type;
   }
+  if (contains_hit_object(type)) {
+    report(CheckId::kHitObjectPlace, location, {std::string(part.identifier)});
+    return error_value();
+  }
   if (contains_resource(type) || type->is_void() || (type->is_array() && type->count == 0)) {
     report(CheckId::kElementType, location,
            {std::string(part.identifier), "a type without resources", to_string(type)});

@@ -177,6 +177,9 @@ int64_t Bindings::pack_offset(const VariableDecl* decl, const BufferMember& memb
 // Declares the variable and adds its memory to the buffer's struct.
 BufferMember Bindings::make_member(const VariableDecl* decl, const Type* type, Scope* scope,
                                    BindingInfo* buffer, ir::Struct* structure) {
+  if (contains_hit_object(type)) {
+    report(CheckId::kHitObjectPlace, decl->location, {"a constant buffer"});
+  }
   BufferMember member{.name = decl->name, .location = decl->location, .type = type};
   if (contains_long_vector(type)) {
     report(CheckId::kLongVectorPlace, decl->location,

@@ -3,41 +3,75 @@
 
 #include <algorithm>
 
+#include "kaamos/shader/abi.h"
 #include "runtime/hlsl/check/names/name_parts.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 
 namespace kaamos::hlsl {
 
-void Declarations::declare_builtins() {
-  const auto make = [&](std::string_view name,
-                        std::initializer_list<std::pair<std::string_view, const Type*>> fields) {
-    StructInfo* info = parts_.structs.make_struct(nullptr, program_.global, std::string(name));
-    for (const auto& [field_name, type] : fields) {
-      FieldInfo& field = info->fields.emplace_back();
-      field.name = field_name;
-      field.type = type;
-      field.index = static_cast<uint32_t>(info->ir->fields.size());
-      ir::Field& ir_field = info->ir->fields.emplace_back();
-      ir_field.name = field_name;
-      ir_field.type = type->ir;
-      Symbol* symbol = scopes_.add_symbol(info->scope, SymbolKind::kField, field_name, {});
-      symbol->field = field.index;
-    }
-    info->complete = true;
-    Symbol* symbol = scopes_.add_symbol(program_.global, SymbolKind::kType, name, {});
-    symbol->type = info->type;
-    symbol->scope = info->scope;
-    return info;
-  };
+StructInfo* Declarations::declare_builtin_struct(Scope* scope, std::string_view name,
+                                                 BuiltinFields fields) {
+  StructInfo* info = parts_.structs.make_struct(nullptr, scope, std::string(name));
+  for (const auto& [field_name, type] : fields) {
+    FieldInfo& field = info->fields.emplace_back();
+    field.name = field_name;
+    field.type = type;
+    field.index = static_cast<uint32_t>(info->ir->fields.size());
+    ir::Field& ir_field = info->ir->fields.emplace_back();
+    ir_field.name = field_name;
+    ir_field.type = type->ir;
+    Symbol* symbol = scopes_.add_symbol(info->scope, SymbolKind::kField, field_name, {});
+    symbol->field = field.index;
+  }
+  info->complete = true;
+  Symbol* symbol = scopes_.add_symbol(scope, SymbolKind::kType, name, {});
+  symbol->type = info->type;
+  symbol->scope = info->scope;
+  return info;
+}
+
+// Its members are in the IR alone, where shaders cannot name them. [ir/hit_object.h]
+void Declarations::declare_hit_object() {
+  Scope* dx = scopes_.make_scope(ScopeKind::kNamespace, program_.global, "dx");
+  scopes_.add_symbol(program_.global, SymbolKind::kNamespace, "dx", {})->scope = dx;
+  scopes_.add_symbol(dx, SymbolKind::kFunctions, "MaybeReorderThread", {});
+  StructInfo* info = program_.hit_object = declare_builtin_struct(dx, "HitObject", {});
+  info->is_hit_object = true;
+  bench_.module.hit_object = info->ir;
+  const Type* number = types_.scalar(Scalar::kUint32);
   const Type* scalar = types_.scalar(Scalar::kFloat32);
   const Type* vector = types_.vector(Scalar::kFloat32, 3);
-  program_.ray_desc = make(
-      "RayDesc", {{"Origin", vector}, {"TMin", scalar}, {"Direction", vector}, {"TMax", scalar}});
+  const Type* matrix = types_.matrix(Scalar::kFloat32, 3, 4);
+  const std::pair<std::string_view, const Type*> fields[] = {
+      {"state", number},           {"ray_flags", number},
+      {"origin", vector},          {"t_min", scalar},
+      {"direction", vector},       {"t", scalar},
+      {"instance_index", number},  {"instance_id", number},
+      {"geometry_index", number},  {"primitive_index", number},
+      {"hit_kind", number},        {"is_bound", number},
+      {"record", number},          {"attributes", types_.array(number, shader::kHitAttributeWords)},
+      {"object_to_world", matrix}, {"world_to_object", matrix},
+  };
+  for (const auto& [name, type] : fields) {
+    ir::Field& field = info->ir->fields.emplace_back();
+    field.name = name;
+    field.type = type->ir;
+  }
+}
+
+void Declarations::declare_builtins() {
+  const Type* scalar = types_.scalar(Scalar::kFloat32);
+  const Type* vector = types_.vector(Scalar::kFloat32, 3);
+  program_.ray_desc = declare_builtin_struct(
+      program_.global, "RayDesc",
+      {{"Origin", vector}, {"TMin", scalar}, {"Direction", vector}, {"TMax", scalar}});
   bench_.module.ray_desc = program_.ray_desc->ir;
-  make("BuiltInTriangleIntersectionAttributes",
-       {{"barycentrics", types_.vector(Scalar::kFloat32, 2)}});
+  declare_builtin_struct(program_.global, "BuiltInTriangleIntersectionAttributes",
+                         {{"barycentrics", types_.vector(Scalar::kFloat32, 2)}});
+  if (shader_model_minor(program_.options->target) >= 9) declare_hit_object();
   const Type* flags = types_.scalar(Scalar::kUint32);
   for (size_t i = 0; i < kBuiltinConstantCount; ++i) {
+    if (kBuiltinConstants[i].minor > shader_model_minor(program_.options->target)) continue;
     Symbol* symbol =
         scopes_.add_symbol(program_.global, SymbolKind::kConstant, kBuiltinConstants[i].name, {});
     symbol->type = flags;

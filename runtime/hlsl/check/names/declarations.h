@@ -3,7 +3,10 @@
 // Adds to a scope what a declaration of any kind declares, and what is built in.
 #pragma once
 
+#include <initializer_list>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "runtime/hlsl/check/names/names_part.h"
 
@@ -18,6 +21,9 @@ class Declarations : NamesPart {
   void declare(const Decl* declaration, Scope* scope);
 
  private:
+  using BuiltinFields = std::initializer_list<std::pair<std::string_view, const Type*>>;
+  StructInfo* declare_builtin_struct(Scope* scope, std::string_view name, BuiltinFields fields);
+  void declare_hit_object();
   void declare_namespace(const NamespaceDecl* decl, Scope* scope);
   void declare_alias(const TypeAliasDecl* decl, Scope* scope);
   void declare_using(const QualifiedName& name, Scope* scope, SourceLocation location);

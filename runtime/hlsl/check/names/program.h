@@ -54,6 +54,7 @@ struct Program {
   std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>
       instance_arguments;
   StructInfo* ray_desc = nullptr;
+  StructInfo* hit_object = nullptr;  // null before Shader Model 6.9
   ModuleFacts facts;
 };
 

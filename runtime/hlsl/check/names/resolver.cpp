@@ -145,8 +145,14 @@ const Type* Resolver::resolve_variable_type(const VariableDecl* decl, Scope* sco
     const Type* element = type;
     while (element->is_array()) element = element->element;
     const bool is_written = element->is_resource() && traits_of(element->resource).is_writable;
-    if ((decl->modifiers & kModGloballyCoherent) && !element->is_error() && !is_written) {
-      report(CheckId::kCoherentType, decl->location, {std::string(decl->name), to_string(type)});
+    const Modifiers coherent = decl->modifiers & (kModGloballyCoherent | kModReorderCoherent);
+    if (coherent && !element->is_error() && !is_written) {
+      report(CheckId::kCoherentType, decl->location,
+             {std::string(decl->name), to_string(type),
+              coherent & kModReorderCoherent ? "reordercoherent" : "globallycoherent"});
+    }
+    if ((coherent & kModReorderCoherent) && shader_model_minor(program_.options->target) < 9) {
+      report(CheckId::kNeedsShaderModel, decl->location, {"reordercoherent", "6.9"});
     }
     return type;
   }
@@ -363,6 +369,10 @@ const Type* Resolver::resolve_resource(const ResourceTraits& traits, const NameP
                     : has_members(traits.kind) ? element->is_struct()
                                                : (element->is_numeric() || element->is_struct() ||
                                                   element->is_enum() || element->is_array());
+  if (contains_hit_object(element)) {
+    report(CheckId::kHitObjectPlace, arguments[0].location, {"the elements of a " + name});
+    return types_.error();
+  }
   if (!fits || contains_resource(element)) {
     report(CheckId::kElementType, arguments[0].location,
            {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});
@@ -405,8 +415,8 @@ const Type* Resolver::resolve_ray_query(const NamePart& part, Scope* scope) {
     const auto query_flags = value_argument(arguments[1], scope);
     if (!query_flags) return types_.error();
     if (*query_flags == 1) {
-      report(CheckId::kNeedsShaderModel, arguments[1].location,
-             {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", "6.9"});
+      report(CheckId::kUnsupported, arguments[1].location,
+             {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS"});
       return types_.error();
     }
     if (*query_flags != 0) {

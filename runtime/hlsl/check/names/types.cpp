@@ -28,22 +28,30 @@ uint64_t flat_component_count(const Type* type) {
   }
 }
 
-bool contains_resource(const Type* type) {
-  if (type->is_resource()) return true;
-  if (type->is_array()) return contains_resource(type->element);
+namespace {
+
+template <class Is>
+bool contains(const Type* type, Is is) {
+  if (is(type)) return true;
+  if (type->is_array()) return contains(type->element, is);
   if (!type->is_struct()) return false;
-  if (type->structure->base && contains_resource(type->structure->base->type)) return true;
+  if (type->structure->base && contains(type->structure->base->type, is)) return true;
   return std::any_of(type->structure->fields.begin(), type->structure->fields.end(),
-                     [](const FieldInfo& field) { return contains_resource(field.type); });
+                     [is](const FieldInfo& field) { return contains(field.type, is); });
+}
+
+}  // namespace
+
+bool contains_resource(const Type* type) {
+  return contains(type, [](const Type* part) { return part->is_resource(); });
+}
+
+bool contains_hit_object(const Type* type) {
+  return contains(type, [](const Type* part) { return part->is_hit_object(); });
 }
 
 bool contains_long_vector(const Type* type) {
-  if (type->is_long_vector()) return true;
-  if (type->is_array()) return contains_long_vector(type->element);
-  if (!type->is_struct()) return false;
-  if (type->structure->base && contains_long_vector(type->structure->base->type)) return true;
-  return std::any_of(type->structure->fields.begin(), type->structure->fields.end(),
-                     [](const FieldInfo& field) { return contains_long_vector(field.type); });
+  return contains(type, [](const Type* part) { return part->is_long_vector(); });
 }
 
 TypeTable::TypeTable(IrTypes& ir) : ir_(ir) {

@@ -67,6 +67,7 @@ struct Type {
   bool is_struct() const { return kind == TypeKind::kStruct; }
   bool is_resource() const { return kind == TypeKind::kResource; }
   bool is_query() const { return ir && ir->is_query(); }
+  bool is_hit_object() const;
   bool is_enum() const { return kind == TypeKind::kEnum; }
   bool is_void() const { return kind == TypeKind::kVoid; }
   bool is_error() const { return kind == TypeKind::kError; }
@@ -92,6 +93,7 @@ inline bool same_type(const Type* a, const Type* b) {
 uint64_t flat_component_count(const Type* type);
 bool contains_resource(const Type* type);
 bool contains_long_vector(const Type* type);
+bool contains_hit_object(const Type* type);
 
 struct FieldInfo {
   std::string_view name;
@@ -122,6 +124,7 @@ struct StructInfo {
   bool complete = false;
   uint32_t open_bits = 0;          // how many are free in the last field, if it holds bit fields
   bool is_payload = false;         // its access qualifiers take effect
+  bool is_hit_object = false;      // the built-in dx::HitObject
   std::string_view template_name;  // "Pair" for Pair<float>; empty if it is not an instance
 };
 
@@ -133,6 +136,10 @@ struct EnumInfo {
   Scalar underlying = Scalar::kInt32;
   bool is_class = false;
 };
+
+inline bool Type::is_hit_object() const {
+  return is_struct() && structure->is_hit_object;
+}
 
 // Creates each type once. Owned by a check; its ir::Types live in the module.
 class TypeTable {

@@ -107,6 +107,10 @@ void Variables::declare_static(const VariableDecl* decl, const Type* type, Scope
   Symbol* symbol = scopes_.add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location);
   symbol->variable = info;
   info->sequence = symbol->sequence ? symbol->sequence : scopes_.visible;
+  if (contains_hit_object(type)) {
+    report(CheckId::kHitObjectPlace, decl->location,
+           {shared ? "groupshared memory" : "a static variable"});
+  }
   if (type->is_error()) {
     info->state = VariableInfo::State::kDone;
   } else if (shared) {

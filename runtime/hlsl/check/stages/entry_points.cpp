@@ -173,7 +173,8 @@ bool EntryPoints::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& e
     const std::string_view role = i == 1                        ? "attributes"
                                   : stage == ir::kStageCallable ? "parameter"
                                                                 : "payload";
-    if (!parameter.type->is_struct() || contains_resource(parameter.type)) {
+    if (!parameter.type->is_struct() || contains_resource(parameter.type) ||
+        contains_hit_object(parameter.type)) {
       report(CheckId::kEntryStruct, location,
              {std::string(role), shader, to_string(parameter.type)});
       valid = false;

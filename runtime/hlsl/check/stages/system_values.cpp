@@ -39,8 +39,8 @@ constexpr Row kRows[] = {
     {"SV_ViewID", SystemValue::kNone, "z.z."},
     {"SV_ShadingRate", SystemValue::kNone, ".nz."},
     {"SV_CullPrimitive", SystemValue::kNone, "..n."},
-    {"SV_StartVertexLocation", SystemValue::kNone, "n..."},
-    {"SV_StartInstanceLocation", SystemValue::kNone, "n..."},
+    {"SV_StartVertexLocation", SystemValue::kStartVertexLocation, "s..."},
+    {"SV_StartInstanceLocation", SystemValue::kStartInstanceLocation, "s..."},
 };
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 14;
+inline constexpr uint32_t kAbiVersion = 15;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -351,6 +351,34 @@ struct RayQueryArguments {
 };
 
 // ---------------------------------------------------------------------------------------------
+// Hit objects [DXR: HitObject]. Plain words without padding, as the compiler lays out its struct
+// dx::HitObject: a value that shaders copy.
+
+enum HitObjectState : uint32_t { kHitObjectNop = 0, kHitObjectHit = 1, kHitObjectMiss = 2 };
+
+inline constexpr uint32_t kHitAttributeWords = 8;  // D3D12_RAYTRACING_MAX_ATTRIBUTE_SIZE_IN_BYTES
+
+struct HitObject {
+  uint32_t state = kHitObjectNop;
+  uint32_t ray_flags = 0;  // as given to TraceRay
+  float origin[3] = {0, 0, 0};
+  float t_min = 0;
+  float direction[3] = {0, 0, 0};
+  float t = 0;  // a miss: RayDesc.TMax
+  uint32_t instance_index = 0;
+  uint32_t instance_id = 0;
+  uint32_t geometry_index = 0;
+  uint32_t primitive_index = 0;
+  uint32_t hit_kind = 0;
+  uint32_t is_bound = 0;  // to a record
+  uint32_t record = 0;    // its index in the hit group table or the miss table
+  uint32_t attributes[kHitAttributeWords] = {};
+  float object_to_world[12] = {};  // 3x4, row-major; of a hit only, as the next
+  float world_to_object[12] = {};
+};
+static_assert(sizeof(HitObject) == 196);
+
+// ---------------------------------------------------------------------------------------------
 // Checked libraries look for what DXR leaves undefined, at each instruction, and report it.
 
 enum class Finding : uint32_t {
@@ -418,6 +446,14 @@ struct Services {
   ReportHitResult (*report_hit)(Invocation&, float t, uint32_t hit_kind, const void* attributes,
                                 uint32_t attribute_bytes);
   void (*call_shader)(Invocation&, uint32_t shader_index, void* data, uint32_t data_bytes);
+
+  // TraceRay without the closest-hit and miss shaders: `hit` is what they would have run for.
+  void (*trace_hit_object)(Invocation&, const TraceRayArguments&, void* payload,
+                           RayLanes origin_t_min, RayLanes direction_t_max, HitObject& hit);
+  // Runs the closest-hit or miss shader of the record that the object is bound to.
+  void (*invoke_hit_object)(Invocation&, const HitObject&, void* payload, uint32_t payload_bytes);
+  // The DWORD at `offset` of the local root arguments of the object's record; 0 if it has none.
+  uint32_t (*record_constant)(Invocation&, const HitObject&, uint32_t offset);
 
   // TraceRayInline and Proceed; everything else works without the backend (ray_query.h).
   void (*begin_query)(Invocation&, RayQuery&, const RayQueryArguments&, const RayDesc&);
@@ -507,6 +543,7 @@ enum ExportFlags : uint32_t {
   kExportQualifiedPayload = 64,    // shader model 6.7+: not limited by MaxPayloadSizeInBytes
   kExportReadsHitKind = 16,        // HitKind; without it a closest-hit shader may see any value
   kExportReadsBound = 128,         // Invocation::bound must have the bindings of the export
+  kExportUsesHitObject = 512,      // dx::HitObject
   kExportIgnoresAttributes = 256,  // a hit shader that declares attributes and reads none of them
 };
 

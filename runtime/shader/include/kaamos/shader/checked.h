@@ -7,6 +7,7 @@
 #pragma once
 
 #include "kaamos/shader/bindings.h"
+#include "kaamos/shader/hit_object.h"
 #include "kaamos/shader/memory.h"
 #include "kaamos/shader/ray_query.h"
 #include "kaamos/shader/stage.h"
@@ -242,13 +243,18 @@ inline void check_ray(Invocation& invocation, uint32_t site, const RayDesc& ray)
   }
 }
 
-inline void check_trace(Invocation& invocation, uint32_t site, uint32_t flags, const RayDesc& ray) {
-  check_ray(invocation, site, ray);
-  if (!legal_ray_flags(flags)) report(invocation, Finding::kRayFlags, site, 0, 0, flags);
+// For TraceRay and HitObject::Invoke.
+inline void check_depth(Invocation& invocation, uint32_t site) {
   const uint32_t depth = invocation.dispatch->max_recursion_depth;
   if (invocation.depth >= depth) {
     report(invocation, Finding::kRecursion, site, 0, 0, invocation.depth, depth);
   }
+}
+
+inline void check_trace(Invocation& invocation, uint32_t site, uint32_t flags, const RayDesc& ray) {
+  check_ray(invocation, site, ray);
+  if (!legal_ray_flags(flags)) report(invocation, Finding::kRayFlags, site, 0, 0, flags);
+  check_depth(invocation, site);
 }
 
 // Payloads and callable data begin with a header that says what the caller passes, for the shader
@@ -308,6 +314,35 @@ inline void trace_ray(Invocation& invocation, uint32_t site, uint32_t type, bool
   PayloadBox<Payload> box = {{kPayloadMagic, type, sizeof(Payload), 0}, payload, {}};
   shader::trace_ray(invocation, acceleration_structure, flags, mask, ray_contribution, multiplier,
                     miss_index, ray, box.value);
+  payload = box.value;
+}
+
+template <class Hit, class Ray, class Payload>
+inline Hit trace_hit_object(Invocation& invocation, uint32_t site, uint32_t type, bool unknown,
+                            const Descriptor& acceleration_structure, uint32_t flags, uint32_t mask,
+                            uint32_t ray_contribution, uint32_t multiplier, uint32_t miss_index,
+                            const Ray& ray, Payload& payload) {
+  if (unknown) {
+    reached(invocation, ReachedBy::kTraceRay, site, structure_of(acceleration_structure), flags,
+            trace_indices(mask, ray_contribution, multiplier, miss_index));
+  }
+  RayDesc plain;
+  __builtin_memcpy(&plain, &ray, sizeof(plain));
+  check_trace(invocation, site, flags, plain);
+  PayloadBox<Payload> box = {{kPayloadMagic, type, sizeof(Payload), 0}, payload, {}};
+  const Hit hit =
+      shader::trace_hit_object<Hit>(invocation, acceleration_structure, flags, mask,
+                                    ray_contribution, multiplier, miss_index, ray, box.value);
+  payload = box.value;
+  return hit;
+}
+
+template <class Hit, class Payload>
+inline void invoke_hit_object(Invocation& invocation, uint32_t site, uint32_t type, const Hit& hit,
+                              Payload& payload) {
+  check_depth(invocation, site);
+  PayloadBox<Payload> box = {{kPayloadMagic, type, sizeof(Payload), 0}, payload, {}};
+  shader::invoke_hit_object(invocation, hit, box.value);
   payload = box.value;
 }
 

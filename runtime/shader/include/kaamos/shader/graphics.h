@@ -33,6 +33,8 @@ enum class SystemValue : uint8_t {
   kTarget,                  // pixel shader out; semantic_index is the slot
   kDepth,                   // pixel shader out
   kCoverage,                // pixel shader in and out, and in no signature: see PixelLanes::live
+  kStartVertexLocation,     // vertex shader in: of an indexed draw its BaseVertexLocation
+  kStartInstanceLocation,   // vertex shader in
 };
 
 enum class ColumnType : uint8_t { kFloat, kInt, kUint };

@@ -14,6 +14,7 @@
 #include "kaamos/shader/bound.h"
 #include "kaamos/shader/convert.h"
 #include "kaamos/shader/half.h"
+#include "kaamos/shader/hit_object.h"
 #include "kaamos/shader/intrinsics_bits.h"
 #include "kaamos/shader/intrinsics_geometry.h"
 #include "kaamos/shader/intrinsics_scalar.h"
