@@ -40,14 +40,14 @@ HRESULT options(const Query& query, const Fill& fill) {
 }
 
 constexpr D3D_FEATURE_LEVEL kHighestLevel = D3D_FEATURE_LEVEL_12_1;
-// The compiler takes 6.7 and 6.8, but not all that they require: GatherRaw, Barrier, and
-// SV_StartVertexLocation are missing.
-constexpr D3D_SHADER_MODEL kHighestWholeModel = D3D_SHADER_MODEL_6_6;
 constexpr UINT kAddressBits = 40;  // of a buffer; BufferDesc::SizeInBytes
 
+// 6.9 requires hit objects, which Vulkan does not have here.
 D3D_SHADER_MODEL highest_model(const rtapi::Device& device) {
-  const auto model = static_cast<D3D_SHADER_MODEL>(device.GetDesc().ShaderModel);
-  return std::min(model, kHighestWholeModel);
+  const auto& desc = device.GetDesc();
+  const auto highest =
+      desc.Backend == "vulkan" ? rtapi::ShaderModel::k6_8 : rtapi::kHighestShaderModel;
+  return static_cast<D3D_SHADER_MODEL>(std::min(desc.ShaderModel, highest));
 }
 
 // The options behind D3D12_FEATURE_D3D12_OPTIONS15. E_INVALIDARG if there is no such feature.

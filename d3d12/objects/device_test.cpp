@@ -208,9 +208,12 @@ TEST_F(DeviceCalls, FeaturesAreWhatRtapiHas) {
   ASSERT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS7, &seven, sizeof(seven)),
             S_OK);
   EXPECT_EQ(seven.MeshShaderTier, D3D12_MESH_SHADER_TIER_NOT_SUPPORTED);
-  D3D12_FEATURE_DATA_SHADER_MODEL model = {D3D_SHADER_MODEL_6_8};
+  D3D12_FEATURE_DATA_SHADER_MODEL model = {static_cast<D3D_SHADER_MODEL>(0x6A)};
   ASSERT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_SHADER_MODEL, &model, sizeof(model)), S_OK);
-  EXPECT_EQ(model.HighestShaderModel, D3D_SHADER_MODEL_6_6);
+  EXPECT_EQ(model.HighestShaderModel, static_cast<D3D_SHADER_MODEL>(rtapi::kHighestShaderModel));
+  model.HighestShaderModel = D3D_SHADER_MODEL_6_5;  // what the program knows
+  ASSERT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_SHADER_MODEL, &model, sizeof(model)), S_OK);
+  EXPECT_EQ(model.HighestShaderModel, D3D_SHADER_MODEL_6_5);
   const D3D_FEATURE_LEVEL levels[] = {D3D_FEATURE_LEVEL_12_2, D3D_FEATURE_LEVEL_12_1,
                                       D3D_FEATURE_LEVEL_11_0};
   D3D12_FEATURE_DATA_FEATURE_LEVELS level = {3, levels, {}};

@@ -142,7 +142,7 @@ TEST_P(Draws, VertexShadersReadWhereTheDrawStarts) {
   const Buffer indices = CreateUploadBuffer(canvas.device, std::vector<uint16_t>{0, 1, 2}).value();
   const auto id_of = [&](const std::function<void(CommandList&)>& draw) {
     canvas.run([&](CommandList& list) {
-      Canvas::use(list, pipeline);
+      Canvas::use(list, pipeline, {1, 1, 1, 0.5f});
       const IndexBufferView view = {indices.GetGPUVirtualAddress(), 6, Format::kR16Uint};
       list.IASetIndexBuffer(&view);
       draw(list);

@@ -584,7 +584,7 @@ inline constexpr ErrorId kStage{2576};  ///< '{0}' is only available in {1}, but
 inline constexpr ErrorId kExportNotFound{2577};  ///< cannot export '{0}': there is no such function
 inline constexpr ErrorId kSkipped{2578};  ///< {0} function(s) are not checked, because no entry point reaches them: {1}
 inline constexpr ErrorId kHitObjectPlace{2579};  ///< 'dx::HitObject' is not allowed in {0}
-inline constexpr ErrorId kRayQueryFlags{2580};  ///< {0} is not a valid set of ray flags; a RayQuery takes 0 to 1023 (0x3FF)
+inline constexpr ErrorId kRayQueryFlags{2580};  ///< {0} is not a valid set of ray flags; a RayQuery takes 0 to {1}
 inline constexpr ErrorId kRayQueryCopy{2581};  ///< a {0} cannot be copied; call its methods, pass the variable to a function, or declare a second name that is initialised with it
 inline constexpr ErrorId kRayQueryPlace{2582};  ///< a {0} cannot be {1}; make it a local variable, or a parameter of a function
 inline constexpr ErrorId kUnassignedResource{2583};  ///< static '{0}' is used, and nothing assigns a resource to it
@@ -630,11 +630,12 @@ inline constexpr ErrorId kSpecializesNothing{2633};  ///< '{0}' specializes no t
 inline constexpr ErrorId kSpecializedLate{2634};  ///< '{0}' is already in use or defined, so it cannot be defined here
 inline constexpr ErrorId kAmbiguousPartial{2635};  ///< several partial specializations fit '{0}' equally well
 inline constexpr ErrorId kNoSuchStatic{2636};  ///< '{0}' has no static member '{1}'
-inline constexpr ErrorId kRayQuerySecondFlags{2640};  ///< {0} is not a valid set of RAYQUERY_FLAGs; the second argument of RayQuery is 0 here
+inline constexpr ErrorId kRayQuerySecondFlags{2640};  ///< {0} is not a valid set of RAYQUERY_FLAGs; the second argument of RayQuery is 0 or, from 6.9 on, 1
 inline constexpr ErrorId kAutoWithoutValue{2641};  ///< 'auto' needs an initialiser with a type, so '{0}' cannot have it here
 inline constexpr ErrorId kLoopVariableAgain{2642};  ///< '{0}' hides the variable of a loop before it, which outlives the loop before HLSL 2021
 inline constexpr ErrorId kInterfaceObject{2643};  ///< '{0}' is an interface, so there can be no variable of it; use a struct that implements it
 inline constexpr ErrorId kInterfaceMethod{2644};  ///< '{0}' does not implement '{1}' of interface '{2}'
+inline constexpr ErrorId kRayQueryMicromaps{2645};  ///< RAY_FLAG_FORCE_OMM_2_STATE needs RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS as the second argument of RayQuery
 inline constexpr ErrorId kGraphicsSemantic{2646};  ///< {0} of {1} shader '{2}' needs a semantic
 inline constexpr ErrorId kPixelOutput{2647};  ///< '{0}' is not an output of pixel shader '{1}'; the outputs are SV_Target0 to SV_Target7 and SV_Depth
 inline constexpr ErrorId kLongSwizzle{2650};  ///< '{1}' has no swizzle '{0}': vectors of over 4 components have none

@@ -201,7 +201,7 @@ constexpr Mistake kMistakes[] = {
      "not an operator"},
     {"InterfaceBase", "interface I { };\ninterface J : I { };", "KA2304 2:13",
      "interface 'J' cannot inherit from another type"},
-    {"HitObject", "void f() { HitObject h; }", "KA2201 1:12", "'HitObject'"},
+    {"HitObject", "void f() { HitObject h; }", "KA2207 1:12", "'HitObject'"},
     {"Friend", "struct S { friend void f(); };", "KA2232 1:12", "'friend' is reserved"},
     {"Long", "long a;", "KA2233 1:1", "HLSL has no type 'long'; use int64_t"},
     {"LongLong", "void f() { unsigned a; signed long long b; }", "KA2233 1:24",

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int64_t kMaxArrayElements = 1 << 24;
 constexpr int64_t kAllRayFlags = 0x3FF;
+constexpr int64_t kForceOmm2State = 0x400;
 
 }  // namespace
 
@@ -406,23 +407,33 @@ const Type* Resolver::resolve_ray_query(const NamePart& part, Scope* scope) {
   }
   const auto flags = value_argument(arguments[0], scope);
   if (!flags) return types_.error();
-  if (*flags < 0 || *flags > kAllRayFlags) {
-    report(CheckId::kRayQueryFlags, arguments[0].location, {std::to_string(*flags)});
+  const bool knows_micromaps = shader_model_minor(program_.options->target) >= 9;
+  const int64_t most = knows_micromaps ? kAllRayFlags | kForceOmm2State : kAllRayFlags;
+  if (*flags < 0 || *flags > most) {
+    report(CheckId::kRayQueryFlags, arguments[0].location,
+           {std::to_string(*flags), std::to_string(most)});
     return types_.error();
   }
+  bool allows_micromaps = false;
   // [DXR: RAYQUERY_FLAG]
   if (arguments.size() == 2) {
     const auto query_flags = value_argument(arguments[1], scope);
     if (!query_flags) return types_.error();
-    if (*query_flags == 1) {
-      report(CheckId::kUnsupported, arguments[1].location,
-             {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS"});
+    if (*query_flags == 1 && !knows_micromaps) {
+      report(CheckId::kNeedsShaderModel, arguments[1].location,
+             {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", "6.9"});
       return types_.error();
     }
-    if (*query_flags != 0) {
+    allows_micromaps = *query_flags == 1;
+    if (*query_flags != 0 && !allows_micromaps) {
       report(CheckId::kRayQuerySecondFlags, arguments[1].location, {std::to_string(*query_flags)});
       return types_.error();
     }
+  }
+  // [DXR: RAY_FLAG_FORCE_OMM_2_STATE]
+  if ((*flags & kForceOmm2State) != 0 && !allows_micromaps) {
+    report(CheckId::kRayQueryMicromaps, arguments[0].location);
+    return types_.error();
   }
   return types_.ray_query(static_cast<uint32_t>(*flags));
 }
