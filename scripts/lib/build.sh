@@ -24,14 +24,16 @@ require_tools() {
 }
 
 # Uses all cores, but starts no more compilers than fit into memory (a large file takes about 1
-# GiB).
+# GiB). Tests that wait for a group that another job runs leave a core idle; one more job uses it.
 choose_jobs() {
   local cores memory
   cores=$(nproc 2>/dev/null || echo 2)
   jobs=$cores
+  test_jobs=$((cores + 1))
   memory=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null || true)
   if [[ -n $memory ]] && ((memory < cores)); then
     jobs=$((memory > 1 ? memory : 1))
+    test_jobs=$jobs
     say "note: $cores cores but only $memory GiB of free memory: building $jobs files at a time."
   fi
 }
