@@ -14,13 +14,13 @@ double wall_clock_ms() {
   return std::chrono::duration<double, std::milli>(now).count();
 }
 
+}  // namespace
+
 double process_clock_ms() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
 }
-
-}  // namespace
 
 Profile::Profile() : steps_(1), running_{0}, wall_ms_(wall_clock_ms()) {
   steps_.front().name = "other";

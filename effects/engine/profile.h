@@ -9,6 +9,9 @@
 
 namespace kaamos::effects {
 
+/// Processor time that all threads of this process have taken so far, in milliseconds.
+double process_clock_ms();
+
 /// What a step is for.
 enum class ProfilePart : std::uint8_t {
   kStart,  ///< before the first frame: loading, building, pipelines, baking

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <thread>
 #include <utility>
 
 #include "effects/assets/common/sampling.h"
 #include "effects/denoise/denoise.h"
 #include "effects/engine/picture.h"
+#include "effects/engine/profile.h"
 #include "effects/measure/run/picture_key.h"
 
 namespace kaamos::measure {
@@ -23,10 +23,8 @@ constexpr std::uint32_t kBackgroundSamples = 16;
 constexpr std::uint32_t kMostDenoiserViews = 2048;  // many denoisers side by side
 
 double cpu_ms(std::uint32_t threads) {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  const double ms = static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-  return ms / std::max(threads > 0 ? threads : std::thread::hardware_concurrency(), 1u);
+  return process_clock_ms() /
+         std::max(threads > 0 ? threads : std::thread::hardware_concurrency(), 1u);
 }
 
 FloatImage first_channels(const FloatImage& image, std::uint32_t channels) {
