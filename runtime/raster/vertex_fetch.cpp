@@ -53,9 +53,9 @@ void VertexFetch::read(uint32_t instance, const uint32_t* ids, uint32_t count,
   if (vertex_id_column_ != runtime::kNoColumn) {
     for (uint32_t i = 0; i < count; ++i) inputs[vertex_id_column_][i] = ids[i];
   }
-  for (const auto& [column, value] : {std::pair(instance_id_column_, instance),
-                                      std::pair(start_vertex_column_, base_vertex_),
-                                      std::pair(start_instance_column_, base_instance_)}) {
+  for (const auto& [column, value] :
+       {std::pair(instance_id_column_, instance), std::pair(start_vertex_column_, base_vertex_),
+        std::pair(start_instance_column_, base_instance_)}) {
     if (column != runtime::kNoColumn) std::fill_n(inputs[column], count, value);
   }
 }
