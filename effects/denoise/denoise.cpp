@@ -83,7 +83,7 @@ DenoiseDesc default_denoise(DenoiseMethod method) {
     desc.constants.clip_gamma = 1.5f;
   }
   if (method == DenoiseMethod::kControl) {
-    desc.constants.alpha = desc.constants.moments_alpha = 0.1f;
+    desc.constants.alpha = desc.constants.moments_alpha = desc.constants.scalar_alpha = 0.1f;
     desc.constants.clip_gamma = 1.25f;
     desc.constants.sigma_n = 32.0f;
     desc.constants.radius = 8;
@@ -124,8 +124,9 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
   out.desc_.constants.signals = static_cast<std::int32_t>(signals.size());
   for (const Signal& signal : signals) {
     if (signal.of_lobe) out.desc_.constants.lobes |= 1u << out.channels_.size();
-    if (signal.changes.picture && desc.method == DenoiseMethod::kAdaptiveSvgf) {
-      out.changes_ = signal.changes.picture;
+    if (signal.is_scalar) out.desc_.constants.scalars |= 1u << out.channels_.size();
+    if (signal.changes.pictures[0] && desc.method == DenoiseMethod::kAdaptiveSvgf) {
+      out.changes_ = signal.changes.pictures;
       out.desc_.constants.changes |= (1 + signal.changes.channel) << (4 * out.channels_.size());
     }
     out.channels_.push_back({.name = signal.name, .signal = signal.picture});
@@ -269,7 +270,9 @@ rtapi::Status Denoiser::add_temporal(const Recorder& to) {
   add_bindings(bindings, kPreviousMoments, moments_of(1 - to.parity));
   add_bindings(bindings, kAccumulated, accumulated);
   add_bindings(bindings, kMoments, moments_of(to.parity));
-  if (changes_) bindings.push_back({kChanges, &changes_});
+  for (std::uint32_t i = 0; i < kChangePictures; ++i) {
+    if (changes_[i]) bindings.push_back({kChanges + i, &changes_[i]});
+  }
   if (const auto s = add(to, kTemporal, bindings, desc_.constants); !s) return s;
   if (has_wavelet(desc_.method)) {
     // The output goes into the previous frame's moments, which are no longer needed.

@@ -7,6 +7,7 @@
 
 #include <rtapi/rtapi.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -51,8 +52,12 @@ struct DenoiseConstants {
   /// vary over time. 0: fireflies and history are cut to what 3 x 3 pixels of one frame show, as
   /// the sources do.
   std::uint32_t keep_energy = 1;
+  /// In place of `alpha` for scalars such as ambient occlusion, whose noise is large beside what
+  /// changes. [Falcor]
+  float scalar_alpha = 0.05f;
+  std::uint32_t scalars = 0;  ///< set by Denoiser
 };
-static_assert(sizeof(DenoiseConstants) == 88);
+static_assert(sizeof(DenoiseConstants) == 96);
 
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
@@ -118,10 +123,15 @@ class DenoisePipelines {
   std::vector<Entry> entries_;
 };
 
-/// The picture that says how much a signal has changed. [TemporalGradients]
+/// Pictures of changes that a denoiser reads, four signals in each: those of svgf.hlsl and
+/// visibility_filter.hlsl.
+inline constexpr std::size_t kChangePictures = 2;
+
+/// The pictures that say how much signals have changed. [TemporalGradients]
 struct SignalChanges {
-  rtapi::Texture picture;     ///< TemporalGradients::changes; null: nobody knows
-  std::uint32_t channel = 0;  ///< of it, 0 to 3
+  /// TemporalGradients::changes; null: nobody knows
+  std::array<rtapi::Texture, kChangePictures> pictures;
+  std::uint32_t channel = 0;  ///< the signal's: 0 to 3 in the first, 4 to 7 in the second
 };
 
 /// The shaders of every method, and the pipelines made of them.
@@ -150,8 +160,11 @@ class Denoiser {
     /// The signal comes from rays in the reflection lobe of the surface: SVGF leaves mirrors as
     /// they are, because their lobe is one direction and has no noise.
     bool of_lobe = false;
-    /// For kAdaptiveSvgf; all signals that have one share one picture.
+    /// For kAdaptiveSvgf; all signals that have some share the pictures.
     SignalChanges changes = {};
+    /// Visibility or a part from 0 to 1, three equal channels: new frames weigh
+    /// DenoiseConstants::scalar_alpha.
+    bool is_scalar = false;
   };
 
   /// Makes the pictures and the passes for 1 to kMostSignals signals. The signals' pictures must
@@ -259,7 +272,7 @@ class Denoiser {
   DenoiseDesc desc_;
   std::vector<Channel> channels_;
   rtapi::Texture guides_[2];
-  rtapi::Texture changes_;
+  std::array<rtapi::Texture, kChangePictures> changes_;
   std::vector<Step> steps_[2];               // for even and odd frames
   std::vector<Step> steps_with_history_[2];  // empty: same as steps_
   std::uint32_t frames_ = 0;                 // since the last cut

@@ -30,6 +30,8 @@ struct DenoiseConstants {
   uint changes;  // 4 bits for each signal: 1 + its channel of the changes, 0: nothing is known
   uint pixel_offset;  // which pixel of each 2 x 2 had rays, as PassConstants has it
   uint keep_energy;   // 1: fireflies are spread, and history is clipped by deviations over time too
+  float scalar_alpha;  // alpha of scalars
+  uint scalars;        // bit s: signal s is a scalar
 };
 
 ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);

@@ -62,7 +62,10 @@ SettingTable<DenoiseConstants> constants_settings() {
       closed_setting(&C::changes),
       closed_setting(&C::pixel_offset),
       switch_setting("keep-energy", &C::keep_energy,
-                     "light of few bright samples is not lost; off: cut as in the sources")};
+                     "light of few bright samples is not lost; off: cut as in the sources"),
+      number_setting("scalar-alpha", &C::scalar_alpha, {0, 1}, "",
+                     "alpha of scalars such as ambient occlusion", "Falcor"),
+      closed_setting(&C::scalars)};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -75,6 +76,7 @@ class Show {
     bool rotates = false;
     std::uint32_t samples = 1;
     std::uint32_t seed = 0;
+    std::function<void(FrameSettings&)> change = {};
   };
   Show(Scene& scene, const Options& options) : scene_(scene) {
     FrameSettings settings;
@@ -91,6 +93,7 @@ class Show {
     settings.moving = true;
     settings.denoise = default_denoise(options.method);
     settings.volume = {.cell = 3.0f, .samples = 1, .bounces = 1, .lights = kBakeEmissive};
+    if (options.change) options.change(settings);
     rtapi::DeviceDesc device;
     device.Backend = options.backend;
     renderer_ = FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
@@ -108,8 +111,8 @@ class Show {
     renderer_->render().value();
   }
   FloatImage read(const std::string& layer) { return renderer_->read(layer).value(); }
-  FloatImage changes() {
-    return renderer_->read(renderer_->effects().gradients().gradients()->changes()).value();
+  FloatImage changes(std::size_t index = 0) {
+    return renderer_->read(renderer_->effects().gradients().gradients()->changes()[index]).value();
   }
   FrameRenderer& renderer() { return *renderer_; }
 

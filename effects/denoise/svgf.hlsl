@@ -17,8 +17,8 @@ RWTexture2D<float4> previous_moments[kMostSignals] : register(u14, space3);
 RWTexture2D<float4> accumulated[kMostSignals] : register(u19, space3);
 RWTexture2D<float4> moments[kMostSignals] : register(u24, space3);
 RWTexture2D<float4> previous_guides : register(u29, space3);
-// The change of signals since the previous frame. [temporal_gradients.hlsl]
-RWTexture2D<float4> changes : register(u30, space3);
+// The change of signals since the previous frame, four in each. [temporal_gradients.hlsl]
+RWTexture2D<float4> changes[2] : register(u30, space3);
 
 bool IsOfLobe(int s) { return (denoise.lobes >> s & 1) != 0; }
 
@@ -228,7 +228,7 @@ float3 ClipToNeighbours(Reprojected before, int2 pixel, int2 size, int s) {
 float ChangeOf(int2 pixel, int s) {
   const uint channel = denoise.changes >> (4 * s) & 15u;
   if (channel == 0) return 0.0;
-  return changes[pixel][channel - 1];
+  return changes[(channel - 1) / 4][pixel][(channel - 1) % 4];
 }
 
 void Accumulate(int2 pixel, int2 size, Past past, float instance, int s) {
@@ -247,7 +247,9 @@ void Accumulate(int2 pixel, int2 size, Past past, float instance, int s) {
   const float change = ChangeOf(pixel, s);
   const float longer = min(before.moments.z + 1.0, float(denoise.max_history));
   const float frames = lerp(longer, 1.0, change);
-  const float alpha = lerp(max(denoise.alpha, 1.0 / longer), 1.0, change);
+  const bool is_scalar = (denoise.scalars >> s & 1) != 0;
+  const float least = is_scalar ? denoise.scalar_alpha : denoise.alpha;
+  const float alpha = lerp(max(least, 1.0 / longer), 1.0, change);
   const float moments_alpha = lerp(max(denoise.moments_alpha, 1.0 / longer), 1.0, change);
   const float2 mixed = lerp(before.moments.xy, now, moments_alpha);
   accumulated[s][pixel] = float4(lerp(before.color.rgb, color, alpha),

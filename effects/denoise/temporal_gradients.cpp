@@ -25,7 +25,9 @@ constexpr std::uint32_t kPastPositionRegister = 0, kPastNormalRegister = 1, kPas
                         kMovedPositionRegister = 3, kSamplesRegister = 4, kOrderRegister = 5,
                         kScalarNowRegister = 6, kScalarBeforeRegister = 7, kColorNowRegister = 8,
                         kColorBeforeRegister = 9, kGradientsRegister = 10, kFilteredRegister = 11,
-                        kChangesRegister = 12;
+                        kChangesRegister = 12, kPastShadingNormalRegister = 14,
+                        kMovedNormalRegister = 15, kMovedShadingNormalRegister = 16;
+constexpr std::uint32_t kInstancesRegister = 0;  // t
 
 /// Mirrors GradientConstants of temporal_gradients.hlsl.
 struct GradientConstants {
@@ -33,6 +35,7 @@ struct GradientConstants {
   std::int32_t rows = 0;
   std::int32_t signals = 0;
   std::int32_t signal = 0;
+  std::int32_t component = -1;
   std::int32_t spacing = 1;
   std::uint32_t pixel_step = 1;
   std::uint32_t pixel_offset = 0;
@@ -43,9 +46,9 @@ struct PictureAt {
   const Texture* texture;
 };
 
-// The pictures of a surface that shaders of effects read besides its position.
-constexpr FrameTexture kSurfaceTextures[] = {kDepth,     kViewZ,    kNormal, kShadingNormal,
-                                             kBaseColor, kMaterial, kIds};
+// The pictures of a surface that shaders of effects read besides its position and normals.
+constexpr FrameTexture kSurfaceTextures[] = {kDepth,    kViewZ,    kBaseColor,
+                                             kEmissive, kMaterial, kIds};
 
 rtapi::Result<rtapi::Buffer> create_buffer(const rtapi::Device& device, std::uint64_t bytes,
                                            const char* name, ResourceStates state) {
@@ -106,7 +109,10 @@ rtapi::Result<TemporalGradients> TemporalGradients::create(const rtapi::Device& 
   }
   for (const auto& [texture, name, format] :
        {std::tuple(&out.position_, "past position", rtapi::Format::kR32G32B32A32Float),
-        std::tuple(&out.changes_, "changes", rtapi::Format::kR8G8B8A8Unorm)}) {
+        std::tuple(&out.normal_, "past normal", rtapi::Format::kR16G16Snorm),
+        std::tuple(&out.shading_normal_, "past shading normal", rtapi::Format::kR16G16Snorm),
+        std::tuple(&out.changes_[0], "changes", rtapi::Format::kR8G8B8A8Unorm),
+        std::tuple(&out.changes_[1], "more changes", rtapi::Format::kR8G8B8A8Unorm)}) {
     const auto created = frame.create_picture(device, name, format);
     if (!created) return created.error();
     *texture = *created;
@@ -119,24 +125,32 @@ rtapi::Result<TemporalGradients> TemporalGradients::create(const rtapi::Device& 
     *pass = *created;
   }
   if (const auto s = out.past_.set_ray_order(device, {}, out.order_); !s) return s.error();
-  if (const auto s = out.create_views(device, frame); !s) return s.error();
+  if (const auto s = out.create_views(device, frame, gpu); !s) return s.error();
   return out;
 }
 
-rtapi::Status TemporalGradients::create_views(const rtapi::Device& device, const Frame& frame) {
+rtapi::Status TemporalGradients::create_views(const rtapi::Device& device, const Frame& frame,
+                                              const GpuScene& gpu) {
   constexpr std::uint32_t kGradientBytes = 2 * sizeof(float);
   for (PassViews* views : {&views_, &even_, &odd_}) {
     const auto created = frame.create_pass_views(device);
     if (!created) return created.error();
     *views = *created;
     const PictureAt pictures[] = {{kPastPositionRegister, &position_},
-                                  {kPastNormalRegister, &past_.texture(kNormal)},
+                                  {kPastNormalRegister, &normal_},
+                                  {kPastShadingNormalRegister, &shading_normal_},
                                   {kPastIdsRegister, &past_.texture(kIds)},
                                   {kMovedPositionRegister, &past_.texture(kPosition)},
-                                  {kChangesRegister, &changes_}};
+                                  {kMovedNormalRegister, &past_.texture(kNormal)},
+                                  {kMovedShadingNormalRegister, &past_.texture(kShadingNormal)},
+                                  {kChangesRegister, &changes_[0]},
+                                  {kChangesRegister + 1, &changes_[1]}};
     for (const auto& [u, texture] : pictures) {
       if (const auto s = views->set_unordered_access(u, *texture); !s) return s;
     }
+    const auto instances = views->set_shader_resource(kInstancesRegister, gpu.instances,
+                                                      sizeof(rtapi::RaytracingInstanceDesc));
+    if (!instances) return instances.error();
     const bool is_back = views == &odd_;
     for (const auto& [u, buffer, bytes] :
          {std::tuple(kSamplesRegister, &samples_, std::uint32_t{sizeof(std::uint32_t)}),
@@ -150,14 +164,15 @@ rtapi::Status TemporalGradients::create_views(const rtapi::Device& device, const
 }
 
 rtapi::Result<std::uint32_t> TemporalGradients::add(const rtapi::Device& device, const Frame& frame,
-                                                    const Texture& sum, const Texture& again) {
+                                                    const Texture& sum, const Texture& again,
+                                                    std::int32_t component) {
   if (signals_.size() == kMostGradients) {
     return make_error(ErrorId::kGradients, std::to_string(kMostGradients + 1) +
                                                " signals whose samples are taken again: " +
                                                std::to_string(kMostGradients) + " are allowed");
   }
   const bool is_scalar = sum.GetDesc().Format == rtapi::Format::kR32Float;
-  Signal signal = {.sum = sum, .again = again};
+  Signal signal = {.sum = sum, .again = again, .component = component};
   const auto before = frame.create_picture(device, "sum of the frame before", sum.GetDesc().Format);
   if (!before) return before.error();
   signal.before = *before;
@@ -184,6 +199,15 @@ rtapi::Result<std::uint32_t> TemporalGradients::add(const rtapi::Device& device,
   return static_cast<std::uint32_t>(signals_.size() - 1);
 }
 
+rtapi::Result<Texture> TemporalGradients::keep(const rtapi::Device& device, const Frame& frame,
+                                               const Texture& picture) {
+  const auto before =
+      frame.create_picture(device, "picture of the frame before", picture.GetDesc().Format);
+  if (!before) return before;
+  kept_.emplace_back(picture, *before);
+  return before;
+}
+
 void TemporalGradients::record_samples(rtapi::CommandList& list, const Frame& frame,
                                        std::uint32_t step, std::uint32_t offset) const {
   const GradientConstants constants = {.columns = static_cast<std::int32_t>(columns_),
@@ -205,6 +229,7 @@ void TemporalGradients::record_again(rtapi::CommandList& list, const RayPass& pa
   constants.sorted = 1;  // in the order of the samples
   constants.first_row = 0;
   constants.accumulate = 0;
+  constants.again = 1;
   pass.dispatch_grid(list, past_, constants, columns_, rows_, arguments);
 }
 
@@ -214,6 +239,7 @@ void TemporalGradients::record_changes(rtapi::CommandList& list, const Frame& fr
                                  .signals = static_cast<std::int32_t>(signals_.size())};
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     constants.signal = static_cast<std::int32_t>(i);
+    constants.component = signals_[i].component;
     signals_[i].compare.dispatch(list, frame, {}, {signals_[i].views, constants}, columns_, rows_);
   }
   bool is_back = false;
@@ -231,13 +257,20 @@ void TemporalGradients::record_keep(rtapi::CommandList& list, const Frame& frame
     record_copy(list, frame.texture(texture), past_.texture(texture));
   }
   record_copy(list, frame.texture(kPosition), position_);
+  record_copy(list, frame.texture(kNormal), normal_);
+  record_copy(list, frame.texture(kShadingNormal), shading_normal_);
+  for (const auto& [picture, before] : kept_) record_copy(list, picture, before);
   for (const Signal& signal : signals_) record_copy(list, signal.sum, signal.before);
   has_past_ = true;
 }
 
 std::uint64_t TemporalGradients::bytes() const {
-  std::uint64_t sum = picture_bytes(position_) + picture_bytes(changes_) + samples_.size() +
-                      order_.size() + gradients_.size() + filtered_.size();
+  std::uint64_t sum = samples_.size() + order_.size() + gradients_.size() + filtered_.size();
+  for (const Texture* picture :
+       {&position_, &normal_, &shading_normal_, &changes_[0], &changes_[1]}) {
+    sum += picture_bytes(*picture);
+  }
+  for (const auto& [picture, before] : kept_) sum += picture_bytes(before);
   for (std::uint32_t i = 0; i < kFrameTextureCount; ++i) {
     sum += picture_bytes(past_.texture(static_cast<FrameTexture>(i)));
   }

@@ -2,13 +2,16 @@
 /// @file
 /// A-SVGF's temporal gradients: how much each signal of a frame has changed since the frame before,
 /// apart from its noise. In each 3 x 3 pixels a sample of the frame before is taken again, of the
-/// same surface and with the same random numbers; what then differs is light. [Schied et al. 2018]
+/// same surface, where it is now, and with the same random numbers; what then differs is light.
+/// [Schied et al. 2018]
 #pragma once
 
 #include <rtapi/rtapi.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "effects/denoise/denoise.h"
@@ -18,7 +21,7 @@
 namespace kaamos::effects {
 
 /// Signals of one TemporalGradients: kMostSignals of temporal_gradients.hlsl.
-inline constexpr std::size_t kMostGradients = 4;
+inline constexpr std::size_t kMostGradients = 8;
 
 /// The gradients of one frame, frame after frame. In each:
 /// 1. follow(), once the frame has its camera and its G-buffer is there;
@@ -37,9 +40,16 @@ class TemporalGradients {
                                                  const DenoiseLibraries& libraries);
   /// Adds a signal and returns its channel in changes(). `sum`: what the frame's pass adds samples
   /// to, of one float or of four; `again`: the same in past(), where record_again's pass adds them.
+  /// `component`: of four floats the one that counts, 0 to 2; -1: the luminance of the first three.
   /// @errors KA3091 more than kMostGradients; those of the device.
   rtapi::Result<std::uint32_t> add(const rtapi::Device& device, const Frame& frame,
-                                   const rtapi::Texture& sum, const rtapi::Texture& again);
+                                   const rtapi::Texture& sum, const rtapi::Texture& again,
+                                   std::int32_t component = -1);
+  /// Returns what a picture of the frame's size holds in the frame before, for passes that read it.
+  /// The picture must be in unordered-access state when record_keep is executed.
+  /// @errors those of the device.
+  rtapi::Result<rtapi::Texture> keep(const rtapi::Device& device, const Frame& frame,
+                                     const rtapi::Texture& picture);
 
   /// Takes over the frame's camera and lights.
   /// @errors those of the device.
@@ -58,6 +68,8 @@ class TemporalGradients {
   void record_changes(rtapi::CommandList& list, const Frame& frame) const;
   /// Records that the frame becomes the frame before.
   void record_keep(rtapi::CommandList& list, const Frame& frame);
+  /// The number of signals that were added.
+  std::size_t signals() const { return signals_.size(); }
   /// Returns whether there is a frame before.
   bool has_past() const { return has_past_; }
   /// There is none any more, as after a cut.
@@ -65,23 +77,26 @@ class TemporalGradients {
 
   /// The surfaces of the frame before, with pictures of their own for what is summed up again.
   const Frame& past() const { return past_; }
-  /// R8G8B8A8_UNORM, a channel for each signal: 0 where nothing changed, 1 where nothing is as it
-  /// was. Valid once record_changes was executed.
-  const rtapi::Texture& changes() const { return changes_; }
+  /// R8G8B8A8_UNORM, a channel for each signal, four in each: 0 where nothing changed, 1 where
+  /// nothing is as it was. Valid once record_changes was executed.
+  const std::array<rtapi::Texture, kChangePictures>& changes() const { return changes_; }
   /// Bytes of its pictures and buffers.
   std::uint64_t bytes() const;
 
  private:
   struct Signal {
     rtapi::Texture sum, before, again;
+    std::int32_t component = -1;
     ComputePass compare;
     PassViews views;
   };
-  rtapi::Status create_views(const rtapi::Device& device, const Frame& frame);
+  rtapi::Status create_views(const rtapi::Device& device, const Frame& frame, const GpuScene& gpu);
 
   Frame past_;
-  std::uint32_t columns_ = 0, rows_ = 0;  // of strata
-  rtapi::Texture position_, changes_;
+  std::uint32_t columns_ = 0, rows_ = 0;               // of strata
+  rtapi::Texture position_, normal_, shading_normal_;  // of the frame before, as they were
+  std::array<rtapi::Texture, kChangePictures> changes_;
+  std::vector<std::pair<rtapi::Texture, rtapi::Texture>> kept_;  // and what it is copied to
   rtapi::Buffer samples_, order_, gradients_, filtered_;
   ComputePass pick_, filter_, write_;
   PassViews views_, even_, odd_;  // of the filter's passes: there and back

@@ -7,7 +7,7 @@
 #include "sampling.hlsli"
 
 static const int kStratum = 3;      // pixels to a side
-static const int kMostSignals = 4;  // effects/denoise/temporal_gradients.h
+static const int kMostSignals = 8;  // effects/denoise/temporal_gradients.h
 static const uint kNoSample = 0xFFFFFFFFu;
 
 // Mirrors GradientConstants in effects/denoise/temporal_gradients.cpp.
@@ -16,18 +16,29 @@ struct GradientConstants {
   int rows;
   int signals;
   int signal;        // CompareScalar, CompareColor: which one
+  int component;     // CompareColor: the channel, 0 to 2; -1: the luminance of all three
   int spacing;       // FilterGradients: strata between taps
   uint pixel_step;   // of the samples of the previous frame, as PassConstants has it
   uint pixel_offset;
 };
 ConstantBuffer<GradientConstants> constants : register(b0, space3);
 
-// The previous frame's surfaces; moved_position: where they are now, relative to the camera, at
-// pixels whose sample is taken again.
+// An instance of the scene as it is now. [DXR: D3D12_RAYTRACING_INSTANCE_DESC]
+struct InstanceNow {
+  float4 rows[3];  // object to world, relative to the camera
+  uint4 others;
+};
+StructuredBuffer<InstanceNow> instances : register(t0, space3);
+
+// The previous frame's surfaces; moved_...: the same where and as they are now, relative to the
+// camera, at pixels whose sample is taken again.
 RWTexture2D<float4> past_position : register(u0, space3);
 RWTexture2D<float2> past_normal : register(u1, space3);
 RWTexture2D<uint2> past_ids : register(u2, space3);
 RWTexture2D<float4> moved_position : register(u3, space3);
+RWTexture2D<float2> past_shading_normal : register(u14, space3);
+RWTexture2D<float2> moved_normal : register(u15, space3);
+RWTexture2D<float2> moved_shading_normal : register(u16, space3);
 // By stratum, as x + 65536 * y: the pixel of the previous frame whose sample is taken again, or
 // kNoSample; and the same for the dispatch of rays, where every place needs a pixel.
 RWStructuredBuffer<uint> samples : register(u4, space3);
@@ -41,7 +52,7 @@ RWTexture2D<float4> color_before : register(u9, space3);
 RWStructuredBuffer<float2> gradients : register(u10, space3);
 RWStructuredBuffer<float2> filtered : register(u11, space3);
 // By pixel, a channel for each signal: 0 nothing changed, 1 nothing is as it was.
-RWTexture2D<float4> changes : register(u12, space3);
+RWTexture2D<float4> changes[2] : register(u12, space3);
 
 int2 PictureSize() {
   uint width, height;
@@ -67,11 +78,80 @@ float Footprint(float view_z) {
   return GrowthAt(view_z) * 2.0 * length(frame.camera_up) / float(PictureSize().y);
 }
 
-// The pixel of the previous frame that showed this pixel's surface and had a sample. Surfaces that
-// move themselves have none: where a point of theirs is now is not known.
+// A surface of the previous frame, where and as it is now.
+struct Moved {
+  float4 position;
+  float2 normal;  // encoded, as the next one
+  float2 shading_normal;
+};
+
+float3x3 Linear(float4 rows[3]) { return float3x3(rows[0].xyz, rows[1].xyz, rows[2].xyz); }
+float3 Translation(float4 rows[3]) { return float3(rows[0].w, rows[1].w, rows[2].w); }
+
+// The matrix of cofactors: it turns normals where the matrix turns points, and transposed, over the
+// determinant, it is the inverse.
+float3x3 Cofactors(float3x3 m) {
+  return float3x3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+}
+
+float2 Turned(float3x3 cofactors, float2 encoded_normal) {
+  return OctahedralEncode(normalize(mul(cofactors, OctahedralDecode(encoded_normal))));
+}
+
+// With an instance that moved as a whole.
+Moved MoveWithInstance(uint instance, int2 past) {
+  const PreviousInstance before = previous_instances[instance - 1];
+  const float3x3 linear_before = Linear(before.rows);
+  const float3x3 cofactors = Cofactors(linear_before);
+  const float3x3 inverse =
+      transpose(cofactors) * (1.0 / dot(linear_before[0], cofactors[0]));
+  const InstanceNow now = instances[instance - 1];
+  const float3x3 change = mul(Linear(now.rows), inverse);
+  const float4 old = past_position[past];
+  Moved moved;
+  moved.position =
+      float4(mul(change, old.xyz - Translation(before.rows)) + Translation(now.rows), old.w);
+  const float3x3 turn = Cofactors(change);
+  moved.normal = Turned(turn, past_normal[past]);
+  moved.shading_normal = Turned(turn, past_shading_normal[past]);
+  return moved;
+}
+
+// With a surface that changes its shape: as far as the point that the pixel shows now has moved, and
+// with the normals of that point.
+Moved MoveWithPixel(int2 pixel, int2 past) {
+  const float3 position = g_position[pixel].xyz;
+  float view_z;
+  const float2 now = PictureUv(position, frame.camera_right, frame.over_right, frame.camera_up,
+                               frame.over_up, frame.camera_forward, view_z);
+  const float4 motion = g_motion[pixel];
+  const CameraRay ray = RayOfCamera(2.0 * (now + motion.xy) - 1.0, frame.previous_right,
+                                    frame.previous_up, frame.previous_forward);
+  const float3 before = ray.origin + (view_z + motion.z) * ray.direction;
+  Moved moved;
+  moved.position = past_position[past];
+  moved.position.xyz += position - before;
+  moved.normal = g_normal[pixel];
+  moved.shading_normal = g_shading_normal[pixel];
+  return moved;
+}
+
+Moved MoveSurface(uint instance, int2 pixel, int2 past) {
+  const uint flags = previous_instances[instance - 1].flags;
+  if ((flags & kPreviousDeformed) != 0) return MoveWithPixel(pixel, past);
+  if (flags != 0) return MoveWithInstance(instance, past);
+  const float4 old = past_position[past];
+  Moved still;
+  still.position = float4(old.xyz - frame.camera_motion, old.w);
+  still.normal = past_normal[past];
+  still.shading_normal = past_shading_normal[past];
+  return still;
+}
+
+// The pixel of the previous frame that showed this pixel's surface and had a sample.
 uint FindSample(int2 pixel, int2 size) {
   const uint instance = g_ids[pixel].x;
-  if (instance == 0 || previous_instances[instance - 1].flags != 0) return kNoSample;
+  if (instance == 0) return kNoSample;
   const float2 motion = g_motion[pixel].xy;
   if (!isfinite(motion.x) || !isfinite(motion.y)) return kNoSample;
   const float2 before = float2(pixel) + 0.5 + motion * float2(size);
@@ -82,13 +162,14 @@ uint FindSample(int2 pixel, int2 size) {
   }
   if (!IsInside(past, size) || past_ids[past].x != instance) return kNoSample;
   const float3 normal = OctahedralDecode(g_normal[pixel]);
-  if (!(dot(OctahedralDecode(past_normal[past]), normal) >= 0.9)) return kNoSample;
-  const float4 old = past_position[past];
-  const float3 position = old.xyz - frame.camera_motion;
-  const float away = abs(dot(normal, position - g_position[pixel].xyz));
+  const Moved moved = MoveSurface(instance, pixel, past);
+  if (!(dot(OctahedralDecode(moved.normal), normal) >= 0.9)) return kNoSample;
+  const float away = abs(dot(normal, moved.position.xyz - g_position[pixel].xyz));
   const float view_z = g_view_z[pixel];
   if (!(away <= Footprint(view_z) + 0.005 * view_z)) return kNoSample;
-  moved_position[past] = float4(position, old.w);
+  moved_position[past] = moved.position;
+  moved_normal[past] = moved.normal;
+  moved_shading_normal[past] = moved.shading_normal;
   return uint(past.x) + 65536u * uint(past.y);
 }
 
@@ -137,8 +218,13 @@ void CompareColor(uint3 id : SV_DispatchThreadID) {
   const uint sample = samples[StratumIndex(stratum)];
   if (sample == kNoSample) return;
   const int2 pixel = int2(sample & 0xFFFFu, sample >> 16);
-  gradients[GradientIndex(constants.signal, stratum)] =
-      Gradient(color_now[pixel].rgb, color_before[pixel].rgb);
+  float3 now = color_now[pixel].rgb;
+  float3 before = color_before[pixel].rgb;
+  if (constants.component >= 0) {
+    now = now[constants.component] * float3(1, 1, 1);
+    before = before[constants.component] * float3(1, 1, 1);
+  }
+  gradients[GradientIndex(constants.signal, stratum)] = Gradient(now, before);
 }
 
 struct Surface {
@@ -221,9 +307,10 @@ void WriteChanges(uint3 id : SV_DispatchThreadID) {
       sums[t] += weight * gradients[GradientIndex(t, stratum)];
     }
   }
-  float4 change = float4(0, 0, 0, 0);
+  float4 change[2] = {float4(0, 0, 0, 0), float4(0, 0, 0, 0)};
   for (int t = 0; t < constants.signals; ++t) {
-    if (sums[t].y > kNoLight) change[t] = saturate(abs(sums[t].x) / sums[t].y);
+    if (sums[t].y > kNoLight) change[t / 4][t % 4] = saturate(abs(sums[t].x) / sums[t].y);
   }
-  changes[pixel] = change;
+  changes[0][pixel] = change[0];
+  changes[1][pixel] = change[1];
 }

@@ -14,7 +14,7 @@ using rtapi::Texture;
 namespace {
 
 // The registers of visibility_filter.hlsl.
-constexpr std::uint32_t kVisibilityChanges = 1, kPreviousGuides = 2, kGuides = 3, kDrawn = 4,
+constexpr std::uint32_t kVisibilityChanges = 0, kPreviousGuides = 2, kGuides = 3, kDrawn = 4,
                         kHistory = 8, kPast = 12, kAccumulated = 16, kBlockers = 20, kFiltered = 24,
                         kSource = 28, kSharpness = 29, kLights = 30, kResult = 31;
 
@@ -51,11 +51,13 @@ rtapi::Result<VisibilityDenoiser> VisibilityDenoiser::create(
   std::uint32_t changes = 0;
   for (const Signal& signal : signals) {
     out.signals_.push_back({signal, out.channels_.size(), {}});
-    const std::size_t end = out.channels_.size() + std::clamp(signal.channels, 1u, 2u);
-    for (std::size_t i = out.channels_.size(); i < std::min(end, kMostVisibilityChannels); ++i) {
-      if (!signal.changes.picture || method != DenoiseMethod::kAdaptiveSvgf) continue;
-      out.changes_ = signal.changes.picture;
-      changes |= (1 + signal.changes.channel) << (4 * i);
+    const std::size_t begin = out.channels_.size();
+    const std::size_t end = begin + std::clamp(signal.channels, 1u, 2u);
+    for (std::size_t i = begin; i < std::min(end, kMostVisibilityChannels); ++i) {
+      if (!signal.changes.pictures[0] || method != DenoiseMethod::kAdaptiveSvgf) continue;
+      out.changes_ = signal.changes.pictures;
+      const auto channel = signal.changes.channel + static_cast<std::uint32_t>(i - begin);
+      changes |= (1 + channel) << (4 * i);
     }
     out.channels_.resize(end);
   }
@@ -183,7 +185,9 @@ rtapi::Status VisibilityDenoiser::add_accumulation(const Recorder& to) {
   add_bindings(bindings, kFiltered,
                pictures([&](const Channel& c) -> auto& { return c.blockers[1 - to.parity]; }));
   if (const auto s = add(to, "ReprojectVisibility", bindings, constants_); !s) return s;
-  if (changes_) bindings.push_back({kVisibilityChanges, &changes_});
+  for (std::uint32_t i = 0; i < kChangePictures; ++i) {
+    if (changes_[i]) bindings.push_back({kVisibilityChanges + i, &changes_[i]});
+  }
   return add(to, "AccumulateVisibility", bindings, constants_);
 }
 

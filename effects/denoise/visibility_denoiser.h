@@ -6,6 +6,7 @@
 
 #include <rtapi/rtapi.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -38,7 +39,8 @@ class VisibilityDenoiser {
     /// R32G32_UINT: which light the visibility in r and g is of; a pixel of another light has no
     /// part in a pixel's history or filter. Empty: it is the same everywhere.
     rtapi::Texture lights;
-    SignalChanges changes = {};  ///< of all its channels, for kAdaptiveSvgf [Denoiser::Signal]
+    /// For kAdaptiveSvgf: that of its first channel, and behind it that of its second.
+    SignalChanges changes = {};
   };
 
   /// Makes the pictures and the passes. `method`: kTemporal, kSvgf and kAdaptiveSvgf (a
@@ -114,7 +116,7 @@ class VisibilityDenoiser {
   std::vector<Input> signals_;
   std::vector<Channel> channels_;
   rtapi::Texture guides_[2];
-  rtapi::Texture changes_;
+  std::array<rtapi::Texture, kChangePictures> changes_;
   std::vector<Step> steps_[2];  // for even and odd frames
   std::uint32_t frames_ = 0;    // since the last cut
 };

@@ -23,8 +23,8 @@ struct VisibilityConstants {
 };
 ConstantBuffer<VisibilityConstants> constants : register(b0, space3);
 
-// The change of signals since the previous frame. [temporal_gradients.hlsl]
-RWTexture2D<float4> changes : register(u1, space3);
+// The change of signals since the previous frame, four in each. [temporal_gradients.hlsl]
+RWTexture2D<float4> changes[2] : register(u0, space3);
 
 // Geometric normal and view depth; all zero where there is no surface.
 RWTexture2D<float4> previous_guides : register(u2, space3);
@@ -350,7 +350,7 @@ float OutdatedPart(int s, int2 pixel, int2 size, Surface surface, float radius) 
 float ChangeOf(int2 pixel, int s) {
   const uint channel = constants.changes >> (4 * s) & 15u;
   if (channel == 0) return 0.0;
-  return changes[pixel][channel - 1];
+  return changes[(channel - 1) / 4][pixel][(channel - 1) % 4];
 }
 
 static const float kMemory = 0.5;       // of what moved, from frame to frame

@@ -171,8 +171,9 @@ struct Effect {
   /// The mean of its sums says enough without a denoiser: of all effects, frames that are not whole
   /// have such alone. [FrameSettings::whole_frame]
   bool is_plain = false;
-  /// What its rays meet depends on a pixel's surface and place and the sample's number alone, so
-  /// that a sample of the frame before can be taken again. [TemporalGradients]
+  /// What its rays meet depends on a pixel's surface and place, from where it is seen, its
+  /// strongest lights and the sample's number alone, so that a sample of the frame before can be
+  /// taken again: its shaders heed PassConstants::again. [TemporalGradients]
   bool repeats = false;
   /// Frames before have a part in what it shows and in how long it takes, so that it is measured in
   /// a sequence of frames.

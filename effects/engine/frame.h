@@ -68,6 +68,8 @@ struct PassConstants {
   std::uint32_t pixel_offset = 0;  ///< which of the 2 x 2: bit 0 to the right, bit 1 below
   std::uint32_t sharpness = 1;     ///< 0: nobody reads how sharp shadows are, so that rays may end
                                    ///< at the first hit that they find
+  std::uint32_t again = 0;         ///< 1: samples of the frame before are taken again, as the
+                                   ///< camera saw them then
 };
 
 /// The number of pixels of a side of `size` pixels that get rays: every `constants.pixel_step`-th.

@@ -60,6 +60,7 @@ Effect ray_occluded_row() {
                 close_settings(indirect_settings(), {"mode"}));
   row.needs.lights = true;  // where shaders of other modes read them
   row.samples_option = "gi-ray-ao-samples";
+  row.repeats = true;
   row.misses = "from which side the open part lets light in, and light from what moves";
   return row;
 }

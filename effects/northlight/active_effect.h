@@ -90,6 +90,8 @@ class ActiveEffect {
   const RayEffect* rays() const {
     return passes_.empty() ? nullptr : passes_.front()->pass->rays();
   }
+  /// The strongest lights of each pixel. Precondition: it needs them [EffectNeeds].
+  const rtapi::Texture* strongest() const { return &inputs_->lights.main()->strongest(); }
   /// Returns what it writes; nothing: it has no passes.
   const SignalPictures& pictures() const { return pictures_; }
   /// Samples that the sums hold.

@@ -15,7 +15,8 @@ rtapi::Status GradientStage::create(const std::vector<std::unique_ptr<ActiveEffe
   gradients_ = std::move(*created);
   for (const auto& effect : effects) {
     if (!effect->row().repeats || effect->rays() == nullptr) continue;
-    if (effects_.size() == kMostGradients) break;
+    const std::size_t wanted = effect->row().signals[0].channels == 2 ? 2 : 1;
+    if (gradients_->signals() + wanted > kMostGradients) break;
     if (const auto s = add(*effect); !s) return s;
   }
   return {};
@@ -25,12 +26,24 @@ rtapi::Status GradientStage::add(const ActiveEffect& effect) {
   const Frame& past = gradients_->past();
   const auto pictures = effect.create_pictures(past, " again");
   if (!pictures) return pictures.error();
-  const auto views = effect.create_views(past, *pictures);
+  auto views = effect.create_views(past, *pictures);
   if (!views) return views.error();
-  const auto channel = gradients_->add(context_.device, context_.frame,
-                                       effect.pictures().signals[0], pictures->signals[0]);
-  if (!channel) return channel.error();
-  effects_.push_back({&effect, *pictures, *views, *channel});
+  if (effect.row().needs.strongest_lights) {
+    const auto lights = gradients_->keep(context_.device, context_.frame, *effect.strongest());
+    if (!lights) return lights.error();
+    if (const auto s = views->set_unordered_access(0, *lights); !s) return s.error();
+  }
+  // Two visibilities in one picture change each for itself.
+  const bool is_pair = effect.row().signals[0].channels == 2;
+  std::optional<std::uint32_t> first;
+  for (std::int32_t i = 0; i < (is_pair ? 2 : 1); ++i) {
+    const auto channel =
+        gradients_->add(context_.device, context_.frame, effect.pictures().signals[0],
+                        pictures->signals[0], is_pair ? i : -1);
+    if (!channel) return channel.error();
+    if (!first) first = *channel;
+  }
+  effects_.push_back({&effect, *pictures, *views, *first});
   return {};
 }
 
@@ -68,7 +81,8 @@ rtapi::Status GradientStage::repeat(const ActiveEffect& effect) {
   const EffectSettings& settings = effect.settings();
   const PassConstants constants = {.first_sample = first_sample(settings, past_index_),
                                    .sample_count = settings.samples,
-                                   .radius = settings.radius};
+                                   .radius = settings.radius,
+                                   .sharpness = 0};
   return context_.runner.run_gradient(effect.title() + " again", 0, [&](auto& list) {
     if (!gradients_->has_past()) return;
     gradients_->record_again(list, effect.rays()->pass(), constants,

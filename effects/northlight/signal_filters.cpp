@@ -108,8 +108,8 @@ rtapi::Status SignalFilters::create_filter(const rtapi::Device& device, const Fr
   for (const std::size_t i : signals) {
     signals_[i].filter = filters_.size();
     signals_[i].index = inputs.size();
-    inputs.push_back(
-        {signals_[i].name, signals_[i].mean, signals_[i].of_lobe, signals_[i].sums.changes});
+    inputs.push_back({signals_[i].name, signals_[i].mean, signals_[i].of_lobe,
+                      signals_[i].sums.changes, signals_[i].channels == 1});
   }
   auto denoiser = Denoiser::create(device, frame, libraries, inputs, desc);
   if (!denoiser) return denoiser.error();

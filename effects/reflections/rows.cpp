@@ -201,6 +201,7 @@ Effect reflections_row() {
       .needs = {.glossy = true, .lights = true, .volume = true},
       .constants = describe_constants(reflection_settings()),
       .samples_option = "reflection-samples",
+      .repeats = true,
       .may_equal = "all that mirrors is smooth, so that one ray is all there is",
   };
 }

@@ -60,6 +60,7 @@ struct PassConstants {
   uint accumulate;    // 0: sums begin anew, whatever the pictures hold
   uint pixel_offset;  // which pixel of the 2 x 2: bit 0 to the right, bit 1 below
   uint sharpness;     // 0: nobody reads how sharp shadows are
+  uint again;         // 1: samples of the previous frame are taken again
 };
 
 // The place of an instance in the previous frame. [effects/engine/gpu_scene.h]

@@ -221,6 +221,7 @@ Effect contact_shadow_row() {
       .includes = "local",
       .constants = describe_constants(contact_shadow_settings()),
       .samples_option = "contact-samples",
+      .repeats = true,
   };
 }
 

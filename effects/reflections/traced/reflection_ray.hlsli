@@ -37,9 +37,17 @@ struct ReflectionPoint {
   float3 local_view;
 };
 
+// The unit vector from which the camera sees a point. A sample of the previous frame is taken again
+// from the previous camera: then the ray is the same, and what differs is what it meets.
+float3 ViewFrom(float3 position) {
+  if (pass_constants.again == 0) return -SeenAlong(position);
+  return frame.is_orthographic != 0 ? -frame.previous_forward
+                                    : -normalize(position + frame.camera_motion);
+}
+
 ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   const float4 position = g_position[pixel];
-  const float3 view = -SeenAlong(position.xyz);
+  const float3 view = ViewFrom(position.xyz);
   ReflectionPoint surface;
   surface.normal = OctahedralDecode(g_normal[pixel]);
   surface.shading_normal = OctahedralDecode(g_shading_normal[pixel]);

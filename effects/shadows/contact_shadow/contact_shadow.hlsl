@@ -92,7 +92,8 @@ void ContactShadowRayGen() {
   float2 moved = float2(0, 0);
   for (uint kind = 0; kind < 2; ++kind) {
     const uint light = strongest[pixel][kind];
-    if (light == kNoLight) {
+    // A light of the previous frame may be gone.
+    if (light == kNoLight || light >= frame.light_count) {
       visible[kind] += float(count);
       continue;
     }
