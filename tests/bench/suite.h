@@ -61,6 +61,7 @@ std::vector<Case> dispatch_cases();   // dispatch_cases.cpp
 std::vector<Case> build_cases();      // build_cases.cpp
 std::vector<Case> hlsl_cases();       // hlsl_cases.cpp
 std::vector<Case> compute_cases();    // compute_cases.cpp
+std::vector<Case> vector_cases();     // vector_cases.cpp
 std::vector<Case> sorting_cases();    // sorting_cases.cpp
 std::vector<Case> claims_cases();     // claims_cases.cpp
 std::vector<Case> light_cases();      // light_cases.cpp
