@@ -11,7 +11,9 @@
 
 #include "effects/assets/common/file.h"
 #include "effects/denoise/denoise.h"
+#include "effects/glass/transparent/transparent.h"
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
+#include "effects/measure/claims/claims_page.h"
 #include "effects/measure/curves/measure.h"
 #include "effects/measure/run/failure.h"
 #include "effects/reflections/traced/reflections.h"
@@ -39,13 +41,18 @@ enum Cost : std::size_t {
   kIndirectBlack,
   kIndirect,
   kIndirectFilter,
+  kBuild,  // what a frame of a sequence does to its acceleration structures
+  kGlass,  // the first layer
+  kSunPair,
   kCosts
 };
 
 // Milliseconds of one round (kSunRay, kAoRay: per ray); negative: this scene has no such cost.
 using Round = std::array<double, kCosts>;
 
-constexpr std::uint32_t kManyRays = 4;  // per pixel, where the costs of single rays are compared
+constexpr std::uint32_t kManyRays = 4;     // per pixel, where the costs of single rays are compared
+constexpr std::uint32_t kDeckSunRays = 2;  // per pixel, in the deck
+constexpr double kFramesPerSecond = 30;
 
 // SVGF over what a setting's run has summed up.
 class Filter {
@@ -105,7 +112,15 @@ rtapi::Result<Plan> make_plan(EffectRuns& runs, const Options& options) {
     plan.runs.push_back({cost, ao, cost == kAoRay});
   }
   plan.filters.push_back({kAoFilter, ao, nullptr});
-  if (scene.sun) plan.runs.push_back({kSunRay, setting_of("sun", kManyRays), true});
+  if (scene.sun) {
+    plan.runs.push_back({kSunRay, setting_of("sun", kManyRays), true});
+    plan.runs.push_back({kSunPair, setting_of("sun", kDeckSunRays)});
+  }
+  if (has_glass(scene)) {
+    Setting glass = setting_of("transparent");
+    glass.settings.set_constants(deck_layers(1));
+    plan.runs.push_back({kGlass, glass});
+  }
   if (!scene.lights.empty()) {
     const Setting contact = setting_of("contact");
     plan.runs.push_back({kContactTrace, contact});
@@ -147,9 +162,26 @@ rtapi::Result<Plan> make_plan(EffectRuns& runs, const Options& options) {
   return plan;
 }
 
-rtapi::Result<Round> run_round(EffectRuns& runs, Plan& plan) {
+// Moves on to the next frame of a sequence with the camera at rest: milliseconds of its structures.
+rtapi::Result<double> run_structures(EffectRuns& runs, std::uint32_t frame) {
+  FrameRenderer& renderer = runs.renderer();
+  const auto begun = renderer.begin_frame({.index = frame,
+                                           .seconds = frame / kFramesPerSecond,
+                                           .camera = renderer.context().scene.cameras.front(),
+                                           .cut = frame == 0});
+  if (!begun) return begun.error();
+  for (const PassStatistics& pass : renderer.runner().passes()) {
+    if (pass.name == "structures") return pass.ms;
+  }
+  return failure("the frame's structures were not timed");
+}
+
+rtapi::Result<Round> run_round(EffectRuns& runs, Plan& plan, std::uint32_t frame) {
   Round round;
   round.fill(-1);
+  const auto build_ms = run_structures(runs, frame);
+  if (!build_ms) return build_ms.error();
+  round[kBuild] = *build_ms;
   for (const Timed& timed : plan.runs) {
     const auto ran = runs.run(timed.setting);
     if (!ran) return ran.error();
@@ -233,10 +265,16 @@ constexpr std::pair<const char*, const char*> kTexts[] = {
 
 // The passes of Control that are timed here too. [survey: Table 1]
 const std::vector<ControlPass> kControl = {
-    {"reflections: trace", {1.0, 1.4}, {}},      {"reflections: shade", {1.4, 1.1}, {}},
-    {"reflections: denoise", {0.8, 0.8}, {}},    {"indirect diffuse: trace", {0.8, 0.7}, {}},
-    {"indirect diffuse: shade", {0.8, 0.6}, {}}, {"indirect diffuse: denoise", {1.1, 1.0}, {}},
-    {"contact shadows: trace", {0.8, 0.4}, {}},  {"contact shadows: denoise", {0.7, 0.7}, {}}};
+    {"structures: build and update", {0.6, 1.0}, {}, true},
+    {"reflections: trace", {1.0, 1.4}, {}},
+    {"reflections: shade", {1.4, 1.1}, {}},
+    {"reflections: denoise", {0.8, 0.8}, {}},
+    {"transparent reflections: trace and shade", {1.5, 0.4}, {}},
+    {"indirect diffuse: trace", {0.8, 0.7}, {}},
+    {"indirect diffuse: shade", {0.8, 0.6}, {}},
+    {"indirect diffuse: denoise", {1.1, 1.0}, {}},
+    {"contact shadows: trace", {0.8, 0.4}, {}},
+    {"contact shadows: denoise", {0.7, 0.7}, {}}};
 
 // In the order of kControl.
 std::vector<std::optional<double>> control_costs(const std::vector<Round>& rounds) {
@@ -246,9 +284,11 @@ std::vector<std::optional<double>> control_costs(const std::vector<Round>& round
   const auto more = [&](Cost all, Cost part) {
     return over(rounds, {all, part}, [=](const Round& round) { return round[all] - round[part]; });
   };
-  return {cost(kReflectionTrace),
+  return {cost(kBuild),
+          cost(kReflectionTrace),
           more(kReflection, kReflectionTrace),
           cost(kReflectionFilter),
+          cost(kGlass),
           cost(kIndirectTrace),
           more(kIndirect, kIndirectTrace),
           cost(kIndirectFilter),
@@ -256,19 +296,64 @@ std::vector<std::optional<double>> control_costs(const std::vector<Round>& round
           cost(kContactFilter)};
 }
 
+// The deck's numbers: what each is, per pixel, and what can be said of it here.
+const std::vector<DeckNumber> kDeck = {
+    {"sun shadow",
+     0.9,
+     kDeckSunRays,
+     "the same rays; theirs end at the first hit that they find, and these too, unless a "
+     "denoiser reads how far it is",
+     {}},
+    {"contact shadows and denoising",
+     1.4,
+     2,
+     "as many rays, one to each of two lights, which look for the closest hit here; theirs has "
+     "another denoiser than SVGF",
+     {}},
+    {"reflections and denoising",
+     4.4,
+     1,
+     "a ray a pixel with a sun ray at its hit in both; materials and denoisers differ",
+     {}},
+    {"near-field indirect light and denoising",
+     2.5,
+     1,
+     "a ray a pixel that is lit where it hits, within 3 m here, and reads the volume beyond; how "
+     "long theirs are the deck does not say",
+     {}}};
+
+// In the order of kDeck.
+std::vector<std::optional<TimedPass>> deck_costs(const std::vector<Round>& rounds, double pixels) {
+  const auto timed = [&](std::initializer_list<Cost> costs,
+                         double rays) -> std::optional<TimedPass> {
+    const auto ms = over(rounds, costs, [&](const Round& round) {
+      double sum = 0;
+      for (const Cost cost : costs) sum += round[cost];
+      return sum;
+    });
+    if (!ms) return std::nullopt;
+    return TimedPass{*ms, rays * pixels};
+  };
+  return {timed({kSunPair}, kDeck[0].rays), timed({kContactTrace, kContactFilter}, kDeck[1].rays),
+          timed({kReflection, kReflectionFilter}, kDeck[2].rays),
+          timed({kIndirect, kIndirectFilter}, kDeck[3].rays)};
+}
+
 rtapi::Result<Outcome> run_rounds(const Options& options, const Scene& scene,
                                   const std::string& cache, const Progress& progress,
                                   std::vector<Round>& rounds) {
   std::unique_ptr<EffectRuns> runs;
-  const auto created =
-      EffectRuns::create(options, scene, {"ao", "sun", "local", "contact", "gi", "reflections"},
-                         cache, progress, options.say, runs);
+  std::vector<std::string> effects = {"ao", "sun", "local", "contact", "gi", "reflections"};
+  if (has_glass(scene)) effects.emplace_back("transparent");
+  Options own = options;
+  own.frame.moving = true;  // frames keep their structures
+  const auto created = EffectRuns::create(own, scene, effects, cache, progress, options.say, runs);
   if (!is_done(created)) return created;
   auto plan = make_plan(*runs, options);
   if (!plan) return plan.error();
   // One uncounted round first, so that pipelines, caches and histories exist.
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
-    const auto round = run_round(*runs, *plan);
+    const auto round = run_round(*runs, *plan, repeat);
     if (!round) return round.error();
     if (repeat > 0) rounds.push_back(*round);
     const double done = (repeat + 1.0) / (options.repeats + 1.0);
@@ -297,6 +382,7 @@ rtapi::Result<Outcome> measure_claims(const Options& options, const Scene& scene
   if (failed) return failure("cannot make the folder " + cache + ": " + failed.message());
   for (const auto& [text, seed] : kTexts) table.claims.push_back({text, seed, {}});
   table.control = kControl;
+  table.deck = kDeck;
   // In this order, so that the second run finds the volume that the first one bakes.
   for (const std::string& backend : {std::string("embree"), std::string("vulkan")}) {
     if (backend == "vulkan" && !has_vulkan()) continue;
@@ -314,6 +400,10 @@ rtapi::Result<Outcome> measure_claims(const Options& options, const Scene& scene
     for (std::size_t i = 0; i < values.size(); ++i) table.claims[i].here.push_back(values[i]);
     const auto costs = control_costs(rounds);
     for (std::size_t i = 0; i < costs.size(); ++i) table.control[i].here.push_back(costs[i]);
+    const double pixels = static_cast<double>(own.frame.width) * own.frame.height;
+    table.pixels.push_back(pixels);
+    const auto deck = deck_costs(rounds, pixels);
+    for (std::size_t i = 0; i < deck.size(); ++i) table.deck[i].here.push_back(deck[i]);
   }
   return Outcome::kDone;
 }
@@ -349,8 +439,11 @@ rtapi::Result<Outcome> run_claims(const Options& options, const Scene& scene,
   if (const auto s = measure_claims(options, scene, progress, table); !is_done(s)) return s;
   const std::string text = write_csv(as_csv(table)), path = options.out + "/claims.csv";
   if (const auto s = write_text(path, text); !s.ok()) return s.error();
-  said = fmt::format("{}, median of {} rounds{}\n{}\nwrote {}\n", options.scene, options.repeats,
-                     options.cpu_clock ? ", CPU time over threads" : "", as_text(table), path);
+  const std::string page = options.out + "/claims.md";
+  if (const auto s = write_text(page, claims_page(options, table)); !s.ok()) return s.error();
+  said = fmt::format("{}, median of {} rounds{}\n{}\nwrote {} and {}\n", options.scene,
+                     options.repeats, options.cpu_clock ? ", CPU time over threads" : "",
+                     as_text(table), path, page);
   return Outcome::kDone;
 }
 
