@@ -169,6 +169,31 @@ Case checked_case(RaySet set) {
           }};
 }
 
+// HitObject::TraceRay and Invoke against TraceRay, both through DispatchRays.
+template <typename T>
+Line compare_hit_objects(const std::string& name, Fixtures& f, const Measure& measure,
+                         Program usual_program, Program program) {
+  const RayGrid& grid = f.rays(RaySet::kPrimary);
+  DxrScene& scene = f.scene_of(rtapi::TraversalPrecision::kRobust);
+  DxrDispatch usual(scene, usual_program, grid);
+  bool read = false;  // by the warm-up run
+  return compare<T>(name, f, measure, scene, program, grid,
+                    [&](const RayGrid&, std::vector<T>& out) {
+                      usual.run();
+                      if (!std::exchange(read, true)) out = usual.results<T>();
+                    });
+}
+
+Line hit_objects(Fixtures& f, const Measure& measure) {
+  return compare_hit_objects<ClosestResult>("hit-object/embree/primary", f, measure,
+                                            Program::kClosest, Program::kHitObject);
+}
+
+Line shaded_hit_objects(Fixtures& f, const Measure& measure) {
+  return compare_hit_objects<ShadedResult>("hit-object/embree/shaded", f, measure, Program::kShaded,
+                                           Program::kShadedHitObject);
+}
+
 Line alpha_sun(Fixtures& f, const Measure& measure) {
   const EmbreeScene& embree = f.embree_scene(true);
   return compare<uint32_t>(
@@ -197,6 +222,8 @@ std::vector<Case> dispatch_cases() {
   for (RaySet set : kRaySets) cases.push_back(exact_case(set, 1e4f, "-at-1e4"));
   for (RaySet set : kRaySets) cases.push_back(exact_case(set, 1e6f, "-at-1e6"));
   for (RaySet set : kRaySets) cases.push_back(checked_case(set));
+  cases.push_back({"hit-object/embree/primary", hit_objects});
+  cases.push_back({"hit-object/embree/shaded", shaded_hit_objects});
   return cases;
 }
 

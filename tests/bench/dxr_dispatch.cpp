@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <rtapi/upload.h>
 #include <shaders/bench.h>
+#include <shaders/hit_objects.h>
 
 #include "dxr_scene.h"
 
@@ -37,6 +38,8 @@ const Shaders& shaders_of(Program program) {
       {"VisibilityRays", "VisibilityMiss", "", "", 4, 4, kVisible},
       {"VisibilityRays", "VisibilityMiss", "", "AlphaTest", 4, 4, kVisible},
       {"ShadedRays", "ShadedMiss", "ShadedHit", "", 32, sizeof(ShadedResult), kShaded},
+      {"ClosestHitObjects", "ClosestMiss", "ClosestHit", "", 8, sizeof(ClosestResult), kClosest},
+      {"ShadedHitObjects", "ShadedMiss", "ShadedHit", "", 32, sizeof(ShadedResult), kShaded},
   };
   return kShaders[static_cast<int>(program)];
 }
@@ -66,7 +69,10 @@ void DxrDispatch::create_pipeline() {
   const Shaders& shaders = shaders_of(program_);
   global_ = device.CreateRootSignature(kGlobalSignature).value();
   DxilLibraryDesc library;
-  library.DXILLibrary = LoadShaderLibrary(kaamos_shaders_bench()).value();
+  const bool by_hit_objects = program_ >= Program::kHitObject;
+  library.DXILLibrary =
+      LoadShaderLibrary(by_hit_objects ? kaamos_shaders_hit_objects() : kaamos_shaders_bench())
+          .value();
   for (const char* name :
        {shaders.ray_generation, shaders.miss, shaders.closest_hit, shaders.any_hit}) {
     if (name[0] != 0) library.Exports.push_back({name, ""});

@@ -58,7 +58,7 @@ class DxrScene {
 };
 
 // Selects the shaders, and so the type of the results: ClosestResult, uint32_t or ShadedResult.
-enum class Program { kClosest, kVisible, kAlphaTested, kShaded };
+enum class Program { kClosest, kVisible, kAlphaTested, kShaded, kHitObject, kShadedHitObject };
 
 // One DispatchRays that can be run again and again.
 class DxrDispatch {
