@@ -444,6 +444,61 @@ TEST(TemporalGradients, AStillSceneHasNoMoreNoiseThanSvgf) {
   }
 }
 
+// Of an average in which new frames weigh alpha, alpha / (2 - alpha) of the variance is left, and
+// nine tenths of a change are there after ln 0.1 / ln (1 - alpha) frames: 10.3 and 44.9 for 0.2 and
+// 0.05. [Schied et al. 2017; Falcor]
+TEST(ScalarAlpha, AmbientOcclusionIsCalmAndLagsLonger) {
+  struct Found {
+    double noise = 0;
+    int lag = 0;
+  };
+  const auto look = [](float alpha) {
+    Scene scene = make_stage();
+    Show::Options options = {DenoiseMethod::kSvgf, "embree", {"ao"}};
+    options.change = [alpha](FrameSettings& settings) {
+      settings.denoise.constants.scalar_alpha = alpha;
+      settings.denoise.constants.max_history = 255;
+      settings.effects.at("ao").radius = 1;
+    };
+    Show show(scene, options);
+    constexpr int kFrames = 40;
+    FloatImage sum, squares;
+    double before = 0;
+    for (int frame = 0; frame < 2 * kFrames; ++frame) {
+      show.render();
+      if (frame < kFrames) continue;
+      FloatImage image = show.read("ao_denoised");
+      before = mean_of_centre(image);
+      add(image, 1.0f / kFrames, sum);
+      for (float& value : image.values) value *= value;
+      add(image, 1.0f / kFrames, squares);
+    }
+    Found found;
+    for (std::size_t i = 0; i < sum.values.size(); ++i) {
+      found.noise += std::max(squares.values[i] - sum.values[i] * sum.values[i], 0.0f);
+    }
+    found.noise = std::sqrt(found.noise / static_cast<double>(sum.values.size()));
+    std::vector<double> after;
+    for (int frame = 0; frame < 100; ++frame) {
+      show.render(3);  // the board is gone
+      after.push_back(mean_of_centre(show.read("ao_denoised")));
+    }
+    EXPECT_GT(after.back(), before + 0.02);
+    while (after.back() - after[static_cast<std::size_t>(found.lag)] >
+           0.1 * (after.back() - before)) {
+      ++found.lag;
+    }
+    ++found.lag;
+    std::printf("alpha %g: noise %.5f, %d frames\n", static_cast<double>(alpha), found.noise,
+                found.lag);
+    return found;
+  };
+  const Found fifth = look(0.2f), twentieth = look(DenoiseConstants().scalar_alpha);
+  EXPECT_LT(twentieth.noise, 0.65 * fifth.noise);
+  EXPECT_NEAR(fifth.lag, 11, 3);
+  EXPECT_NEAR(twentieth.lag, 45, 12);
+}
+
 TEST(TemporalGradients, MoreSignalsThanChannelsAreRefused) {
   Scene scene = make_stage();
   Show show(scene, {DenoiseMethod::kAdaptiveSvgf, "embree", {"ao"}});

@@ -12,6 +12,7 @@ namespace kaamos::effects {
 struct FrameParts {
   const rtapi::Texture* sun_visibility = nullptr;  ///< 0 to 1
   const rtapi::Texture* ambient = nullptr;         ///< where there is no `indirect`: dims the sky
+  const rtapi::Texture* bent_normal = nullptr;     ///< beside `ambient`: from where the sky is seen
   const rtapi::Texture* local_lights = nullptr;    ///< radiance
   const rtapi::Texture* indirect = nullptr;        ///< irradiance over pi
   const rtapi::Texture* reflection = nullptr;      ///< radiance over the specular albedo

@@ -23,13 +23,15 @@ class OccludedVolumePass : public EffectPass {
   OccludedVolumePass(const Frame& frame, OccludedVolume passes)
       : frame_(frame), passes_(std::move(passes)) {}
   static rtapi::Result<std::unique_ptr<EffectPass>> make(const EffectScope& scope) {
-    auto passes = OccludedVolume::create(scope.device, scope.frame, scope.library(kOccludedVolume),
-                                         scope.library(kOcclusion), scope.library(kOcclusionFilter),
-                                         scope.views);
+    auto passes =
+        OccludedVolume::create(scope.device, scope.frame, scope.library(kOccludedVolume),
+                               scope.library(kOcclusion), scope.library(kOcclusionFilter),
+                               scope.views, scope.settings.get_constants<OccludedVolumeSettings>());
     if (!passes) return passes.error();
     return std::unique_ptr<EffectPass>(
         std::make_unique<OccludedVolumePass>(scope.frame, std::move(*passes)));
   }
+  rtapi::Status begin_frame(const Camera&) override { return passes_.begin_frame(); }
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
     passes_.record(list, frame_, constants, settings.get_constants<OccludedVolumeSettings>());

@@ -25,6 +25,7 @@ class ScreenSpaceAoPass : public EffectPass {
  public:
   ScreenSpaceAoPass(const Frame& frame, ScreenSpaceAo passes)
       : frame_(frame), passes_(std::move(passes)) {}
+  rtapi::Status begin_frame(const Camera&) override { return passes_.begin_frame(); }
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
     passes_.record(list, frame_, constants, settings.constants);
@@ -115,6 +116,18 @@ std::vector<EffectStep> accurate_gtao_steps() {
   return out;
 }
 
+std::vector<EffectStep> gtao_over_frames_steps() {
+  std::vector<EffectStep> out;
+  for (const auto& [label, fresh] : {std::pair("no frames before", 1.0f),
+                                     {"new frames weigh 1/6", 1.0f / 6},
+                                     {"new frames weigh 1/12", 1.0f / 12}}) {
+    GtaoConstants constants = gtao_over_frames();
+    constants.fresh = fresh;
+    out.push_back(step(label, constants));
+  }
+  return out;
+}
+
 std::vector<EffectStep> line_sweep_steps() {
   std::vector<EffectStep> out;
   for (const std::uint32_t count : {4u, 8u, 16u, 32u}) {
@@ -133,14 +146,51 @@ Effect screen_space_row(const char* name, const char* about, const char* layer,
   row.more_libraries = {{kFilter, occlusion_filter_library}};
   row.make = [kind, file = library.file](
                  const EffectScope& scope) -> rtapi::Result<std::unique_ptr<EffectPass>> {
-    auto passes = ScreenSpaceAo::create(scope.device, scope.frame, kind, scope.library(file),
-                                        scope.library(kFilter), scope.views);
+    auto passes =
+        ScreenSpaceAo::create(scope.device, scope.frame, kind, scope.library(file),
+                              scope.library(kFilter), scope.views, scope.settings.constants);
     if (!passes) return passes.error();
     return std::unique_ptr<EffectPass>(
         std::make_unique<ScreenSpaceAoPass>(scope.frame, std::move(*passes)));
   };
   set_constants(row, constants, table);
   row.defaults.radius = kDefaultScreenSpaceRadius;
+  return row;
+}
+
+// Those of a row that only makes visibility.
+SettingTable<GtaoConstants> gtao_settings_without_bend() {
+  return close_settings(gtao_settings(), {"bent-normals"});
+}
+
+Effect gtao_row(const char* name, const char* about, const char* layer,
+                const GtaoConstants& constants, std::vector<EffectStep> steps) {
+  return screen_space_row(name, about, layer, {"occlusion/screen_space_ao/gtao", gtao_library},
+                          ScreenSpaceAoKind::kGtao, constants, gtao_settings_without_bend(),
+                          std::move(steps));
+}
+
+Effect gtao_over_frames_row() {
+  Effect row = gtao_row("gtao-frames", "ground-truth ambient occlusion, few directions over frames",
+                        "gtao_frames", gtao_over_frames(), gtao_over_frames_steps());
+  row.has_history = true;
+  row.misses = fmt::format("{}; for some frames what moves", kOneLayer);
+  return row;
+}
+
+Effect gtao_bent_row() {
+  GtaoConstants constants;
+  constants.bent_normals = 1;
+  std::vector<EffectStep> steps = gtao_steps();
+  for (EffectStep& each : steps) {
+    auto bent = each.settings.get_constants<GtaoConstants>();
+    bent.bent_normals = 1;
+    each.settings.set_constants(bent);
+  }
+  Effect row = gtao_row("gtao-bent", "ground-truth ambient occlusion, sky from where it is open",
+                        "gtao_bent", constants, std::move(steps));
+  row.signals.push_back(
+      {.name = "gtao_bent_normal", .output = 3, .is_sum = false, .part = &FrameParts::bent_normal});
   return row;
 }
 
@@ -173,7 +223,8 @@ Effect uniform_row() {
           .replaced_by = "gi",
           .alternative_to = "ao",
           .constants = describe_constants(uniform_occlusion_settings()),
-          .samples_option = "ao-uniform-samples"};
+          .samples_option = "ao-uniform-samples",
+          .repeats = true};
 }
 
 }  // namespace
@@ -202,7 +253,6 @@ std::vector<Effect> occlusion_alternatives() {
   const EffectLibrary hemisphere = {"occlusion/screen_space_ao/hemisphere_ao",
                                     hemisphere_ao_library};
   const EffectLibrary hbao = {"occlusion/screen_space_ao/hbao", hbao_library};
-  const EffectLibrary gtao = {"occlusion/screen_space_ao/gtao", gtao_library};
   return {
       screen_space_row("crytek-ao", "Crytek's ambient occlusion", "crytek_ao", crytek,
                        ScreenSpaceAoKind::kCrytek, CrytekConstants{}, crytek_settings(),
@@ -216,11 +266,11 @@ std::vector<Effect> occlusion_alternatives() {
                        steps_of_points(HemisphereConstants{})),
       screen_space_row("hbao", "horizon-based ambient occlusion", "hbao", hbao,
                        ScreenSpaceAoKind::kHbao, HbaoConstants{}, hbao_settings(), hbao_steps()),
-      screen_space_row("gtao", "ground-truth ambient occlusion", "gtao", gtao,
-                       ScreenSpaceAoKind::kGtao, GtaoConstants{}, gtao_settings(), gtao_steps()),
-      screen_space_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode",
-                       "gtao_accurate", gtao, ScreenSpaceAoKind::kGtao, accurate_gtao(16, 32),
-                       gtao_settings(), accurate_gtao_steps()),
+      gtao_row("gtao", "ground-truth ambient occlusion", "gtao", GtaoConstants{}, gtao_steps()),
+      gtao_row("gtao-accurate", "ground-truth ambient occlusion, accuracy mode", "gtao_accurate",
+               accurate_gtao(16, 32), accurate_gtao_steps()),
+      gtao_over_frames_row(),
+      gtao_bent_row(),
       line_sweep_row(),
       uniform_row()};
 }

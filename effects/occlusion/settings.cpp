@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "effects/occlusion/settings.h"
 
+#include <utility>
+
 namespace kaamos::effects {
 
 namespace {
 
 constexpr const char* kXeGtao = "XeGTAO 1.30, high quality";
 constexpr const char* kHbao = "Bavoil, Sainz and Dimitrov 2008";
+constexpr const char* kGtao = "Jimenez et al. 2016";
 
 template <class Constants>
 SettingOf<Constants> filter_passes() {
   return count_setting("filter-passes", &Constants::filter_passes, {0, 16}, "",
                        "passes that average neighbours; 0: the noise stays");
+}
+
+// Those of GTAO's paper by which pixels and frames share directions.
+template <class C>
+SettingTable<C> sharing_settings() {
+  return {switch_setting("half-resolution", &C::half_resolution,
+                         "one of each 2 x 2 pixels is looked at; each in turn where frames are "
+                         "averaged",
+                         kGtao),
+          count_setting("rotations", &C::rotations, {0, 64}, "frames",
+                        "after which the directions of 4 x 4 pixels repeat, the paper's 6; 0: not "
+                        "by a tile",
+                        kGtao),
+          number_setting("fresh", &C::fresh, {0, 1}, "",
+                         "least weight of a new frame in the mean over frames; 1: no mean", kGtao)};
 }
 
 }  // namespace
@@ -33,19 +51,21 @@ SettingTable<HemisphereConstants> hemisphere_settings() {
 
 SettingTable<HbaoConstants> hbao_settings() {
   using C = HbaoConstants;
-  return {
-      filter_passes<C>(),
-      count_setting("directions", &C::directions, {1, 1024}, "", "about each pixel", kHbao),
-      count_setting("steps", &C::steps, {1, 1024}, "", "in each direction", kHbao),
-      number_setting("angle-bias", &C::angle_bias, {0, 1.5708}, "rad",
-                     "that horizons must rise above the surface", kHbao),
-      number_setting("strength", &C::strength, {0, 100}, "", "factor on occlusion", kHbao),
-      number_setting("most-pixels", &C::most_pixels, {1, 16384}, "pixels", "that a march is long")};
+  return join_settings(
+      {filter_passes<C>(),
+       count_setting("directions", &C::directions, {1, 1024}, "", "about each pixel", kHbao),
+       count_setting("steps", &C::steps, {1, 1024}, "", "in each direction", kHbao),
+       number_setting("angle-bias", &C::angle_bias, {0, 1.5708}, "rad",
+                      "that horizons must rise above the surface", kHbao),
+       number_setting("strength", &C::strength, {0, 100}, "", "factor on occlusion", kHbao),
+       number_setting("most-pixels", &C::most_pixels, {1, 16384}, "pixels",
+                      "that a march is long")},
+      sharing_settings<C>());
 }
 
 SettingTable<GtaoConstants> gtao_settings() {
   using C = GtaoConstants;
-  return {
+  SettingTable<C> out = {
       filter_passes<C>(),
       count_setting("slices", &C::slices, {1, 1024}, "", "through the view ray of each pixel",
                     kXeGtao),
@@ -70,6 +90,12 @@ SettingTable<GtaoConstants> gtao_settings() {
                      "directions and steps vary from pixel to pixel; off: the same everywhere",
                      kXeGtao),
       number_setting("pull", &C::pull, {0, 1}, "depths", "by which a pixel moves nearer", kXeGtao)};
+  return join_settings(
+      join_settings(std::move(out), sharing_settings<C>()),
+      {switch_setting("multibounce", &C::multibounce,
+                      "occluders reflect light, as much as the surface itself", kGtao),
+       switch_setting("bent-normals", &C::bent_normals, "light comes from the mean open direction",
+                      kGtao)});
 }
 
 SettingTable<LineSweepSettings> line_sweep_settings() {

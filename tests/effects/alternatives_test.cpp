@@ -17,6 +17,7 @@
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/indirect/indirect_diffuse/occluded_volume.h"
 #include "effects/northlight/frame_renderer.h"
+#include "effects/occlusion/screen_space_ao/screen_space_ao.h"
 #include "effects/reflections/planar/planar_reflections.h"
 #include "effects/reflections/screen_space/screen_reflections.h"
 #include "effects/shadows/filtered_shadow_map/filtered_shadow_map.h"
@@ -93,6 +94,8 @@ const std::map<std::string, Change>& lengths() {
       {"screen-sun", screen_shadow},
       {"gi-ray-ao", change<IndirectConstants>([](auto& c, float s) { c.length *= s; })},
       {"gi-screen-ao", change<OccludedVolumeSettings>([](auto& c, float s) { c.radius *= s; })},
+      // No length, but all that GTAO can do.
+      {"gtao-frames", change<GtaoConstants>([](auto& c, float) { c.multibounce = 1; })},
       {"drawn-glass", change<DrawnGlassConstants>([](auto& c, float s) {
          c.rays.reflection_length *= s;
          c.rays.depth_scale /= s;

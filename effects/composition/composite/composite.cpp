@@ -41,7 +41,7 @@ void CompositePass::dispatch(rtapi::CommandList& list, const Frame& frame,
 }
 
 // As in the shader, which heeds it without reflections only.
-static constexpr std::uint32_t kIsMatte = 32;
+static constexpr std::uint32_t kIsMatte = 32, kHasBentNormal = 64, kBentNormalRegister = 7;
 
 rtapi::Result<ComposePass> ComposePass::create(const rtapi::Device& device, const Frame& frame,
                                                const rtapi::ShaderLibrary& library,
@@ -62,6 +62,11 @@ rtapi::Result<ComposePass> ComposePass::create(const rtapi::Device& device, cons
     if (const auto s = out.views_.set_unordered_access(i, *pictures[i]); !s) return s.error();
   }
   if (parts.is_matte) out.has_ |= kIsMatte;
+  if (parts.bent_normal != nullptr) {
+    out.has_ |= kHasBentNormal;
+    const auto s = out.views_.set_unordered_access(kBentNormalRegister, *parts.bent_normal);
+    if (!s) return s.error();
+  }
   return out;
 }
 

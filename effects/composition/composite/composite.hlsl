@@ -55,6 +55,7 @@ RWTexture2D<float4> ambient : register(u1, space3);       // ambient visibility
 RWTexture2D<float4> local_lights : register(u2, space3);  // radiance
 RWTexture2D<float4> indirect : register(u3, space3);      // irradiance / pi
 RWTexture2D<float4> reflection : register(u4, space3);    // radiance / ReflectionScale
+RWTexture2D<float4> bent_normal : register(u7, space3);   // from where the sky is seen
 
 static const uint kHasSun = 1;
 static const uint kHasAmbient = 2;
@@ -62,6 +63,7 @@ static const uint kHasLocalLights = 4;
 static const uint kHasIndirect = 8;
 static const uint kHasReflections = 16;
 static const uint kIsMatte = 32;
+static const uint kHasBentNormal = 64;
 
 struct ComposeConstants {
   uint has;
@@ -99,8 +101,9 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   if ((compose.has & kHasIndirect) != 0) {
     around = indirect[pixel].rgb;
   } else {
-    const float open = (compose.has & kHasAmbient) != 0 ? ambient[pixel].x : 1.0;
-    around = SkyAround(normal) * open;
+    const float3 from = (compose.has & kHasBentNormal) != 0 ? bent_normal[pixel].xyz : normal;
+    around = SkyAround(from);
+    if ((compose.has & kHasAmbient) != 0) around *= ambient[pixel].rgb;
   }
   sum += view.diffuse * around;
   if ((compose.has & kHasReflections) != 0) {

@@ -89,9 +89,10 @@ struct Stage : FrameStage {
     PassViews views = frame.create_pass_views(device).value();
     views.set_unordered_access(0, picture).value();
     gpu_volume.bind(views).value();
-    const OccludedVolume passes =
+    OccludedVolume passes =
         OccludedVolume::create(device, frame, occluded_volume_library().value(),
-                               gtao_library().value(), occlusion_filter_library().value(), views)
+                               gtao_library().value(), occlusion_filter_library().value(), views,
+                               settings)
             .value();
     rtapi::CommandList list = device.CreateCommandList().value();
     passes.record(list, frame, {}, settings);

@@ -28,17 +28,22 @@ rtapi::Result<rtapi::ShaderLibrary> occluded_volume_library();
 class OccludedVolume {
  public:
   /// Makes the passes and their pictures. `views` must hold the result, R32G32B32A32_FLOAT, at
-  /// register u0, and the volume [GpuVolume::bind]; register u1 is set here. It must outlive the
-  /// passes. `library`: of occluded_volume.hlsl; `gtao` and `filter`: those of ScreenSpaceAo.
+  /// register u0, and the volume [GpuVolume::bind]; other registers are set here. It must outlive
+  /// the passes. `settings`: those of record. `library`: of occluded_volume.hlsl; `gtao` and
+  /// `filter`: those of ScreenSpaceAo.
   /// @errors those of ScreenSpaceAo::create and of the device.
   static rtapi::Result<OccludedVolume> create(const rtapi::Device& device, const Frame& frame,
                                               const rtapi::ShaderLibrary& library,
                                               const rtapi::ShaderLibrary& gtao,
-                                              const rtapi::ShaderLibrary& filter, PassViews& views);
+                                              const rtapi::ShaderLibrary& filter, PassViews& views,
+                                              const OccludedVolumeSettings& settings);
+  /// [ScreenSpaceAo::begin_frame]
+  /// @errors those of PassViews::set_unordered_access.
+  rtapi::Status begin_frame() { return occlusion_.begin_frame(); }
 
   /// Records the whole picture, behind the G-buffer: irradiance over pi.
   void record(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
-              const OccludedVolumeSettings& settings) const;
+              const OccludedVolumeSettings& settings);
   /// Bytes of the pictures between the passes.
   std::uint64_t bytes() const;
 
@@ -47,7 +52,7 @@ class OccludedVolume {
 
   PassViews* views_ = nullptr;
   std::unique_ptr<PassViews> occlusion_views_;  // stays where the occlusion's passes look for it
-  rtapi::Texture picture_;
+  rtapi::Texture picture_, bent_;
   ScreenSpaceAo occlusion_;
   ComputePass times_;
 };

@@ -6,6 +6,12 @@
 
 RWTexture2D<float4> indirect : register(u0, space3);   // irradiance / pi
 RWTexture2D<float4> occlusion : register(u1, space3);  // 1: open
+RWTexture2D<float4> bent_normal : register(u2, space3);
+
+struct OccludeConstants {
+  uint bent_normals;  // 1: light is read about the mean open direction
+};
+ConstantBuffer<OccludeConstants> constants : register(b0, space3);
 
 [shader("compute")]
 [numthreads(8, 8, 1)]
@@ -18,7 +24,8 @@ void OccludeVolume(uint3 id : SV_DispatchThreadID) {
     indirect[pixel] = float4(0, 0, 0, 0);
     return;
   }
-  const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
+  float3 normal = OctahedralDecode(g_shading_normal[pixel]);
+  if (constants.bent_normals != 0) normal = bent_normal[pixel].xyz;
   const float3 light = VolumeIrradianceAt(g_position[pixel].xyz, kEveryCell, normal);
-  indirect[pixel] = float4(light * occlusion[pixel].x, 0.0);
+  indirect[pixel] = float4(light * occlusion[pixel].rgb, 0.0);
 }

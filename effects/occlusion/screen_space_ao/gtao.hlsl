@@ -21,6 +21,11 @@ struct GtaoConstants {
   float normal_flattening;  // part by which slices that the normal leaves are made up for
   uint noise;               // 0: the same directions and steps everywhere
   float pull;               // part of its depth by which a pixel moves nearer
+  uint half_resolution;     // 1: one of each 2 x 2 pixels is looked at
+  uint rotations;           // frames after which the directions of a tile repeat; 0: XeGTAO's noise
+  float fresh;              // least weight of a new frame, by occlusion_filter.hlsl; 1: none before
+  uint multibounce;         // by the same
+  uint bent_normals;        // 1: the mean open direction is found too
 };
 ConstantBuffer<GtaoConstants> gtao : register(b0, space3);
 
@@ -103,10 +108,11 @@ uint HilbertIndex(uint2 pixel) {
 }
 
 // Numbers in 0..1 for the direction and the steps: the R2 sequence along the curve, another part of
-// it in each of 64 frames.
-float2 Noise(int2 pixel) {
+// it in each of 64 frames. Or a small tile's, turned from frame to frame.
+float2 Noise(int2 block) {
   if (gtao.noise == 0) return float2(0.0, 0.5);
-  const uint index = HilbertIndex(uint2(pixel)) + 288u * (frame.frame_index % 64u);
+  if (gtao.rotations != 0) return RotatedNoise(block, gtao.rotations);
+  const uint index = HilbertIndex(uint2(block)) + 288u * (frame.frame_index % 64u);
   return frac(0.5 + float(index) * float2(0.75487766624669276, 0.569840290998));
 }
 
@@ -127,13 +133,16 @@ float RaisedHorizon(float cosine, float low, int2 pixel, uint level, float3 cent
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void GroundTruthOcclusion(uint3 id : SV_DispatchThreadID) {
-  const int2 pixel = int2(id.xy);
+  const int2 block = int2(id.xy);
   const int2 size = PictureSize();
-  if (!IsInside(pixel, size)) return;
+  const int step_pixels = gtao.half_resolution != 0 ? 2 : 1;
+  if (!IsInside(block, Blocks(size, step_pixels))) return;
+  const int2 pixel = PixelOfBlock(block, step_pixels, gtao.fresh < 1.0, size);
   const float view_z = g_view_z[pixel];
   const float radius = Radius() * gtao.radius_multiplier;
   if (!IsSurface(view_z) || !(radius > 0.0)) {
     raw[pixel] = 1.0;
+    if (gtao.bent_normals != 0) raw_bent[pixel] = float4(0, 0, 0, 0);
     return;
   }
   // A little nearer, so that rounding does not make a surface occlude itself.
@@ -141,10 +150,11 @@ void GroundTruthOcclusion(uint3 id : SV_DispatchThreadID) {
   const float3 to_camera = ToCamera(centre);
   const float3 normal = ViewNormal(g_shading_normal[pixel], to_camera);
   const ViewBasis basis = MakeViewBasis(to_camera);
-  const float2 noise = Noise(pixel);
+  const float2 noise = Noise(block);
   const uint slices = max(gtao.slices, 1u);
   const float most_pixels = length(float2(size));
   float visibility = 0.0;
+  float3 bent = float3(0, 0, 0);
   for (uint slice = 0; slice < slices; ++slice) {
     const float phi = 0.5 * kTwoPi * (float(slice) + noise.x) / float(slices);
     const float3 direction = cos(phi) * basis.right + sin(phi) * basis.up;
@@ -169,9 +179,15 @@ void GroundTruthOcclusion(uint3 id : SV_DispatchThreadID) {
       cosine1 = RaisedHorizon(cosine1, low1, pixel + step, uint(level), centre, to_camera, radius, size);
     }
     const float weight = lerp(projected.length, 1.0, gtao.normal_flattening);
-    visibility += weight * SliceVisibility(-SafeAcos(cosine0), SafeAcos(cosine1), projected.gamma);
+    const float h0 = -SafeAcos(cosine0);
+    const float h1 = SafeAcos(cosine1);
+    visibility += weight * SliceVisibility(h0, h1, projected.gamma);
+    if (gtao.bent_normals == 0) continue;
+    const float2 bend = weight * SliceBend(h0, h1, projected.gamma);
+    bent += bend.x * direction + bend.y * to_camera;
   }
   // On an open plane that is seen aslant one slice is above 1 and another below: only their mean is
   // a visibility. What is done to that is done behind the filter.
   raw[pixel] = visibility / float(slices);
+  if (gtao.bent_normals != 0) raw_bent[pixel] = float4(bent / float(slices), 0.0);
 }

@@ -13,6 +13,9 @@ struct HbaoConstants {
   float angle_bias;  // radians that the horizon must rise above the surface
   float strength;
   float most_pixels;  // that a march is long
+  uint half_resolution;  // 1: one of each 2 x 2 pixels is looked at
+  uint rotations;        // frames after which the directions repeat; 0: the same in each
+  float fresh;           // least weight of a new frame, by occlusion_filter.hlsl; 1: none before
 };
 ConstantBuffer<HbaoConstants> hbao : register(b0, space3);
 
@@ -50,9 +53,11 @@ float HorizonOcclusion(int2 pixel, float3 centre, float3 normal, float3 directio
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void HorizonBasedOcclusion(uint3 id : SV_DispatchThreadID) {
-  const int2 pixel = int2(id.xy);
+  const int2 block = int2(id.xy);
   const int2 size = PictureSize();
-  if (!IsInside(pixel, size)) return;
+  const int step_pixels = hbao.half_resolution != 0 ? 2 : 1;
+  if (!IsInside(block, Blocks(size, step_pixels))) return;
+  const int2 pixel = PixelOfBlock(block, step_pixels, hbao.fresh < 1.0, size);
   const float view_z = g_view_z[pixel];
   if (!IsSurface(view_z) || !(Radius() > 0.0)) {
     raw[pixel] = 1.0;
@@ -62,7 +67,7 @@ void HorizonBasedOcclusion(uint3 id : SV_DispatchThreadID) {
   const float3 to_camera = ToCamera(centre);
   const float3 normal = ViewNormal(g_normal[pixel], to_camera);
   const ViewBasis basis = MakeViewBasis(to_camera);
-  const float2 noise = TileNoise(pixel);
+  const float2 noise = RotatedNoise(block, hbao.rotations);
   const uint count = max(hbao.directions, 1u);
   float occlusion = 0.0;
   for (uint i = 0; i < count; ++i) {

@@ -39,6 +39,7 @@ class HeightField {
     desc.height = height;
     frame_ = Frame::create(device_, scene_, gpu_, camera, desc).value();
     result_ = frame_.create_picture(device_, "result", rtapi::Format::kR32G32B32A32Float).value();
+    bent_ = frame_.create_picture(device_, "bent", rtapi::Format::kR32G32B32A32Float).value();
   }
 
   HeightField(const HeightField&) = delete;  // its passes point into it
@@ -66,21 +67,50 @@ class HeightField {
     upload(kShadingNormal, std::as_bytes(std::span(normals)));
   }
 
+  /// Grey, no metal: the same for all pixels, as the picture of colours holds it.
+  void paint(std::uint8_t encoded) {
+    const std::vector<std::uint8_t> colors(std::size_t{4} * width_ * height_, encoded);
+    rtapi::UploadTexture(device_, queue_, frame_.texture(kBaseColor), 0,
+                         std::as_bytes(std::span(colors)))
+        .value();
+  }
+  /// Goes on to a frame of the sequence; the camera is at rest.
+  void set_frame(std::uint32_t index) {
+    const Camera& camera = scene_.cameras.front();
+    frame_.set_camera(device_, scene_, camera, {.index = index, .previous_camera = camera}).value();
+  }
+  /// The next run has no frames before.
+  void forget(ScreenSpaceAoKind kind) { techniques_[static_cast<std::size_t>(kind)] = {}; }
+
   /// Visibility by one technique.
   template <class Constants>
   FloatImage run(ScreenSpaceAoKind kind, const Constants& constants, float radius) {
+    return first_channel(run_colored(kind, constants, radius));
+  }
+  /// The bent normals of the run before; 4 channels, in world space.
+  FloatImage bent() { return read_picture(device_, queue_, bent_).value(); }
+  /// As run writes it, 4 channels.
+  template <class Constants>
+  FloatImage run_colored(ScreenSpaceAoKind kind, const Constants& constants, float radius) {
     Technique& technique = techniques_[static_cast<std::size_t>(kind)];
-    if (!technique.passes) {
+    std::uint32_t pictures = 0;
+    if constexpr (requires { constants.fresh; }) pictures += constants.fresh < 1 ? 1 : 0;
+    if constexpr (requires { constants.bent_normals; }) pictures += 2 * constants.bent_normals;
+    if (!technique.passes || technique.pictures != pictures) {
       using Load = rtapi::Result<rtapi::ShaderLibrary> (*)();
       constexpr Load kLibraries[] = {crytek_ao_library, hemisphere_ao_library, hbao_library,
                                      gtao_library};
+      technique.pictures = pictures;
       technique.views = make_views();
+      technique.views.set_unordered_access(3, bent_).value();
       technique.passes = ScreenSpaceAo::create(device_, frame_, kind,
                                                kLibraries[static_cast<std::size_t>(kind)]().value(),
-                                               occlusion_filter_library().value(), technique.views)
+                                               occlusion_filter_library().value(), technique.views,
+                                               PassArguments(technique.views, constants).words)
                              .value();
     }
     const auto words = PassArguments(technique.views, constants).words;
+    technique.passes->begin_frame().value();
     return execute([&](rtapi::CommandList& list) {
       technique.passes->record(list, frame_, {.radius = radius}, words);
     });
@@ -92,9 +122,9 @@ class HeightField {
       lines_ = LineSweepAo::create(device_, frame_, line_sweep_ao_library().value(), line_views_)
                    .value();
     }
-    return execute([&](rtapi::CommandList& list) {
+    return first_channel(execute([&](rtapi::CommandList& list) {
       lines_->record(list, frame_, {.radius = radius}, settings);
-    });
+    }));
   }
 
  private:
@@ -107,7 +137,9 @@ class HeightField {
     rtapi::CommandList list = device_.CreateCommandList().value();
     record(list);
     queue_.ExecuteAndWait(list).value();
-    const FloatImage picture = read_picture(device_, queue_, result_).value();
+    return read_picture(device_, queue_, result_).value();
+  }
+  FloatImage first_channel(const FloatImage& picture) const {
     FloatImage out(width_, height_, 1);
     for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = picture.values[4 * i];
     return out;
@@ -119,10 +151,11 @@ class HeightField {
   rtapi::CommandQueue queue_;
   GpuScene gpu_;
   Frame frame_;
-  rtapi::Texture result_;
+  rtapi::Texture result_, bent_;
   struct Technique {
     PassViews views;
     std::optional<ScreenSpaceAo> passes;
+    std::uint32_t pictures = 0;  // which of those that only some constants need
   };
   std::array<Technique, 4> techniques_;
   PassViews line_views_;

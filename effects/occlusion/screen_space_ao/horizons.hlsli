@@ -24,6 +24,39 @@ float SliceVisibility(float h0, float h1, float gamma) {
   return ArcVisibility(low, gamma) + ArcVisibility(high, gamma);
 }
 
+// The integral of ArcVisibility's weight times the direction, for bent normals: along the slice's
+// direction, and along that to the camera.
+float2 ArcBend(float h, float gamma) {
+  const float third = sin(3.0f * h - gamma) + sin(gamma);
+  const float along = 0.5f * (sin(h - gamma) + sin(gamma)) -
+                      0.25f * (third / 3.0f + sin(h + gamma) - sin(gamma));
+  const float towards = 0.25f * ((cos(gamma) - cos(3.0f * h - gamma)) / 3.0f + cos(gamma) -
+                                 cos(h + gamma));
+  return float2(along, towards);
+}
+
+// The same for both parts, as SliceVisibility.
+float2 SliceBend(float h0, float h1, float gamma) {
+  const float low = max(h0, gamma - kHalfPi);
+  const float high = min(h1, gamma + kHalfPi);
+  return ArcBend(low, gamma) + ArcBend(high, gamma);
+}
+
+float WithBounces(float visibility, float albedo) {
+  const float a = 2.0404f * albedo - 0.3324f;
+  const float b = -4.7951f * albedo + 0.6417f;
+  const float c = 2.7552f * albedo + 0.6903f;
+  const float lit = ((visibility * a + b) * visibility + c) * visibility;
+  return min(max(visibility, lit), 1.0f);
+}
+
+// Visibility and the light that occluders reflect, if they are as bright as the surface itself:
+// a cubic that was fitted to traced scenes. [Jimenez et al. 2016]
+float3 MultiBounce(float visibility, float3 albedo) {
+  return float3(WithBounces(visibility, albedo.x), WithBounces(visibility, albedo.y),
+                WithBounces(visibility, albedo.z));
+}
+
 // A normal as a slice sees it.
 struct SliceNormal {
   float length;  // of its projection into the slice

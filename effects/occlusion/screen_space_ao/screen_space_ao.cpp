@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "effects/engine/picture.h"
 
@@ -23,15 +24,62 @@ constexpr std::uint32_t kFirstLevel = 8;
 
 // Mirrors FilterConstants of occlusion_filter.hlsl.
 struct FilterConstants {
-  std::int32_t before;
-  std::int32_t behind;
-  std::uint32_t edge_aware;
-  std::uint32_t from;
-  std::uint32_t to;
+  std::int32_t before = 0;
+  std::int32_t behind = 0;
+  std::uint32_t edge_aware = 1;
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
   float power = 1;
   float least = 0;
+  std::int32_t step = 1;
+  std::uint32_t takes_turns = 0;
+  std::uint32_t multibounce = 0;
+  std::uint32_t bent = 0;
+  float fresh = 1;
+  std::uint32_t has_history = 0;
 };
 constexpr std::uint32_t kToResult = 2;
+
+// The registers of pictures that only some constants need.
+constexpr std::uint32_t kRawBent = 14, kFilteredBent = 15, kBefore = 6, kNow = 7, kBentBefore = 12,
+                        kBentNow = 13;
+
+template <class Constants>
+Constants constants_of(const std::array<std::uint32_t, kPassWords>& words) {
+  Constants out;
+  static_assert(sizeof out <= sizeof words);
+  std::memcpy(static_cast<void*>(&out), words.data(), sizeof out);
+  return out;
+}
+
+// What follows the search for occluders, by the technique's constants.
+FilterConstants filter_constants(ScreenSpaceAoKind kind,
+                                 const std::array<std::uint32_t, kPassWords>& words) {
+  FilterConstants out;
+  bool is_tile = true;  // of noise, 4 x 4 pixels
+  bool is_half = false;
+  if (kind == ScreenSpaceAoKind::kGtao) {
+    const auto gtao = constants_of<GtaoConstants>(words);
+    is_tile = gtao.rotations > 0;
+    is_half = gtao.half_resolution != 0;
+    out.power = gtao.final_power;
+    out.least = gtao.least;
+    out.multibounce = gtao.multibounce;
+    out.bent = gtao.bent_normals;
+    out.fresh = gtao.fresh;
+  }
+  if (kind == ScreenSpaceAoKind::kHbao) {
+    const auto hbao = constants_of<HbaoConstants>(words);
+    is_half = hbao.half_resolution != 0;
+    out.fresh = hbao.fresh;
+  }
+  out.step = is_half ? 2 : 1;
+  out.takes_turns = out.fresh < 1 ? 1 : 0;
+  const std::uint32_t passes = words[0];
+  out.before = passes == 0 ? 0 : 2;
+  out.behind = passes == 0 ? 0 : is_tile ? 1 : 2;
+  return out;
+}
 
 const char* entry_point(ScreenSpaceAoKind kind) {
   switch (kind) {
@@ -66,6 +114,16 @@ GtaoConstants accurate_gtao(std::uint32_t slices, std::uint32_t steps) {
   return constants;
 }
 
+GtaoConstants gtao_over_frames() {
+  GtaoConstants constants;
+  constants.slices = 1;
+  constants.steps = 6;
+  constants.half_resolution = 1;
+  constants.rotations = 6;
+  constants.fresh = 1.0f / 6;
+  return constants;
+}
+
 rtapi::Result<rtapi::ShaderLibrary> crytek_ao_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_crytek_ao());
 }
@@ -82,32 +140,84 @@ rtapi::Result<rtapi::ShaderLibrary> occlusion_filter_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_occlusion_filter());
 }
 
-rtapi::Result<ScreenSpaceAo> ScreenSpaceAo::create(const rtapi::Device& device, const Frame& frame,
-                                                   ScreenSpaceAoKind kind,
-                                                   const rtapi::ShaderLibrary& technique,
-                                                   const rtapi::ShaderLibrary& filter,
-                                                   PassViews& views) {
+rtapi::Result<ScreenSpaceAo> ScreenSpaceAo::create(
+    const rtapi::Device& device, const Frame& frame, ScreenSpaceAoKind kind,
+    const rtapi::ShaderLibrary& technique, const rtapi::ShaderLibrary& filter, PassViews& views,
+    const std::array<std::uint32_t, kPassWords>& words) {
   ScreenSpaceAo out;
   out.kind_ = kind;
   out.views_ = &views;
   const auto pass = ComputePass::create(device, frame, technique, entry_point(kind));
   if (!pass) return pass.error();
   out.technique_ = *pass;
-  const auto filter_pass = ComputePass::create(device, frame, filter, "FilterOcclusion");
-  if (!filter_pass) return filter_pass.error();
-  out.filter_ = *filter_pass;
-  std::uint32_t u = 1;
-  for (rtapi::Texture* picture : {&out.raw_, &out.filtered_}) {
-    const auto created =
-        frame.create_picture(device, "occlusion " + std::to_string(u), rtapi::Format::kR32Float);
-    if (!created) return created.error();
-    *picture = *created;
-    if (const auto s = views.set_unordered_access(u++, *picture); !s) return s.error();
+  for (const auto& [made, name] :
+       {std::pair(&out.filter_, "FilterOcclusion"), std::pair(&out.upscale_, "UpscaleOcclusion"),
+        std::pair(&out.accumulate_, "AccumulateOcclusion")}) {
+    const auto filter_pass = ComputePass::create(device, frame, filter, name);
+    if (!filter_pass) return filter_pass.error();
+    *made = *filter_pass;
   }
+  if (const auto s = out.create_pictures(device, frame, words); !s) return s.error();
   if (kind == ScreenSpaceAoKind::kGtao) {
     if (const auto s = out.create_levels(device, frame, technique); !s) return s.error();
   }
   return out;
+}
+
+rtapi::Status ScreenSpaceAo::create_pictures(const rtapi::Device& device, const Frame& frame,
+                                             const std::array<std::uint32_t, kPassWords>& words) {
+  const FilterConstants constants = filter_constants(kind_, words);
+  const bool is_bent = constants.bent != 0, is_mean = constants.fresh < 1;
+  constexpr auto kScalar = rtapi::Format::kR32Float, kFour = rtapi::Format::kR32G32B32A32Float;
+  struct Picture {
+    rtapi::Texture* texture;
+    const char* name;
+    rtapi::Format format;
+    std::uint32_t u;
+    bool is_wanted;
+  };
+  const Picture pictures[] = {
+      {&raw_, "occlusion 1", kScalar, 1, true},
+      {&filtered_, "occlusion 2", kScalar, 2, true},
+      {&raw_bent_, "bent normals 1", kFour, kRawBent, is_bent},
+      {&filtered_bent_, "bent normals 2", kFour, kFilteredBent, is_bent},
+      {&history_[0], "occlusion history 1", kFour, kNow, is_mean},
+      {&history_[1], "occlusion history 2", kFour, kBefore, is_mean},
+      {&bent_history_[0], "bent normal history 1", kFour, kBentNow, is_mean && is_bent},
+      {&bent_history_[1], "bent normal history 2", kFour, kBentBefore, is_mean && is_bent},
+  };
+  for (const auto& [texture, name, format, u, is_wanted] : pictures) {
+    if (!is_wanted) continue;
+    const auto created = frame.create_picture(device, name, format);
+    if (!created) return created.error();
+    *texture = *created;
+    if (const auto s = views_->set_unordered_access(u, *texture); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status ScreenSpaceAo::bind_history() {
+  struct Binding {
+    std::uint32_t u;
+    const rtapi::Texture* texture;
+  };
+  const Binding bindings[] = {{kNow, &history_[newest_]},
+                              {kBefore, &history_[1 - newest_]},
+                              {kBentNow, &bent_history_[newest_]},
+                              {kBentBefore, &bent_history_[1 - newest_]}};
+  for (const auto& [u, texture] : bindings) {
+    if (!*texture) continue;
+    if (const auto s = views_->set_unordered_access(u, *texture); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status ScreenSpaceAo::begin_frame() {
+  if (!is_recorded_) return {};
+  is_recorded_ = false;
+  has_history_ = true;
+  newest_ = 1 - newest_;
+  return bind_history();
 }
 
 rtapi::Status ScreenSpaceAo::create_levels(const rtapi::Device& device, const Frame& frame,
@@ -131,32 +241,46 @@ rtapi::Status ScreenSpaceAo::create_levels(const rtapi::Device& device, const Fr
 
 void ScreenSpaceAo::record(rtapi::CommandList& list, const Frame& frame,
                            const PassConstants& constants,
-                           const std::array<std::uint32_t, kPassWords>& words) const {
+                           const std::array<std::uint32_t, kPassWords>& words) {
   const PassArguments arguments(*views_, words);
   for (std::size_t i = 0; i < shrink_.size(); ++i) {
     const rtapi::TextureDesc desc = levels_[i].GetDesc();
     shrink_[i].dispatch(list, frame, constants, arguments, static_cast<std::uint32_t>(desc.Width),
                         desc.Height);
   }
-  technique_.dispatch(list, frame, constants, arguments, frame.width(), frame.height());
-  // One pass at least, which reaches no other pixel where none is asked for: it writes the result.
+  FilterConstants filter = filter_constants(kind_, words);
+  filter.has_history = has_history_ ? 1 : 0;
+  const auto step = static_cast<std::uint32_t>(filter.step);
+  const std::uint32_t width = (frame.width() + step - 1) / step;
+  const std::uint32_t height = (frame.height() + step - 1) / step;
+  technique_.dispatch(list, frame, constants, arguments, width, height);
+
+  const bool is_mean = filter.fresh < 1;
+  const auto run = [&](const ComputePass& pass, bool is_last, std::uint32_t w, std::uint32_t h) {
+    filter.to = is_last ? kToResult : 1 - filter.from;
+    pass.dispatch(list, frame, constants, PassArguments(*views_, filter), w, h);
+    filter.from = 1 - filter.from;
+  };
+  const bool is_upscaled = step > 1;
   const std::uint32_t passes = words[0];
-  GtaoConstants gtao{.final_power = 1, .least = 0};
-  if (kind_ == ScreenSpaceAoKind::kGtao)
-    std::memcpy(static_cast<void*>(&gtao), words.data(), sizeof gtao);
-  const bool is_tile = kind_ != ScreenSpaceAoKind::kGtao;  // of noise, 4 x 4 pixels
-  for (std::uint32_t i = 0; i < std::max(passes, 1u); ++i) {
-    FilterConstants filter = {2,         is_tile ? 1 : 2,  1,         i % 2,
-                              1 - i % 2, gtao.final_power, gtao.least};
-    if (passes == 0) filter.before = filter.behind = 0;
-    if (i + 1 >= passes) filter.to = kToResult;
-    filter_.dispatch(list, frame, constants, PassArguments(*views_, filter), frame.width(),
-                     frame.height());
+  // The last pass writes the result. Where it is the filter, it reaches no other pixel if no pass
+  // is asked for.
+  const bool ends_here = !is_upscaled && !is_mean;
+  const std::uint32_t count = ends_here ? std::max(passes, 1u) : passes;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    run(filter_, ends_here && i + 1 == count, width, height);
   }
+  if (is_upscaled) run(upscale_, !is_mean, frame.width(), frame.height());
+  if (is_mean) run(accumulate_, true, frame.width(), frame.height());
+  is_recorded_ = true;
 }
 
 std::uint64_t ScreenSpaceAo::bytes() const {
   std::uint64_t sum = picture_bytes(raw_) + picture_bytes(filtered_);
+  for (const rtapi::Texture* texture : {&raw_bent_, &filtered_bent_, &history_[0], &history_[1],
+                                        &bent_history_[0], &bent_history_[1]}) {
+    if (*texture) sum += picture_bytes(*texture);
+  }
   for (const rtapi::Texture& level : levels_) sum += picture_bytes(level);
   return sum;
 }
