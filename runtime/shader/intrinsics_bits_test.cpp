@@ -50,11 +50,18 @@ TEST(ShaderBitIntrinsics, FloatClassesComeFromBits) {
     EXPECT_EQ(isnan(x), std::isnan(x)) << x;
     EXPECT_EQ(isinf(x), std::isinf(x)) << x;
     EXPECT_EQ(isfinite(x), std::isfinite(x)) << x;
+    EXPECT_EQ(isnormal(x), std::isnormal(x)) << x;
   }
   EXPECT_TRUE(isnan(asfloat(0x7F800001u)));
   EXPECT_TRUE(isnan(half{0xFC01}));
   EXPECT_TRUE(isinf(half{0xFC00}));
   EXPECT_TRUE(isfinite(half{0x7BFF}));
+  EXPECT_TRUE(isnormal(half{0x8400}));
+  EXPECT_FALSE(isnormal(half{0x03FF}));
+  EXPECT_FALSE(isnormal(half{0x7C00}));
+  EXPECT_TRUE(isnormal(std::numeric_limits<double>::min()));
+  EXPECT_FALSE(isnormal(std::numeric_limits<double>::denorm_min()));
+  EXPECT_FALSE(isnormal(0.0));
   EXPECT_TRUE(isnan(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_TRUE(isinf(-std::numeric_limits<double>::infinity()));
   expect_components(isnan(float3{1, kNan, kInf}), {0, 1, 0});

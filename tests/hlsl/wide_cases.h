@@ -206,7 +206,8 @@ float odd(uint x) {
   put(id, 3, saturate(a) + step(a, b));
   put(id, 4, (a < b ? 1u : 0) + (a <= b ? 2u : 0) + (a > b ? 4u : 0) + (a >= b ? 8u : 0) +
                  (a == b ? 16u : 0) + (a != b ? 32u : 0) + (isnan(a) ? 64u : 0) +
-                 (isinf(a) ? 128u : 0) + (isfinite(a) ? 256u : 0) + (bool(a) ? 512u : 0));
+                 (isinf(a) ? 128u : 0) + (isfinite(a) ? 256u : 0) + (bool(a) ? 512u : 0) +
+                 (isnormal(a) ? 1024u : 0));
   put(id, 5, uint(a) ^ uint(int(b)));
   put(id, 6, uint(sign(a) + 1));
   put(id, 7, floor(a) );

@@ -84,6 +84,7 @@ const std::vector<StrictCase>& strict_cases() {
        kernel("uint2 v = results.Load(0);\nv = v @% uint2(1, 0);")},
       {"HeapOfOlderModel", Id::kNeedsModel,
        kernel("ByteAddressBuffer b = @ResourceDescriptorHeap[0];"), "lib_6_5"},
+      {"IsNormalOfOlderModel", Id::kNeedsModel, kernel("bool b = @isnormal(1.0f);"), "lib_6_8"},
       {"AtomicOfOlderModel", Id::kNeedsModel, kernel("results.@InterlockedAdd64(0, 1);"),
        "lib_6_5"},
       {"SampleCmpLevelOfOlderModel", Id::kNeedsModel,

@@ -138,6 +138,12 @@ void add_kind_of_identifier(std::string_view word, KindSet& kinds) {
                         word[word.size() - kind.name.size() - 1] == '_';
     if (word == kind.scalar || vector || suffix) kinds.insert(kind.name);
   }
+  // Their results may go on without a variable, so that no other word names the type.
+  constexpr std::pair<std::string_view, std::string_view> kResults[] = {
+      {"k_asdouble", "f64"}, {"k_asfloat16", "f16"}, {"k_asint16", "i16"}, {"k_asuint16", "u16"}};
+  for (const auto& [function, kind] : kResults) {
+    if (word == function) kinds.insert(kind);
+  }
 }
 
 std::vector<std::string_view> used_names(std::string_view text) {

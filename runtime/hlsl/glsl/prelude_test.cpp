@@ -34,6 +34,8 @@ TEST(GlslPrelude, OverloadsOfRareTypesOnlyWhereTheBodyHasThem) {
   EXPECT_THAT(ordinary, Not(HasSubstr("double ")));
   EXPECT_THAT(glsl_prelude("f16vec3 a; k_add(a, a);").text, HasSubstr("f16vec3 k_add(f16vec3 a"));
   EXPECT_THAT(glsl_prelude("k_add(k_read_f64(w, 0u), x)").text, HasSubstr("double k_add(double a"));
+  EXPECT_THAT(glsl_prelude("k_isnan(k_asdouble(a, b))").text, HasSubstr("bool k_isnan(double x"));
+  EXPECT_THAT(glsl_prelude("k_isnan(k_asfloat16(a))").text, HasSubstr("bool k_isnan(float16_t x"));
 }
 
 TEST(GlslPrelude, ADefinitionStandsBeforeItsUse) {

@@ -56,6 +56,7 @@ KAAMOS_INTRINSIC(frexp_mantissa)
 KAAMOS_INTRINSIC(isfinite)
 KAAMOS_INTRINSIC(isinf)
 KAAMOS_INTRINSIC(isnan)
+KAAMOS_INTRINSIC(isnormal)
 KAAMOS_INTRINSIC(ldexp)
 KAAMOS_INTRINSIC(lerp)
 KAAMOS_INTRINSIC(log)
@@ -199,6 +200,7 @@ Kernel find_component_intrinsic(const ir::Expr& expr) {
     case Intrinsic::isfinite: return floats<isfinite_op>(s);
     case Intrinsic::isinf: return floats<isinf_op>(s);
     case Intrinsic::isnan: return floats<isnan_op>(s);
+    case Intrinsic::isnormal: return floats<isnormal_op>(s);
     case Intrinsic::ldexp: return floats<ldexp_op, 2>(s);
     case Intrinsic::lerp: return floats<lerp_op, 3>(s);
     case Intrinsic::log: return floats<log_op>(s);

@@ -52,6 +52,7 @@ constexpr IntrinsicRule kIntrinsics[] = {
     {"isfinite", I::isfinite, S::kTest, 1},
     {"isinf", I::isinf, S::kTest, 1},
     {"isnan", I::isnan, S::kTest, 1},
+    {"isnormal", I::isnormal, S::kTest, 1},
     {"ldexp", I::ldexp, S::kFloat, 2},
     {"length", I::length, S::kLength, 1},
     {"lerp", I::lerp, S::kFloat, 3},

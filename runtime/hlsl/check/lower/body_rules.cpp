@@ -32,6 +32,7 @@ constexpr Feature kFeatures[] = {
     {"SampleCmpLevel", true, 7},
     {"Barrier", true, 8},
     {"a 64-bit atomic operation", true, 6},
+    {"isnormal", true, 9},
     {"InterlockedAdd64", true, 6},
     {"InterlockedAnd64", true, 6},
     {"InterlockedOr64", true, 6},

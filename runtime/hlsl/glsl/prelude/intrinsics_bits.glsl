@@ -68,6 +68,22 @@ bool k_isinf(double x) {
 }
 //@ k_isfinite f64 each
 bool k_isfinite(double x) { return (unpackDouble2x32(x).y & 0x7FFFFFFFu) < 0x7FF00000u; }
+// Neither zero, denormal, infinite nor NaN. A denormal half is a normal float.
+//@ k_isnormal f32 each
+bool k_isnormal(float x) {
+  uint bits = floatBitsToUint(x) & 0x7FFFFFFFu;
+  return bits >= 0x00800000u && bits < 0x7F800000u;
+}
+//@ k_isnormal f16 each
+bool k_isnormal(float16_t x) {
+  uint bits = floatBitsToUint(float(x)) & 0x7FFFFFFFu;
+  return bits >= 0x38800000u && bits < 0x7F800000u;
+}
+//@ k_isnormal f64 each
+bool k_isnormal(double x) {
+  uint bits = unpackDouble2x32(x).y & 0x7FFFFFFFu;
+  return bits >= 0x00100000u && bits < 0x7FF00000u;
+}
 
 //@ k_countbits i32 u32 any
 $U k_countbits($T x) { return $U(bitCount(x)); }

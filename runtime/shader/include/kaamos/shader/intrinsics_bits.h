@@ -28,6 +28,10 @@ inline constexpr uint64_t kInfinityBits = sizeof(T) == 8   ? 0x7FF0000000000000u
                                           : sizeof(T) == 4 ? 0x7F800000u
                                                            : 0x7C00u;
 template <class T>
+inline constexpr uint64_t kSmallestNormalBits = sizeof(T) == 8   ? 0x0010000000000000u
+                                                : sizeof(T) == 4 ? 0x00800000u
+                                                                 : 0x0400u;
+template <class T>
 KAAMOS_CONSTEXPR uint64_t magnitude_bits(T x) {
   return float_bits(x) & (~uint64_t{0} >> (65 - sizeof(T) * 8));
 }
@@ -47,6 +51,13 @@ struct IsFinite {
   template <class T>
   KAAMOS_CONSTEXPR static bool apply(T x) {
     return magnitude_bits(x) < kInfinityBits<T>;
+  }
+};
+// Neither zero, denormal, infinite nor NaN.
+struct IsNormal {
+  template <class T>
+  KAAMOS_CONSTEXPR static bool apply(T x) {
+    return magnitude_bits(x) < kInfinityBits<T> && magnitude_bits(x) >= kSmallestNormalBits<T>;
   }
 };
 
@@ -164,6 +175,10 @@ KAAMOS_CONSTEXPR with_scalar<V, bool> isinf(const V& x) {
 template <class V>
 KAAMOS_CONSTEXPR with_scalar<V, bool> isfinite(const V& x) {
   return map<op::IsFinite>(x);
+}
+template <class V>
+KAAMOS_CONSTEXPR with_scalar<V, bool> isnormal(const V& x) {
+  return map<op::IsNormal>(x);
 }
 
 template <class V>

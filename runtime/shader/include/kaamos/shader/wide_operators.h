@@ -264,6 +264,8 @@ struct wide_op<op::Reinterpret<To>> : lanewise<op::Reinterpret<To>> {
 KAAMOS_WIDE_UNARY(IsNan, bool, (std::is_same_v<T, float>), simd::magnitude(x) > 0x7F800000)
 KAAMOS_WIDE_UNARY(IsInf, bool, (std::is_same_v<T, float>), simd::magnitude(x) == 0x7F800000)
 KAAMOS_WIDE_UNARY(IsFinite, bool, (std::is_same_v<T, float>), simd::magnitude(x) < 0x7F800000)
+KAAMOS_WIDE_UNARY(IsNormal, bool, (std::is_same_v<T, float>),
+                  (simd::magnitude(x) >= 0x00800000) & (simd::magnitude(x) < 0x7F800000))
 KAAMOS_WIDE_UNARY(Abs, T, simd::is_number<T>, simd::absolute(x))
 KAAMOS_WIDE_UNARY(Sign, int32_t, simd::is_number<T>, (x < R{}) - (x > R{}))
 KAAMOS_WIDE_BINARY(Min, T, simd::is_number<T>, simd::smaller(x, y))
