@@ -641,6 +641,7 @@ inline constexpr ErrorId kPixelOutput{2647};  ///< '{0}' is not an output of pix
 inline constexpr ErrorId kLongSwizzle{2650};  ///< '{1}' has no swizzle '{0}': vectors of over 4 components have none
 inline constexpr ErrorId kLongVectorPlace{2651};  ///< vectors of over 4 components are not supported in {0}, and '{1}' is or has one
 inline constexpr ErrorId kLongVectorArgument{2652};  ///< argument {0} of '{1}' is a '{2}'; it takes vectors of up to 4 components
+inline constexpr ErrorId kPayloadUnqualified{2653};  ///< payload '{0}' needs [raypayload] and access qualifiers in {1}
 inline constexpr ErrorId kTexelIndex{2665};  ///< '{0}' is indexed with a vector of {1} integers, not with '{2}'
 inline constexpr ErrorId kVkIgnored{2666};  ///< '{0}' is ignored: {1}
 inline constexpr ErrorId kRootSignatureAttribute{2667};  ///< [RootSignature] takes one string, not {0}

@@ -357,6 +357,8 @@ const std::vector<Case>& cases() {
        kRayTypes + "[shader(\"raygeneration\")] void R() {\n  RayDesc r = (RayDesc)0;\n"
                    "  Payload p;\n  TraceRay(scene, 0, 255, 0, 0, 0, r, @p);\n}",
        target("lib_6_8")},
+      {"PayloadQualifiersNeeded", Id::kPayloadUnqualified,
+       kRayTypes + "[shader(\"miss\")] void M(inout Payload @p) {}", target("lib_6_9")},
       {"PayloadQualifiersEnabled", Id::kPayloadQualifiers,
        kRayTypes + "[shader(\"miss\")] void M(inout Payload @p) {}", qualifiers("lib_6_6", true)},
       {"PayloadTarget", Id::kPayloadTarget, payload("int a : read() : write();"),
@@ -444,6 +446,16 @@ const std::vector<Case>& cases() {
       {"DuplicateEntry", Id::kDuplicateExport,
        kRayTypes + "[shader(\"miss\")] void M(inout Payload p) {}\n"
                    "[shader(\"raygeneration\")] void @M() {}"},
+      {"LinearAlgebraType", Id::kUnsupported, kernel("@dx::linalg::Matrix<1, 2> m;"),
+       target("lib_6_9")},
+      {"LinearAlgebraNamespace", Id::kUnsupported, kernel("", "using namespace @linalg::inner;"),
+       target("lib_6_9")},
+      {"LinearAlgebraFunction", Id::kUnsupported,
+       kernel("vector<float, 4> v = 0;\n@__builtin_LinAlg_FillMatrix(v, 1);"), target("lib_6_9")},
+      {"NodeShader", Id::kSkippedStage,
+       kernel("", "[@shader(\"node\")] [NodeLaunch(\"thread\")] void N() {}"), target("lib_6_9")},
+      {"NodeShaderFunction", Id::kUnsupported, kernel("@GetRemainingRecursionLevels();"),
+       target("lib_6_9")},
       {"SkippedFunction", Id::kSkipped, kernel("", "void @unused() { undeclared(); }")},
       // Subobjects
       {"SubobjectCount", Id::kSubobjectCount, "RaytracingShaderConfig @c = { 16 };"},

@@ -196,6 +196,12 @@ TEST(Limits, NumberOfInclusions) {
   EXPECT_EQ(many.diagnostics.diagnostics()[0].id, DiagnosticId::kTooMuchSource);
 }
 
+TEST(Includes, OfLinearAlgebraAreNamed) {
+  Preprocessed input("#include <dx/linalg.h>\n");
+  EXPECT_EQ(input.places(), std::vector<std::string>{"main.hlsl:1:2 KA2002"});
+  EXPECT_NE(input.rendered().find("linear algebra, Shader Model 6.10"), std::string::npos);
+}
+
 TEST(Limits, ExpansionSize) {
   std::string laughs = "#define L0(x) x x x x x x x x x x\n";
   for (int i = 1; i < 20; ++i) {

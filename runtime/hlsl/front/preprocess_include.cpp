@@ -122,7 +122,13 @@ void Preprocessor::directive_include(const Token& name) {
   SourceText* text = find_include(*wanted, &searched, &error);
   if (!text) {
     if (error.empty()) {
-      diagnostics_.report(DiagnosticId::kIncludeNotFound, location, {wanted->name, searched});
+      auto message =
+          diagnostics_.report(DiagnosticId::kIncludeNotFound, location, {wanted->name, searched});
+      // A header of DXC's own.
+      if (wanted->name == "dx/linalg.h") {
+        message.note(location,
+                     "it declares linear algebra, Shader Model 6.10, which is not supported");
+      }
     } else {
       diagnostics_.report(DiagnosticId::kIncludeUnreadable, location, {wanted->name, error});
     }

@@ -266,6 +266,11 @@ struct Family {
 constexpr Family kUnsupported[] = {
     {"MaybeReorderThread", "shader execution reordering", true},
     {"ReorderThread", "shader execution reordering", true},
+    {"GetRemainingRecursionLevels", "node shaders", true},
+    {"__builtin_LinAlg_", "linear algebra, Shader Model 6.10", false},
+    {"__builtin_MatVecMul", "linear algebra, Shader Model 6.10", false},
+    {"__builtin_OuterProductAccumulate", "linear algebra, Shader Model 6.10", true},
+    {"__builtin_VectorAccumulate", "linear algebra, Shader Model 6.10", true},
     {"EvaluateAttributeSnapped", "places between pixel centres", true},
     {"GetRenderTargetSample", "pixel shaders", false},
     {"AllocateRayQuery", "the name of an instruction; declare a RayQuery", true},

@@ -124,7 +124,9 @@ void PayloadRules::check_payload_use(const Type* type, SourceLocation location) 
   if (!structure.decl) return;
   if (program_.options->payload_qualifiers) {
     if (!structure.is_payload && program_.options->target != "lib_6_x") {
-      report(CheckId::kPayloadQualifiers, location, {to_string(type), program_.options->target});
+      const bool is_needed = shader_model_minor(program_.options->target) >= 9;
+      report(is_needed ? CheckId::kPayloadUnqualified : CheckId::kPayloadQualifiers, location,
+             {to_string(type), program_.options->target});
     }
   } else if (has_raypayload(structure)) {
     report(CheckId::kPayloadIgnored, structure.decl->location, {to_string(type)});

@@ -12,6 +12,13 @@ constexpr int64_t kMaxArrayElements = 1 << 24;
 constexpr int64_t kAllRayFlags = 0x3FF;
 constexpr int64_t kForceOmm2State = 0x400;
 
+// dx::linalg::Matrix and the like, of which `missing` is not declared.
+bool names_linear_algebra(const QualifiedName& name, const NamePart& missing) {
+  const bool in_dx = name.parts.size() > 1 && name.parts[0].identifier == "dx";
+  return name.parts[in_dx ? 1 : 0].identifier == "linalg" &&
+         (missing.identifier == "linalg" || missing.identifier == "dx");
+}
+
 }  // namespace
 
 bool is_const_type(const TypeSyntax* syntax) {
@@ -468,7 +475,10 @@ Symbol* Resolver::resolve_name(const QualifiedName& name, Scope* scope, bool qui
     symbol = in ? scopes_.find_in_scope(in, part.identifier, in->kind != ScopeKind::kStruct)
                 : scopes_.find(scope, part.identifier);
     if (!symbol) {
-      if (!quiet && !in && part.identifier == "dx" && name.parts.size() > 1) {
+      if (!quiet && names_linear_algebra(name, part)) {
+        report(CheckId::kUnsupported, name.parts[0].location,
+               {"'" + Scopes::spell(name) + "' (linear algebra, Shader Model 6.10)"});
+      } else if (!quiet && !in && part.identifier == "dx" && name.parts.size() > 1) {
         report(CheckId::kNeedsShaderModel, name.parts[0].location, {Scopes::spell(name), "6.9"});
       } else if (!quiet) {
         const std::string where = in && in != global ? " in '" + in->name + "'" : "";
