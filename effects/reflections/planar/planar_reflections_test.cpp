@@ -125,7 +125,11 @@ TEST_P(PlanarReflections, DrawsShowWhatRaysShow) {
     const Planar by_draws = render(GetParam(), room, drawn);
     EXPECT_GT(decibels_on(by_draws.planar, by_rays.planar, by_rays.ids, 1), 50) << roughness;
   }
-  // The hall's rods are thinner than a pixel: rounding decides which of them a draw covers.
+}
+
+// The hall's rods are thinner than a pixel: rounding decides which of them a draw covers.
+TEST_P(PlanarReflections, DrawsShowWhatRaysShowOfThinRods) {
+  const PlanarConstants drawn{.source = PlanarSource::kDraws};
   const Scene hall = make_mirror_hall();
   const FloatImage by_rays = render(GetParam(), hall, {}).planar;
   const FloatImage by_draws = render(GetParam(), hall, drawn).planar;
