@@ -109,7 +109,8 @@ inline constexpr float kMatteRoughness = 0.8f;
 struct EffectNeeds {
   bool sun = false;           ///< the scene has a sun
   bool local_lights = false;  ///< the scene has local lights
-  bool glass = false;         ///< the scene has glass
+  bool glass = false;         ///< the scene has glass, which the effect shows
+  bool panes = false;         ///< the scene has glass, whose shadows the effect shows
   bool glossy = false;        ///< a material is not matte [kMatteRoughness], or the effect is named
   bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
   bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3
@@ -161,6 +162,8 @@ struct Effect {
   /// chosen it takes the other's place in the composition, and the other is left out unless it was
   /// asked for by its name. Empty: none.
   std::string alternative_to = {};
+  /// It is no part of "all": what it adds is no part of the committed references either.
+  bool on_request = false;
   std::string includes = {};  ///< another effect that this one changes and so brings along
   /// Describes EffectSettings::constants, all of them. [describe_constants]
   SettingTable<EffectSettings> constants = {};

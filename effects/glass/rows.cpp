@@ -24,26 +24,45 @@ Effect transparent_row() {
   };
 }
 
+namespace {
+
+// A row by draws, whose signal is called `layer`.
+Effect draws_row(const char* name, const char* about, const char* layer,
+                 const char* transmittance) {
+  Effect row = {.name = name, .about = about};
+  row.library = {"glass/transparent/transparent", transparent_library};
+  row.make = make_drawn_glass;
+  row.more_libraries = {{"glass/drawn_glass/drawn_glass", drawn_glass_library},
+                        {"reflections/environment_map/environment_bake", environment_bake_library}};
+  row.compose = "TransparentCompose";
+  row.signals = {{.name = layer, .is_sum = false, .is_light = true},
+                 {.name = transmittance, .output = 1, .is_sum = false}};
+  row.needs = {.glass = true, .lights = true, .volume = true};
+  row.alternative_to = "transparent";
+  return row;
+}
+
+Effect drawn_glass_row() {
+  Effect row =
+      draws_row("drawn-glass", "glass by draws, the nearest layer with a traced mirror image",
+                "drawn_glass", "drawn_glass_transmittance");
+  set_constants(row, DrawnGlassConstants{}, drawn_glass_settings());
+  row.misses = "reflections behind the first layer; the order of panes that cross";
+  return row;
+}
+
+Effect blended_glass_row() {
+  Effect row = draws_row("blended-glass", "glass by draws, sorted by object", "blended_glass",
+                         "blended_glass_transmittance");
+  set_constants(row, DrawnGlassConstants{.tolerance = -1.0f}, drawn_glass_settings());
+  row.misses = "reflections of what moves and of glass; the order of panes that cross";
+  return row;
+}
+
+}  // namespace
+
 std::vector<Effect> glass_alternatives() {
-  return {
-      {
-          .name = "drawn-glass",
-          .about = "glass by draws, the nearest layer with a traced mirror image",
-          .library = {"glass/transparent/transparent", transparent_library},
-          .make = make_drawn_glass,
-          .more_libraries = {{"glass/drawn_glass/drawn_glass", drawn_glass_library},
-                             {"reflections/environment_map/environment_bake",
-                              environment_bake_library}},
-          .compose = "TransparentCompose",
-          .signals = {{.name = "drawn_glass", .is_sum = false, .is_light = true},
-                      {.name = "drawn_glass_transmittance", .output = 1, .is_sum = false}},
-          .defaults = EffectSettings{}.set_constants(DrawnGlassConstants{}),
-          .needs = {.glass = true, .lights = true, .volume = true},
-          .alternative_to = "transparent",
-          .constants = describe_constants(drawn_glass_settings()),
-          .misses = "reflections behind the first layer; the order of panes that cross",
-      },
-  };
+  return {drawn_glass_row(), blended_glass_row()};
 }
 
 }  // namespace kaamos::effects

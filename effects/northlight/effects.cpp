@@ -17,7 +17,7 @@ namespace {
 std::vector<Effect> make_effects() {
   std::vector<Effect> out = {
       ambient_occlusion_row(), sun_shadow_row(),  local_lights_row(), contact_shadow_row(),
-      indirect_diffuse_row(),  reflections_row(), transparent_row(),
+      indirect_diffuse_row(),  reflections_row(), transparent_row(),  glass_shadow_row(),
   };
   for (const auto alternatives :
        {shadow_alternatives, occlusion_alternatives, indirect_alternatives, reflection_alternatives,

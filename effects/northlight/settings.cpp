@@ -64,7 +64,8 @@ std::map<std::string, EffectSettings> choose_effects(const std::vector<std::stri
       out[name].named = true;
     } else if (name == "all") {
       for (const Effect& each : effects) {
-        if (each.alternative_to.empty()) out.try_emplace(each.name, each.defaults);
+        if (each.on_request || !each.alternative_to.empty()) continue;
+        out.try_emplace(each.name, each.defaults);
       }
     } else {
       out[name] = {};
@@ -101,7 +102,7 @@ bool has_glass(const Scene& scene) {
 }
 
 bool scene_offers(const Scene& scene, const EffectNeeds& needs) {
-  return (!needs.sun || scene.sun) && (!needs.glass || has_glass(scene)) &&
+  return (!needs.sun || scene.sun) && (!(needs.glass || needs.panes) || has_glass(scene)) &&
          (!needs.glossy || has_glossy(scene)) &&
          (!needs.local_lights || count_local_lights(scene) > 0);
 }

@@ -5,6 +5,7 @@
 #define KAAMOS_PATH_HIT_HLSLI
 
 #include "alpha_test.hlsli"
+#include "pane_tint.hlsli"
 #include "path_lights.hlsli"
 
 static const uint kGlassOnly = 0x02;  // [effects/assets/scene/scene.h: InstanceMask]
@@ -98,6 +99,8 @@ void PathTracerClosestHit(inout PathHit payload, in BuiltInTriangleIntersectionA
 
 struct ShadowPayload {
   uint is_free;
+  float tint;      // of PaneTransmittance; negative: of a ray that asks for solid things
+  float3 through;  // what panes let through
 };
 
 [shader("miss")]
@@ -107,6 +110,10 @@ void PathShadowMiss(inout ShadowPayload payload) {
 
 [shader("anyhit")]
 void PathShadowAnyHit(inout ShadowPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (payload.tint >= 0.0) {
+    payload.through *= PaneTransmittance(PaneColorAt(hit.barycentrics), payload.tint);
+    IgnoreHit();
+  }
   if (IsOpenAt(hit.barycentrics)) {
     IgnoreHit();
   }
@@ -120,9 +127,27 @@ bool IsFree(float3 origin, float3 direction, float reach) {
   ray.TMax = reach;
   ShadowPayload payload;
   payload.is_free = 0;
+  payload.tint = -1.0;
+  payload.through = float3(1, 1, 1);
   TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER,
            kMaskWithoutLamps, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
   return payload.is_free != 0;
+}
+
+// What the panes on a way let through, straight on and by colour.
+float3 ThroughPanes(float3 origin, float3 direction, float reach, float tint) {
+  RayDesc ray;
+  ray.Origin = origin;
+  ray.TMin = 0.0;
+  ray.Direction = direction;
+  ray.TMax = reach;
+  ShadowPayload payload;
+  payload.is_free = 0;
+  payload.tint = tint;
+  payload.through = float3(1, 1, 1);
+  TraceRay(scene, RAY_FLAG_SKIP_CLOSEST_HIT_SHADER, kGlassOnly, kRayTypeVisibility, kRayTypeCount,
+           kRayTypeVisibility, ray, payload);
+  return payload.through;
 }
 
 PathHit Follow(float3 origin, float3 direction, float t_min, uint mask, bool is_camera_ray) {

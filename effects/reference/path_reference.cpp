@@ -30,6 +30,11 @@ std::uint32_t channels_of(PathLayer layer) {
 // Raised where a layer's meaning changes, so that older sums are not gone on with.
 constexpr std::uint32_t kLayersVersion = 2;
 
+// Pictures with layers of their own: the tint of the sun's light only where glass casts shadows.
+std::uint32_t layers_of(const PathReferenceDesc& desc) {
+  return desc.paths.glass_tint >= 0.0f ? kPathLayerCount : kPathSunTint;
+}
+
 }  // namespace
 
 std::uint64_t reference_fingerprint(const Scene& scene, const PathReferenceDesc& desc) {
@@ -42,6 +47,7 @@ std::uint64_t reference_fingerprint(const Scene& scene, const PathReferenceDesc&
   checksum.add_value(desc.sun_angular_radius);
   checksum.add_value(desc.ray_cones);
   checksum.add_value(desc.seconds.value_or(-1.0));
+  if (desc.paths.glass_tint >= 0.0f) checksum.add_value(desc.paths.glass_tint);
   return checksum.value();
 }
 
@@ -75,7 +81,7 @@ rtapi::Result<std::unique_ptr<PathReference>> PathReference::create(const rtapi:
   sums.height = desc.height;
   sums.seed = desc.seed;
   sums.fingerprint = reference_fingerprint(scene, desc);
-  for (std::uint32_t i = 0; i < kPathLayerCount; ++i) {
+  for (std::uint32_t i = 0; i < layers_of(desc); ++i) {
     sums.add_layer(path_layer_name(PathLayer(i)), channels_of(PathLayer(i)));
   }
   const std::uint32_t lamps = desc.each_lamp ? out->tracer_->lamps() : 0;
@@ -104,7 +110,8 @@ rtapi::Result<Outcome> PathReference::trace_bands(std::uint32_t half, std::uint3
 
 rtapi::Status PathReference::add_batch(std::uint32_t half, std::uint32_t count) {
   const std::size_t pixels = static_cast<std::size_t>(desc_.width) * desc_.height;
-  for (std::uint32_t i = 0; i < kPathLayerCount; ++i) {
+  const std::uint32_t pictures = layers_of(desc_);
+  for (std::uint32_t i = 0; i < pictures; ++i) {
     const auto image = renderer_->read(tracer_->layer(PathLayer(i)));
     if (!image) return image.error();
     PathSums::Layer& layer = sums_.layers[i];
@@ -114,11 +121,11 @@ rtapi::Status PathReference::add_batch(std::uint32_t half, std::uint32_t count) 
       }
     }
   }
-  if (sums_.layers.size() > kPathLayerCount) {
+  if (sums_.layers.size() > pictures) {
     const auto bytes = rtapi::ReadbackBuffer(device(), renderer_->queue(), tracer_->each_lamp());
     if (!bytes) return bytes.error();
     const auto* values = reinterpret_cast<const float*>(bytes->data());
-    for (std::size_t i = kPathLayerCount; i < sums_.layers.size(); ++i) {
+    for (std::size_t i = pictures; i < sums_.layers.size(); ++i) {
       std::vector<double>& out = sums_.layers[i].sums[half];
       for (double& value : out) value += *values++;
     }

@@ -36,8 +36,8 @@ RayPassDesc path_tracer_pass(rtapi::ShaderLibrary library) {
 
 const char* path_layer_name(PathLayer layer) {
   constexpr const char* kNames[kPathLayerCount] = {
-      "radiance",   "emission", "sun",        "lamps",          "indirect",       "indirect_first",
-      "reflection", "glass",    "visibility", "diffuse_albedo", "specular_albedo"};
+      "radiance",   "emission", "sun",        "lamps",          "indirect",        "indirect_first",
+      "reflection", "glass",    "visibility", "diffuse_albedo", "specular_albedo", "sun_tint"};
   return kNames[layer];
 }
 
@@ -103,6 +103,7 @@ rtapi::Result<PathTracer> PathTracer::create(const rtapi::Device& device, const 
   out.words_.lamps_apart = desc.lamps_apart;
   out.words_.occlusion_radius = desc.occlusion_radius;
   out.words_.ways = desc.ways;
+  out.words_.glass_tint = desc.glass_tint;
   const std::size_t lamps = light_constants(scene, origin).size();
   out.lamps_ = lamps <= desc.lamps_apart ? static_cast<std::uint32_t>(lamps) : 0;
   const auto views = frame.create_pass_views(device);

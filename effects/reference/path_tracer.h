@@ -35,12 +35,16 @@ struct PathTracerDesc {
   /// Up to so many lamps are sampled each where the camera looks, and have layers of their own.
   std::uint32_t lamps_apart = 16;
   PathWays ways = PathWays::kBoth;  ///< how light is found
+  /// Part of its own colour that a pane of glass lets through of light that reaches a surface, 0 to
+  /// 1, as GlassShadowConstants::tint. Negative: glass casts no shadows, and the layer sun_tint is
+  /// white.
+  float glass_tint = -1.0f;
 };
 
 /// PathTracerDesc::bounces of no limit.
 inline constexpr std::uint32_t kUnlimitedBounces = 0xFFFFFFFFu;
 
-/// Pictures of the reference, sums over samples: registers u0 to u10 of space3.
+/// Pictures of the reference, sums over samples: registers u0 to u11 of space3.
 enum PathLayer : std::uint32_t {
   kPathRadiance,    ///< what the camera sees, glass included; a: samples, here and below
   kPathEmission,    ///< emission of what the camera sees, or the sky
@@ -53,6 +57,7 @@ enum PathLayer : std::uint32_t {
   kPathVisibility,  ///< r: ambient visibility up to the radius, g: visible part of the sun's disk
   kPathDiffuseAlbedo,   ///< what the diffuse lobe of the surface in view reflects of even light
   kPathSpecularAlbedo,  ///< the same of the specular lobe
+  kPathSunTint,         ///< what glass lets through of the sun [PathTracerDesc::glass_tint]
   kPathLayerCount
 };
 
@@ -99,6 +104,7 @@ class PathTracer {
     std::uint32_t lamps_apart = 0;
     float occlusion_radius = 0;
     PathWays ways = PathWays::kBoth;
+    float glass_tint = -1.0f;
   };
 
   rtapi::Status create_tables(const rtapi::Device& device, const Scene& scene,

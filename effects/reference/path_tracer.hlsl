@@ -21,9 +21,11 @@ RWTexture2D<float4> path_visibility : register(u8, space3);  // ambient, sun
 // seen.
 RWTexture2D<float4> path_diffuse_albedo : register(u9, space3);
 RWTexture2D<float4> path_specular_albedo : register(u10, space3);
+// What glass lets through of the sun, by colour.
+RWTexture2D<float4> path_sun_tint : register(u11, space3);
 // Radiance of each lamp and its visibility, picture by picture. Empty with more than
 // constants.lamps_apart lamps.
-RWStructuredBuffer<float4> path_each_lamp : register(u11, space3);
+RWStructuredBuffer<float4> path_each_lamp : register(u12, space3);
 
 struct PathConstants {
   uint seed;
@@ -35,6 +37,7 @@ struct PathConstants {
   uint lamps_apart;   // up to so many lamps are all sampled where the camera looks
   float occlusion_radius;  // of ambient visibility, metres
   uint ways;          // PathWays in path_tracer.h
+  float glass_tint;   // of light that passes panes; negative: glass casts no shadows
 };
 ConstantBuffer<PathConstants> constants : register(b0, space3);
 
@@ -96,6 +99,12 @@ Vertex MakeVertex(PathHit hit, float3 view) {
 
 float3 OriginAbove(Vertex vertex) { return vertex.position + vertex.normal * vertex.offset; }
 
+// What panes let through of light on its way to a surface.
+float3 LightThrough(float3 origin, float3 direction, float reach) {
+  if (constants.has_glass == 0 || !(constants.glass_tint >= 0.0)) return float3(1, 1, 1);
+  return ThroughPanes(origin, direction, reach, constants.glass_tint);
+}
+
 // Light of one sampled direction, reflected by both lobes. `is_free`: whether the light is visible.
 Lobes Reflected(Vertex vertex, LightRay light, out bool is_free) {
   is_free = false;
@@ -104,7 +113,10 @@ Lobes Reflected(Vertex vertex, LightRay light, out bool is_free) {
   if (!any(SumOf(value.lobes) * light.value > 0.0)) return NoLobes();
   is_free = !(light.reach > 0.0) || IsFree(OriginAbove(vertex), light.direction, light.reach);
   if (!is_free) return NoLobes();
-  return Scaled(value.lobes, light.value * LightShare(light.density, value.density));
+  const float3 through = light.reach > 0.0
+                             ? LightThrough(OriginAbove(vertex), light.direction, light.reach)
+                             : float3(1, 1, 1);
+  return Scaled(value.lobes, light.value * through * LightShare(light.density, value.density));
 }
 
 // Sum of LampWeight over all lamps.
@@ -317,7 +329,12 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_a
     // A mirror shows the shapes of lamps, as the camera does; all else meets their light.
     const uint mask = next.density == 0.0 ? kMaskSolid : kMaskWithoutLamps;
     const PathHit hit = Follow(OriginAbove(vertex), segment.direction, 0.0, mask, false);
-    const Found found = FindLight(segment, hit);
+    const float3 through = LightThrough(OriginAbove(vertex), segment.direction,
+                                        hit.distance < 0.0 ? kLongestRay : hit.distance);
+    Found found = FindLight(segment, hit);
+    found.sky_or_emission *= through;
+    found.sun *= through;
+    found.lamps *= through;
     float3 gathered = throughput * found.sky_or_emission;
     if (number == 0) {
       light.sun += SumOf(lobes) * found.sun;
@@ -328,6 +345,7 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_a
     light.indirect += lobes.diffuse * gathered;
     light.reflection += lobes.specular * gathered;
     if (number == 1) light.first += lobes.diffuse * gathered;
+    throughput *= through;
     goes_on = hit.distance >= 0.0 && hit.is_unlit == 0 && number < constants.bounces;
     if (goes_on) vertex = MakeVertex(hit, -segment.direction);
     segment.vertex_number = number + 1;
@@ -358,6 +376,14 @@ float SunVisibility(PathSampler sampler, PathHit hit) {
   return IsFree(hit.position + hit.normal * hit.offset, ray.direction, ray.reach) ? 1.0 : 0.0;
 }
 
+// What glass lets through of the same point of the sun; all of it where the triangle faces away.
+float3 SunTint(PathSampler sampler, PathHit hit) {
+  if (constants.has_sun == 0) return float3(1, 1, 1);
+  const LightRay ray = SampleSunDisk(PathRandom(sampler, 0, kPairSun));
+  if (!(dot(ray.direction, hit.normal) > 0.0)) return float3(1, 1, 1);
+  return LightThrough(hit.position + hit.normal * hit.offset, ray.direction, ray.reach);
+}
+
 void ClearEachLamp(uint2 pixel) {
   if (!HasEachLamp()) return;
   uint width, height;
@@ -384,6 +410,7 @@ void PathTracerRayGen() {
   PathLight sum = NoLight();
   float3 whole = float3(0, 0, 0);
   float2 visible = float2(0, 0);
+  float3 sun_tint = float3(0, 0, 0);
   float4 glass = float4(0, 0, 0, 0);
   PathSampler sampler;
   sampler.seed = HashCombine(HashCombine(constants.seed, pixel.x), pixel.y);
@@ -416,7 +443,9 @@ void PathTracerRayGen() {
       }
     }
     float2 visibility = float2(1, 1);
+    float3 tint = float3(1, 1, 1);
     if (first.distance >= 0.0) {
+      tint = SunTint(sampler, first);
       visibility = float2(AmbientVisibility(sampler, first), SunVisibility(sampler, first));
     }
     sum.sun += light.sun;
@@ -425,6 +454,7 @@ void PathTracerRayGen() {
     sum.first += light.first;
     sum.reflection += light.reflection;
     visible += visibility;
+    sun_tint += tint;
     glass += float4(of_glass, Brightness(through));
     whole += (emission + light.all) * through + of_glass;
   }
@@ -438,6 +468,7 @@ void PathTracerRayGen() {
   path_reflection[pixel] = float4(sum.reflection, count);
   path_glass[pixel] = glass;
   path_visibility[pixel] = float4(visible, 0, 0);
+  path_sun_tint[pixel] = float4(sun_tint, count);
   Lobes albedo = NoLobes();
   if (first.distance >= 0.0) albedo = MakeVertex(first, view).bsdf.albedo;
   path_diffuse_albedo[pixel] = float4(albedo.diffuse * count, count);

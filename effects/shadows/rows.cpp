@@ -7,6 +7,8 @@
 
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
+#include "effects/shadows/glass_shadow/glass_shadow.h"
+#include "effects/shadows/glass_shadow/glass_shadow_map.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
 #include "effects/shadows/lamp_shadow/lamp_shadow.h"
 #include "effects/shadows/settings.h"
@@ -183,6 +185,27 @@ Effect sun_hybrid_row() {
   return row;
 }
 
+Effect glass_shadow_map_row() {
+  const auto with = [](std::uint32_t size, std::uint32_t taps) {
+    GlassShadowMapConstants constants;
+    constants.map.size = size;
+    constants.map.taps = taps;
+    return EffectSettings().set_constants(constants);
+  };
+  Effect row = {.name = "glass-shadow-map", .about = "shadows of glass by a map of its colours"};
+  row.library = {"shadows/glass_shadow/glass_shadow_map", glass_shadow_map_library};
+  row.make = make_glass_shadow_map;
+  row.signals = {{.name = "glass_shadow_map", .is_sum = false, .part = &FrameParts::sun_tint}};
+  set_constants(row, GlassShadowMapConstants{}, glass_shadow_map_settings());
+  row.needs = {.sun = true, .panes = true};
+  row.alternative_to = "glass-shadow";
+  row.steps = {{"512 x 512, 1 tap", with(512, 1)},
+               {"1024 x 1024, 4 taps", with(1024, 4)},
+               {"2048 x 2048, 16 taps", with(2048, 16)}};
+  row.misses = "what stands between two panes, which gets the colour of both; wide penumbras";
+  return row;
+}
+
 }  // namespace
 
 Effect sun_shadow_row() {
@@ -202,6 +225,23 @@ Effect sun_shadow_row() {
       .samples_option = "sun-samples",
       .is_plain = true,
       .repeats = true,
+  };
+}
+
+Effect glass_shadow_row() {
+  return {
+      .name = "glass-shadow",
+      .about = "coloured shadows of glass",
+      .library = {"shadows/glass_shadow/glass_shadow", glass_shadow_library},
+      .pass = glass_shadow_pass,
+      .signals = {{.name = "glass_shadow", .part = &FrameParts::sun_tint}},
+      .defaults =
+          EffectSettings{.samples = kDefaultSunSamples}.set_constants(GlassShadowConstants{}),
+      .needs = {.sun = true, .panes = true},
+      .on_request = true,
+      .constants = describe_constants(glass_shadow_settings()),
+      .samples_option = "glass-shadow-samples",
+      .misses = "penumbras of glass and of solid things that overlap: it multiplies their means",
   };
 }
 
@@ -266,6 +306,7 @@ std::vector<Effect> shadow_alternatives() {
       sun_backprojection_row(),
       sun_cascades_row(),
       sun_hybrid_row(),
+      glass_shadow_map_row(),
   };
   for (const auto rows : {filtered_shadow_rows, screen_shadow_rows}) {
     for (Effect& row : rows()) out.push_back(std::move(row));

@@ -11,12 +11,14 @@ namespace kaamos::effects {
 
 /// Shows how much of the sun each surface sees: "sun".
 Effect sun_shadow_row();
+/// Shows the colour that glass gives to the sun's light: "glass-shadow".
+Effect glass_shadow_row();
 /// Shows short shadows of the strongest lights: "contact".
 Effect contact_shadow_row();
 /// Shows how much of one local light each surface sees, by any of LampShadow: "lamp-shadow". No row
 /// of the registry: for measuring.
 Effect lamp_shadow_row();
-/// Lists the alternatives to "sun" and "contact".
+/// Lists the alternatives to "sun", "glass-shadow" and "contact".
 std::vector<Effect> shadow_alternatives();
 
 /// Parts of the alternatives.

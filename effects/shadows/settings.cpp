@@ -11,6 +11,10 @@ constexpr double kAny = 1e9;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr const char* kAdaptive = "Boksansky, Wimmer & Bittner 2019";
 
+constexpr const char* kColored = "McGuire & Enderton 2011";
+constexpr const char* kTint =
+    "part of a pane's own colour that it lets through; 0: grey, as the camera sees through it";
+
 SettingTable<ShadowMapConstants> all_of_map() {
   using C = ShadowMapConstants;
   return {
@@ -70,6 +74,19 @@ SettingTable<HybridShadowConstants> hybrid_shadow_settings() {
       settings_within(&C::map, shadow_map_settings(kShadowMapPcss)),
       {number_setting("soft-from", &C::soft_from, {0, kAny}, "m",
                       "to what casts the shadow, from which the map alone says", "Story 2015")});
+}
+
+SettingTable<GlassShadowConstants> glass_shadow_settings() {
+  return {number_setting("tint", &GlassShadowConstants::tint, {0, 1}, "", kTint, kColored)};
+}
+
+SettingTable<GlassShadowMapConstants> glass_shadow_map_settings() {
+  using C = GlassShadowMapConstants;
+  const SettingTable<ShadowMapConstants> map = close_settings(
+      shadow_map_settings(kShadowMapPcf),
+      {"grid", "survey-rule", "tight", "per-object", "cascades", "blend", "split-share", "reach"});
+  return join_settings(settings_within(&C::map, map),
+                       {number_setting("tint", &C::tint, {0, 1}, "", kTint, kColored)});
 }
 
 SettingTable<FilteredShadowMapConstants> filtered_shadow_map_settings(

@@ -7,6 +7,8 @@
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "effects/shadows/filtered_shadow_map/filtered_shadow_map.h"
+#include "effects/shadows/glass_shadow/glass_shadow.h"
+#include "effects/shadows/glass_shadow/glass_shadow_map.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
 #include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
 #include "effects/shadows/shadow_map/shadow_map.h"
@@ -17,6 +19,7 @@ namespace kaamos::effects {
 ///@{
 SettingTable<ShadowMapConstants> shadow_map_settings(ShadowMapMethod method);
 SettingTable<HybridShadowConstants> hybrid_shadow_settings();
+SettingTable<GlassShadowMapConstants> glass_shadow_map_settings();
 SettingTable<FilteredShadowMapConstants> filtered_shadow_map_settings(
     FilteredShadowMapMethod method);
 ///@}
@@ -24,6 +27,7 @@ SettingTable<FilteredShadowMapConstants> filtered_shadow_map_settings(
 /// By the name of the constants' struct.
 ///@{
 SettingTable<ContactShadowConstants> contact_shadow_settings();
+SettingTable<GlassShadowConstants> glass_shadow_settings();
 SettingTable<ScreenSpaceShadowConstants> screen_space_shadow_settings();
 SettingTable<AdaptiveShadowConstants> adaptive_shadow_settings();
 ///@}

@@ -32,6 +32,9 @@ void add_path_reference(CLI::App& app, Options& options) {
   app.add_option("--time", options.seconds, "of it on the scene's clock, in seconds")
       ->needs(samples)
       ->check(CLI::Range(0.0, 1e6));
+  app.add_flag("--reference-glass-shadows", options.glass_shadows,
+               "glass tints the light that passes it, as glass-shadow does, in all of its layers")
+      ->needs(samples);
   app.add_flag("--reference-lamps", options.each_lamp, "a layer for each local light, up to 16")
       ->needs(samples);
   app.add_flag("--half", options.half, "its file has half floats")->needs(samples);
@@ -135,6 +138,7 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, const Setti
       std::tie(frame.width, frame.height) = default_measure_size(options.measure);
     }
     if (options.measure == "svgf" && app.count("--effects") == 0) choose(options, {"all"});
+    options.glass_shadows = options.glass_shadows || measures_panes(options.measure);
     if (measures_glass(options.measure) && app.count("--scene") == 0) {
       options.scene = "glass-stack";
     }

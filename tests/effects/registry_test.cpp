@@ -168,7 +168,9 @@ TEST(Registry, AnAlternativeTakesTheOthersPlace) {
 TEST(Registry, NamesAreKnownOrRefused) {
   const Scene scene = make_room();
   EXPECT_TRUE(choose_effects({"contact"}).count("local")) << "contact shadows include local lights";
-  const auto is_alternative = [](const Effect& each) { return !each.alternative_to.empty(); };
+  const auto is_alternative = [](const Effect& each) {
+    return each.on_request || !each.alternative_to.empty();
+  };
   EXPECT_EQ(choose_effects({"all"}).size() +
                 static_cast<std::size_t>(std::count_if(northlight_effects().begin(),
                                                        northlight_effects().end(), is_alternative)),

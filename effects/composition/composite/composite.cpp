@@ -41,7 +41,7 @@ void CompositePass::dispatch(rtapi::CommandList& list, const Frame& frame,
 }
 
 // As in the shader, which heeds it without reflections only.
-static constexpr std::uint32_t kIsMatte = 32, kHasBentNormal = 64, kBentNormalRegister = 7;
+static constexpr std::uint32_t kIsMatte = 64, kHasBentNormal = 128, kBentNormalRegister = 7;
 
 rtapi::Result<ComposePass> ComposePass::create(const rtapi::Device& device, const Frame& frame,
                                                const rtapi::ShaderLibrary& library,
@@ -54,8 +54,9 @@ rtapi::Result<ComposePass> ComposePass::create(const rtapi::Device& device, cons
   if (!views) return views.error();
   out.views_ = *views;
   // In the order of the registers and of the shader's bits.
-  const rtapi::Texture* const pictures[] = {parts.sun_visibility, parts.ambient, parts.local_lights,
-                                            parts.indirect, parts.reflection};
+  const rtapi::Texture* const pictures[] = {parts.sun_visibility, parts.ambient,
+                                            parts.local_lights,   parts.indirect,
+                                            parts.reflection,     parts.sun_tint};
   for (std::uint32_t i = 0; i < std::size(pictures); ++i) {
     if (pictures[i] == nullptr) continue;
     out.has_ |= 1u << i;

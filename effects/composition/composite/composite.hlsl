@@ -55,6 +55,7 @@ RWTexture2D<float4> ambient : register(u1, space3);       // ambient visibility
 RWTexture2D<float4> local_lights : register(u2, space3);  // radiance
 RWTexture2D<float4> indirect : register(u3, space3);      // irradiance / pi
 RWTexture2D<float4> reflection : register(u4, space3);    // radiance / ReflectionScale
+RWTexture2D<float4> sun_tint : register(u5, space3);      // what glass lets through, by colour
 RWTexture2D<float4> bent_normal : register(u7, space3);   // from where the sky is seen
 
 static const uint kHasSun = 1;
@@ -62,8 +63,9 @@ static const uint kHasAmbient = 2;
 static const uint kHasLocalLights = 4;
 static const uint kHasIndirect = 8;
 static const uint kHasReflections = 16;
-static const uint kIsMatte = 32;
-static const uint kHasBentNormal = 64;
+static const uint kHasSunTint = 32;
+static const uint kIsMatte = 64;
+static const uint kHasBentNormal = 128;
 
 struct ComposeConstants {
   uint has;
@@ -93,8 +95,9 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   const BrdfView view = MakeBrdfView(brdf, normal, -SeenAlong(g_position[pixel].xyz));
   float3 sum = g_emissive[pixel].rgb;
   if ((compose.has & kHasSun) != 0) {
-    sum += frame.sun_irradiance * sun_visibility[pixel].x *
-           EvaluateBrdf(brdf, view, frame.direction_to_sun);
+    float3 from_sun = frame.sun_irradiance * sun_visibility[pixel].x;
+    if ((compose.has & kHasSunTint) != 0) from_sun *= sun_tint[pixel].rgb;
+    sum += from_sun * EvaluateBrdf(brdf, view, frame.direction_to_sun);
   }
   if ((compose.has & kHasLocalLights) != 0) sum += local_lights[pixel].rgb;
   float3 around;  // mean radiance from all sides

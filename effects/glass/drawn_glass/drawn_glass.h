@@ -19,8 +19,8 @@ enum class DrawnGlassFallback : std::uint32_t {
   kEnvironment,  ///< the environment map
 };
 
-/// Constants b0, space3: mirrors DrawnGlassConstants of drawn_glass.hlsl. The last four words are
-/// the pass's own.
+/// Constants b0, space3: mirrors the first words of DrawnGlassConstants of drawn_layer.hlsli. The
+/// last four words are the pass's own.
 struct DrawnGlassConstants {
   /// The constants of the rays. Counts of layers, weight and scale of a blend are not used.
   TransparentConstants rays;
@@ -37,7 +37,8 @@ static_assert(sizeof(DrawnGlassConstants) == 56);
 
 /// The passes: a ray for each pixel to the nearest glass and on to what that mirrors, draws of all
 /// glass from back to front, and what joins them. Registers u0 and u1 of space3 get what
-/// transparent_pass writes there. EffectNeeds::lights and volume are needed.
+/// transparent_pass writes there, but no depth without rays (`tolerance` below 0).
+/// EffectNeeds::lights and volume are needed.
 /// @errors KA0965 on Vulkan without graphics pipelines; those of EnvironmentMap::create and of
 /// RayPass::create; those of the device, among them KA0990 no memory.
 rtapi::Result<std::unique_ptr<EffectPass>> make_drawn_glass(const EffectScope& scope);

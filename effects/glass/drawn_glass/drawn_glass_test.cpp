@@ -6,74 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "effects/assets/built_in/glass_scenes.h"
 #include "effects/assets/built_in/scene_parts.h"
-#include "effects/northlight/frame_renderer.h"
+#include "effects/glass/drawn_glass/glass_fixture.h"
 #include "effects/reflections/environment_map/probe_places.h"
-#include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
 namespace {
-
-const char* const kDrawn = "drawn-glass";
-
-// One frame with traced and drawn glass, each over the black picture.
-class GlassFrame {
- public:
-  explicit GlassFrame(const Scene& scene, const std::string& backend = "embree",
-                      std::uint32_t width = 48, std::uint32_t height = 27,
-                      DrawnGlassFallback fallback = DrawnGlassFallback::kEnvironment)
-      : scene_(scene) {
-    rtapi::DeviceDesc desc;
-    desc.Backend = backend;
-    desc.OnMessage = [](const rtapi::Message& m) { ADD_FAILURE() << m.Text; };
-    FrameSettings settings;
-    settings.width = width;
-    settings.height = height;
-    settings.effects = choose_effects({"transparent", kDrawn});
-    settings.effects[kDrawn].set_constants(DrawnGlassConstants{.fallback = fallback});
-    for (auto& [name, effect] : settings.effects) effect.keep = true;  // scenes without glass too
-    settings.volume.given = std::make_shared<IndirectVolume>();
-    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
-    renderer->render().value();
-  }
-
-  // Radiance and depth of the first layer.
-  FloatImage traced(std::uint32_t reflecting_layers) {
-    TransparentConstants constants = sorted_reference();
-    constants.reflecting_layers = reflecting_layers;
-    renderer->run("transparent", EffectSettings().set_constants(constants)).value();
-    return renderer->read("glass").value();
-  }
-  FloatImage drawn(const DrawnGlassConstants& constants) {
-    renderer->run(kDrawn, EffectSettings().set_constants(constants)).value();
-    return renderer->read("drawn_glass").value();
-  }
-  FloatImage drawn(DrawnGlassFallback fallback, float tolerance = 1e-4f) {
-    return drawn({.tolerance = tolerance, .fallback = fallback});
-  }
-
-  std::unique_ptr<FrameRenderer> renderer;
-
- private:
-  Scene scene_;
-};
-
-// Root mean square over pixels, relative to the mean of `a`.
-double difference(const FloatImage& a, const FloatImage& b) {
-  double sum = 0, mean = 0;
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    if (i % 4 == 3) continue;
-    sum += std::pow(static_cast<double>(a.values[i]) - b.values[i], 2);
-    mean += a.values[i];
-  }
-  const auto count = static_cast<double>(a.values.size()) * 0.75;
-  return std::sqrt(sum / count) / (mean / count);
-}
 
 // Two panes before a dark wall, and behind the camera a bright one with a dark half, which the
 // panes mirror.
@@ -103,6 +43,53 @@ TEST_P(DrawnGlasses, TheNearestLayerAloneHasATracedMirrorImage) {
   for (std::size_t i = 0; i < missed.values.size(); ++i) {
     if (i % 4 != 3) {
       ASSERT_NEAR(missed.values[i], none.values[i], 1e-5) << i;
+    }
+  }
+}
+
+// Two panes of paint under a sun that shines over the camera's head. A board keeps it off the
+// nearer one, and off the lower half of the farther one.
+Scene half_shaded_panes() {
+  const Pane panes[] = {{.distance = 1.0, .alpha = 0.3f, .base_color = {0.9f, 0.2f, 0.1f}},
+                        {.distance = 1.5, .alpha = 0.6f, .base_color = {0.1f, 0.3f, 0.9f}}};
+  Scene scene = make_pane_oracle(panes, glm::vec3(0.0f));
+  scene.sun = Sun{.direction_to_sun = glm::normalize(glm::vec3(0, 1, 1)), .angular_radius = 0};
+  add_box(scene, "board", {-6, 0.5, 0}, {6, 1.57, 0.05}, 0);
+  return scene;
+}
+
+// Each layer has a ray of its own to the sun: with the nearest one's for all the farther pane would
+// be dark.
+TEST_P(DrawnGlasses, EachLayerSeesTheSunForItself) {
+  GlassFrame frame(half_shaded_panes(), GetParam(), 48, 27, DrawnGlassFallback::kNothing);
+  const FloatImage traced = frame.traced(0);
+  // A layer without a mirror image lets as much through as those of the rays.
+  const FloatImage drawn = frame.drawn(
+      {.rays = {.full_reflection = 0}, .tolerance = -1, .fallback = DrawnGlassFallback::kNothing});
+  EXPECT_GT(traced.at(24, 4, 2), 0.05f) << "above, the sun is on the farther pane";
+  EXPECT_LT(traced.at(24, 22, 2), 1e-3f) << "below, it is on none";
+  EXPECT_LT(difference(traced, drawn), 1e-4);
+}
+
+// Two panes that cross in the middle of the picture. Their boxes have one centre, so that all of
+// the second is drawn over the first. Where it is behind it, the picture is off by the product of
+// both coverages times the difference of both colours, and nowhere else. [Porter & Duff 1984]
+TEST_P(DrawnGlasses, PanesThatCrossAreWrongOnOneSide) {
+  const Pane first = {.distance = 3, .alpha = 0.5f, .emissive = {4, 0, 1}, .turned = 0.5};
+  const Pane second = {.distance = 3, .alpha = 0.25f, .emissive = {0, 2, 8}, .turned = -0.5};
+  const Pane panes[] = {first, second};
+  GlassFrame frame(make_pane_oracle(panes, glm::vec3(0.0f)), GetParam(), 48, 27,
+                   DrawnGlassFallback::kNothing);
+  const FloatImage sorted = frame.traced(0);
+  const FloatImage drawn = frame.drawn(
+      {.rays = {.full_reflection = 0}, .tolerance = -1, .fallback = DrawnGlassFallback::kNothing});
+  for (const std::uint32_t y : {2u, 13u, 24u}) {
+    // The first is nearer on the left.
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const int i = static_cast<int>(c);
+      const float off = first.alpha * second.alpha * (second.emissive[i] - first.emissive[i]);
+      EXPECT_NEAR(drawn.at(4, y, c), sorted.at(4, y, c) + off, 1e-5) << y << " " << c;
+      EXPECT_NEAR(drawn.at(43, y, c), sorted.at(43, y, c), 1e-5) << y << " " << c;
     }
   }
 }

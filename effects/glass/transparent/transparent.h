@@ -16,9 +16,9 @@ namespace kaamos::effects {
 /// too. TransparentCompose of the library, a compute shader that takes the same views and
 /// constants, multiplies the frame's kRadiance with u1 and adds u0.
 RayPassDesc transparent_pass(rtapi::ShaderLibrary library);
-/// The nearest layer alone, for glass that is drawn. Registers of space3, both R32G32B32A32_FLOAT:
-/// u2 radiance that it mirrors and its view depth (metres, 0: no glass); u3 in x whether it sees
-/// the sun (0 or 1). Otherwise as transparent_pass. [effects/glass/drawn_glass]
+/// The nearest layer alone, for glass that is drawn. Register u2 of space3, R32G32B32A32_FLOAT:
+/// radiance that it mirrors and its view depth (metres, 0: no glass). Otherwise as
+/// transparent_pass. [effects/glass/drawn_glass]
 RayPassDesc glass_reflection_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

@@ -9,10 +9,9 @@ RWTexture2D<float4> glass_radiance : register(u0, space3);
 // Transmittance per colour, and the number of layers that were traced one by one.
 RWTexture2D<float4> glass_transmittance : register(u1, space3);
 
-// For glass that is drawn: radiance that the nearest layer mirrors and its view depth (0: no glass);
-// x: whether it sees the sun. [effects/glass/drawn_glass]
+// For glass that is drawn: radiance that the nearest layer mirrors and its view depth (0: no glass).
+// [effects/glass/drawn_glass]
 RWTexture2D<float4> first_mirrored : register(u2, space3);
-RWTexture2D<float4> first_sun : register(u3, space3);
 
 struct TransparentConstants {
   uint reflecting_layers;   // first layers with a mirror ray
@@ -231,14 +230,14 @@ void TransparentClosestHit(inout GlassPayload payload,
     return;
   }
   const float3 direction = normalize(WorldRayDirection());
-  if (SunShines() && dot(surface.normal, frame.direction_to_sun) > 0.0) {
-    payload.sun_visibility = TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
-                                             frame.direction_to_sun, kSunDistance);
-  }
   if (payload.kind == kMirrorOfLayerRay) {
     payload.radiance = Contain(MirrorImage(surface, direction));
     payload.distance = RayTCurrent();
     return;
+  }
+  if (SunShines() && dot(surface.normal, frame.direction_to_sun) > 0.0) {
+    payload.sun_visibility = TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
+                                             frame.direction_to_sun, kSunDistance);
   }
   const float coverage = Coverage(surface.opacity);
   GlassLayer layer = LitLayer(surface, coverage, direction, payload.sun_visibility);
@@ -331,7 +330,6 @@ void GlassReflectionRayGen() {
   TraceRay(scene, RAY_FLAG_NONE, kMaskGlass, kRayTypeSurface, kRayTypeCount, kRayTypeSurface,
            GlassRay(pixel), payload);
   first_mirrored[pixel] = float4(payload.radiance, max(payload.distance, 0.0));
-  first_sun[pixel] = float4(payload.sun_visibility, 0, 0, 0);
 }
 
 // Puts the glass in front of what the pixel holds.

@@ -58,6 +58,8 @@ std::vector<std::string> measured_effects();
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
 // Returns whether an effect is glass, so that only scenes with glass show it.
 bool measures_glass(const std::string& effect);
+// Whether it measures shadows of glass, which the truth has on request.
+bool measures_panes(const std::string& effect);
 // Not for frame and svgf. With options.quick: three settings of each group.
 MeasurePlan measure_plan(const Options& options);
 

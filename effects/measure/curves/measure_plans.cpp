@@ -242,7 +242,12 @@ std::vector<std::string> measured_effects() {
 
 bool measures_glass(const std::string& name) {
   const Effect* effect = find_effect(northlight_effects(), name);
-  return effect != nullptr && effect->needs.glass;
+  return effect != nullptr && (effect->needs.glass || effect->needs.panes);
+}
+
+bool measures_panes(const std::string& name) {
+  const Effect* effect = find_effect(northlight_effects(), name);
+  return effect != nullptr && effect->needs.panes;
 }
 
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect) {

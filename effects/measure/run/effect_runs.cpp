@@ -71,7 +71,8 @@ rtapi::Result<Outcome> EffectRuns::create(const Options& options, const Scene& s
   choose_in_frame(own, effects);
   for (auto& [name, settings] : own.frame.effects) {
     settings.pixel_step = 1;
-    settings.keep = find_effect(northlight_effects(), name)->needs.glass;
+    const EffectNeeds& needs = find_effect(northlight_effects(), name)->needs;
+    settings.keep = needs.glass || needs.panes;
   }
   own.frame.order = RayOrder::kPixels;
   own.frame.max_pass_views = kMostDenoiserViews;

@@ -44,6 +44,7 @@ struct Options {
   std::optional<std::uint32_t> bounces;  // of its paths; none: unlimited
   std::optional<double> seconds;         // of it on the scene's clock; none: as loaded
   bool each_lamp = false;                // it has a layer for each lamp
+  bool glass_shadows = false;            // glass tints the light that passes it, in truth too
   bool half = false;                     // its file has half floats
   double save_seconds = 60;              // between its saves
   bool resume = false;                   // goes on with the one in the folder

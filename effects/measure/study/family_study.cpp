@@ -80,6 +80,7 @@ class PartStudy {
   static Options options_of(const StudyPart& part, const Options& options) {
     Options out = options;
     out.backend = part.backend;
+    out.glass_shadows = measures_panes(part.family.effect);
     const auto shrink = [&](std::uint32_t by) {
       out.frame.width = std::max(options.frame.width / by, 1u);
       out.frame.height = std::max(options.frame.height / by, 1u);
@@ -246,7 +247,8 @@ class PartStudy {
     if (part_.family.effect == "contact" && scene_.lights.empty()) {
       return "the scene has no local light";
     }
-    if (part_.family.effect == "transparent" && !has_glass(scene_)) return "the scene has no glass";
+    if (measures_panes(part_.family.effect) && !scene_.sun) return "the scene has no sun";
+    if (measures_glass(part_.family.effect) && !has_glass(scene_)) return "the scene has no glass";
     if (part_.moves && options_.measure_truth == 0) {
       return "--measure-truth 0 leaves nothing to compare moving pictures with";
     }

@@ -93,13 +93,15 @@ bool belongs_to(const Effect& row, const StudyFamily& family) {
 }  // namespace
 
 const std::vector<StudyFamily>& study_families() {
-  static const std::vector<StudyFamily> families = {{"shadows", "Shadows of the sun", "sun"},
-                                                    {"contact", "Contact shadows", "contact"},
-                                                    {"ao", "Ambient occlusion", "ao"},
-                                                    {"reflections", "Reflections", "reflections"},
-                                                    {"indirect", "Indirect diffuse light", "gi"},
-                                                    {"glass", "Glass", "transparent"},
-                                                    {"denoise", "Denoising", ""}};
+  static const std::vector<StudyFamily> families = {
+      {"shadows", "Shadows of the sun", "sun"},
+      {"contact", "Contact shadows", "contact"},
+      {"ao", "Ambient occlusion", "ao"},
+      {"reflections", "Reflections", "reflections"},
+      {"indirect", "Indirect diffuse light", "gi"},
+      {"glass", "Glass", "transparent"},
+      {"glass-shadows", "Shadows of glass", "glass-shadow"},
+      {"denoise", "Denoising", ""}};
   return families;
 }
 

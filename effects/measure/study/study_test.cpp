@@ -272,6 +272,20 @@ TEST(Study, GlassIsNearerToTheTruthWithMoreLayersThatReflect) {
   expect_explained(results);
 }
 
+TEST(Study, ShadowsOfGlassAreHeldAgainstATruthThatHasThem) {
+  Options options = quick_study("glass-stack", "glass-shadows");
+  options.measure_truth = 64;
+  const auto results = study(find_built_in_scene("glass-stack")->make(), options);
+  const StudyRow& few = row_of(results, "glass-shadows", "glass-shadow/1 ray");
+  const StudyRow& many = row_of(results, "glass-shadows", "glass-shadow/64 rays");
+  const StudyRow& map =
+      row_of(results, "glass-shadows", "glass-shadow-map/2048 x 2048, 16 taps");
+  EXPECT_LT(many.error, 0.7 * few.error);
+  EXPECT_LT(many.error, map.error);
+  EXPECT_NEAR(many.energy, 1, 0.005);
+  expect_explained(results);
+}
+
 TEST(Study, WithoutGlassItsRowsSayWhy) {
   const Options options = quick_study("sealed-cells", "glass");
   const auto results = study(find_built_in_scene("sealed-cells")->make(), options);

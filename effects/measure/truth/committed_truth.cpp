@@ -35,7 +35,7 @@ bool is_same_picture(const Options& options, const ExrFile& file) {
   return image.width == wanted.width && image.height == wanted.height && !options.seconds &&
          attribute(file, "seconds") == "none" && attribute(file, "scene") == options.scene &&
          attribute(file, "bounces") == "unlimited" && !options.bounces &&
-         options.materials.empty() && !options.sun &&
+         options.materials.empty() && !options.sun && !options.glass_shadows &&
          wanted.paths.occlusion_radius ==
              find_effect(northlight_effects(), "ao")->defaults.radius &&
          wanted.ray_cones == made.ray_cones &&

@@ -57,6 +57,14 @@ rtapi::Result<std::optional<Target>> truth_of(EffectRuns& runs, const Setting& s
     return std::optional(channel_of(truth, "visibility", 0));
   }
   if (setting.effect == "sun") return std::optional(channel_of(truth, "visibility", 1));
+  if (setting.effect == "glass-shadow") {
+    // Where the sun is hidden its colour does not count.
+    return std::optional(truth_picture(truth, {"sun_tint", "visibility"}, 3,
+                                       [](std::size_t, const auto& layers, float* out) {
+                                         std::copy_n(layers[0], 3, out);
+                                         return layers[1][1] > 0.0f;
+                                       }));
+  }
   if (setting.lit) {
     return std::optional(
         truth_picture(truth, {"lamps"}, 3, [](std::size_t, const auto& layers, float* out) {

@@ -13,6 +13,7 @@
 #include "effects/assets/image/tonemap.h"
 #include "effects/measure/run/failure.h"
 #include "effects/measure/run/staged_files.h"
+#include "effects/shadows/glass_shadow/glass_shadow.h"
 
 namespace kaamos::measure {
 
@@ -143,6 +144,10 @@ PathReferenceDesc describe_reference(const Options& options) {
   desc.seed = options.frame.seed;
   desc.paths.bounces = options.bounces.value_or(kUnlimitedBounces);
   desc.paths.occlusion_radius = options.effects.at("ao").radius;
+  if (options.glass_shadows) {
+    desc.paths.glass_tint =
+        options.effects.at("glass-shadow").get_constants<GlassShadowConstants>().tint;
+  }
   desc.each_lamp = options.each_lamp;
   desc.sun_angular_radius = options.frame.sun_angular_radius;
   desc.ray_cones = options.frame.ray_cones;

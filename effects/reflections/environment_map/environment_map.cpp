@@ -95,8 +95,9 @@ rtapi::Status execute(const EffectScope& scope,
 }
 
 rtapi::ResourceBarrier to_read(const rtapi::Texture& cubes) {
+  // Pixel shaders read them as well. [effects/glass/drawn_glass]
   return rtapi::ResourceBarrier::Transition(cubes, rtapi::ResourceStates::kUnorderedAccess,
-                                            rtapi::ResourceStates::kNonPixelShaderResource);
+                                            rtapi::ResourceStates::kAllShaderResource);
 }
 
 // Renders the finest level of all cubes.
