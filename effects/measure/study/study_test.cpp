@@ -278,8 +278,7 @@ TEST(Study, ShadowsOfGlassAreHeldAgainstATruthThatHasThem) {
   const auto results = study(find_built_in_scene("glass-stack")->make(), options);
   const StudyRow& few = row_of(results, "glass-shadows", "glass-shadow/1 ray");
   const StudyRow& many = row_of(results, "glass-shadows", "glass-shadow/64 rays");
-  const StudyRow& map =
-      row_of(results, "glass-shadows", "glass-shadow-map/2048 x 2048, 16 taps");
+  const StudyRow& map = row_of(results, "glass-shadows", "glass-shadow-map/2048 x 2048, 16 taps");
   EXPECT_LT(many.error, 0.7 * few.error);
   EXPECT_LT(many.error, map.error);
   EXPECT_NEAR(many.energy, 1, 0.005);
