@@ -165,6 +165,9 @@ struct Effect {
   /// It is no part of "all": what it adds is no part of the committed references either.
   bool on_request = false;
   std::string includes = {};  ///< another effect that this one changes and so brings along
+  /// Its visibility of the strongest lights is whole: their shadow maps do not count besides.
+  /// [EffectNeeds::strongest_lights]
+  bool shadows_alone = false;
   /// Describes EffectSettings::constants, all of them. [describe_constants]
   SettingTable<EffectSettings> constants = {};
   std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed

@@ -44,13 +44,18 @@ rtapi::Result<ComposePass> ComposeStage::create_pass(const FrameParts& parts) co
                              context_.libraries.at("composition/composite/composite"), parts);
 }
 
+rtapi::Status ComposeStage::take_strongest(const ActiveEffect& effect) {
+  if (!effect.row().needs.strongest_lights) return {};
+  return lights_.set_contact(filters_.composed(effect, 0), effect.row().shadows_alone
+                                                               ? ContactCombination::kAlone
+                                                               : context_.settings.contact);
+}
+
 rtapi::Status ComposeStage::create_whole() {
   FrameParts parts;
   for (const auto& effect : effects_.active()) {
     // The last of several stays, because alternatives stand behind what they are alternatives to.
-    if (effect->row().needs.strongest_lights) {
-      if (const auto s = lights_.set_contact(filters_.composed(*effect, 0)); !s) return s;
-    }
+    if (const auto s = take_strongest(*effect); !s) return s;
     for (std::size_t i = 0; i < effect->row().signals.size(); ++i) {
       const EffectSignal& signal = effect->row().signals[i];
       if (signal.part != nullptr) parts.*signal.part = &filters_.composed(*effect, i);

@@ -50,6 +50,10 @@ class ComposeStage {
   /// @errors those of the device; KA3046 a name that is no part of the composition.
   rtapi::Status run_some(const std::vector<std::string>& signals);
 
+  /// The strongest lights have this effect's visibility from now on, unless it is none of theirs.
+  /// @errors those of the device.
+  rtapi::Status take_strongest(const ActiveEffect& effect);
+
   /// Null without antialiasing over frames.
   const TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
   /// The finished picture.

@@ -219,7 +219,7 @@ rtapi::Status LightStage::run() {
 
 void LightStage::record_strongest(rtapi::CommandList& list) const {
   if (leaves_out_strongest_) {
-    direct_->add_strongest(list, context_.frame, context_.settings.contact);
+    direct_->add_strongest(list, context_.frame, combination_);
   }
 }
 

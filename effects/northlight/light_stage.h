@@ -55,9 +55,12 @@ class LightStage {
   /// Records the strongest lights, added with the visibility that was summed up last. Nothing where
   /// main lighting has them already.
   void record_strongest(rtapi::CommandList& list) const;
-  /// Sets that visibility. [DirectLighting::set_contact]
+  /// Sets that visibility, and how their shadow maps count besides. [DirectLighting::set_contact]
   /// @errors those of PassViews::set_unordered_access.
-  rtapi::Status set_contact(const rtapi::Texture& contact) { return direct_->set_contact(contact); }
+  rtapi::Status set_contact(const rtapi::Texture& contact, ContactCombination combination) {
+    combination_ = combination;
+    return direct_->set_contact(contact);
+  }
 
   /// Lists and shadow maps of local lights; who reads them where no effect of the frame does,
   /// updates them. Null: no whole frame, or none before prepare.
@@ -100,6 +103,7 @@ class LightStage {
   std::optional<DirectLighting> direct_;
   bool reads_lights_ = true;  // somebody does in frames: lists and maps, also that of the sun
   bool has_main_ = false, leaves_out_strongest_ = false, has_volume_ = false;
+  ContactCombination combination_ = ContactCombination::kProduct;
   GpuVolume gpu_volume_, no_volume_;
   std::optional<BakeStatistics> bake_;
   std::optional<VolumeOnDemand> on_demand_;

@@ -271,7 +271,7 @@ Effect lamp_shadow_row() {
       .about = "shadow of one local light",
       .library = {"shadows/lamp_shadow/lamp_shadow", lamp_shadow_library},
       .pass = lamp_shadow_pass,
-      .signals = {{.name = "lamp_shadow", .channels = 1, .is_sum = false}},
+      .signals = {{.name = "lamp_shadow", .channels = 1, .output = 1, .is_sum = false}},
       .defaults = EffectSettings().set_constants(LampShadowConstants{}),
       .needs = {.local_lights = true, .lights = true},
   };
@@ -308,7 +308,7 @@ std::vector<Effect> shadow_alternatives() {
       sun_hybrid_row(),
       glass_shadow_map_row(),
   };
-  for (const auto rows : {filtered_shadow_rows, screen_shadow_rows}) {
+  for (const auto rows : {filtered_shadow_rows, screen_shadow_rows, lamp_shadow_rows}) {
     for (Effect& row : rows()) out.push_back(std::move(row));
   }
   return out;

@@ -25,6 +25,7 @@ std::vector<Effect> shadow_alternatives();
 ///@{
 std::vector<Effect> filtered_shadow_rows();  ///< the sun's shadow by maps that are filtered first
 std::vector<Effect> screen_shadow_rows();    ///< short shadows found in the depth picture
+std::vector<Effect> lamp_shadow_rows();      ///< whole shadows of each pixel's strongest lamps
 ///@}
 
 }  // namespace kaamos::effects

@@ -127,6 +127,24 @@ SettingTable<ContactShadowConstants> contact_shadow_settings() {
                      "rays end where penumbras get as wide as a texel of the light's map")};
 }
 
+SettingTable<LampShadowConstants> lamp_shadow_settings(LampShadow method) {
+  using C = LampShadowConstants;
+  const SettingTable<C> table = {
+      closed_setting(&C::light),
+      closed_setting(&C::method),
+      count_setting("taps", &C::taps, {1, 1024}, "", "of the filter"),
+      count_setting("blocker-taps", &C::blocker_taps, {1, 1024}, "",
+                    "of the search for what casts the shadow", "Fernando 2005"),
+      number_setting("near-plane", &C::near_plane, {1e-6, kAny}, "m",
+                     "from the lamp, where the search supposes its map", "Fernando 2005"),
+      number_setting("widest", &C::widest, {0, kAny}, "m", "radius of the filter, at most"),
+      number_setting("soft-from", &C::soft_from, {0, kAny}, "m",
+                     "to what casts the shadow, from which the map alone says", "Story 2015")};
+  if (method == LampShadow::kHybrid) return table;
+  if (method == LampShadow::kMapPcss) return close_settings(table, {"soft-from"});
+  return close_settings(table, {"soft-from", "blocker-taps", "near-plane"});
+}
+
 SettingTable<ScreenSpaceShadowConstants> screen_space_shadow_settings() {
   using C = ScreenSpaceShadowConstants;
   return {number_setting("length", &C::length, {0, kInfinite}, "m",

@@ -10,6 +10,7 @@
 #include "effects/shadows/glass_shadow/glass_shadow.h"
 #include "effects/shadows/glass_shadow/glass_shadow_map.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
+#include "effects/shadows/lamp_shadow/lamp_shadow.h"
 #include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
 #include "effects/shadows/shadow_map/shadow_map.h"
 
@@ -28,6 +29,7 @@ SettingTable<FilteredShadowMapConstants> filtered_shadow_map_settings(
 ///@{
 SettingTable<ContactShadowConstants> contact_shadow_settings();
 SettingTable<GlassShadowConstants> glass_shadow_settings();
+SettingTable<LampShadowConstants> lamp_shadow_settings(LampShadow method);
 SettingTable<ScreenSpaceShadowConstants> screen_space_shadow_settings();
 SettingTable<AdaptiveShadowConstants> adaptive_shadow_settings();
 ///@}

@@ -145,6 +145,7 @@ void apply_measuring(const CLI::App& app, const MeasureWords& words, const Setti
   }
   if (const auto folder = find_effects_folder(); !folder.empty()) {
     options.committed = (folder.parent_path() / "tests/numerics/path_traced").string();
+    options.fronts_folder = (folder / "measure/study/fronts").string();
   }
   if (!words.study.empty()) {
     options.scene = words.study;

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "effects/measure/run/failure.h"
+#include "effects/measure/study/fronts.h"
 #include "options_settings.h"
 
 namespace northlight {
@@ -37,8 +38,9 @@ void add_quality(CLI::App& app, Options& options, QualityWords& words) {
                  "likewise")
       ->excludes(quality);
   app.add_option("--fronts", options.fronts,
-                 "the study.json of --study that they choose from; default: OUT/study.json, or a "
-                 "quick study, which is kept in OUT/study");
+                 "the study.json or fronts.json of --study that they choose from; default: "
+                 "OUT/study.json, or what comes with the source, or a quick study, which is kept "
+                 "in OUT/study");
 }
 
 std::string apply_quality_words(const QualityWords& words, Options& options) {

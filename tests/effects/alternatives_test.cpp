@@ -22,6 +22,7 @@
 #include "effects/reflections/screen_space/screen_reflections.h"
 #include "effects/shadows/filtered_shadow_map/filtered_shadow_map.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
+#include "effects/shadows/lamp_shadow/lamp_shadow.h"
 #include "effects/shadows/screen_space_shadow/screen_space_shadow.h"
 #include "effects/shadows/shadow_map/shadow_map.h"
 #include "room.h"
@@ -67,6 +68,11 @@ const std::map<std::string, Change>& lengths() {
     c.rays.reflection_length *= s;
     c.rays.depth_scale /= s;
   });
+  const Change lamp = change<LampShadowConstants>([](auto& c, float s) {
+    c.near_plane *= s;
+    c.widest *= s;
+    c.soft_from *= s;
+  });
   static const std::map<std::string, Change> all = {
       {"ssr", march},
       {"ssr-metres", march},
@@ -92,6 +98,9 @@ const std::map<std::string, Change>& lengths() {
       {"sun-evsm", map},
       {"sun-convolution", map},
       {"sun-pcss-vsm", map},
+      {"lamp-pcf", lamp},
+      {"lamp-pcss", lamp},
+      {"lamp-hybrid", lamp},
       {"screen-contact", screen_shadow},
       {"screen-contact-multisampled", screen_shadow},
       {"screen-contact-multipass", screen_shadow},

@@ -40,6 +40,7 @@ expect_error 2 'not in range' --sun-angle 400
 expect_error 2 'no place of the sun: give degrees' --sun 30
 expect_error 2 'not in range' --denoise-passes 9
 expect_error 2 'not expected' --no-such-option
+expect_error 2 '--probes: .*found,camera' --probes everywhere
 expect_error 2 'is not a pixel' --pixel 12
 expect_error 2 'outside the picture' --size 64x36 --pixel 64,3
 expect_error 2 '--measure: fog not in .*svgf' --measure fog
@@ -128,6 +129,10 @@ expect_error 2 '"soon" is no time: give milliseconds' --budget soon
 expect_error 2 'fronts requires --quality or --budget' --fronts "$work/fronts.json"
 expect_error 2 'quality and --measure exclude each other' --quality low --measure ao
 expect_error 2 'low,medium,high,ultra' --quality best
+said=$("$northlight" --scene mirror-hall --quality low --size 64x36 --out "$work/tree" 2>&1) || fail "--quality low of the tree's fronts: $said"
+grep -q 'chosen from .*study/fronts/mirror-hall.json' <<< "$said" || fail "--quality low measures what the tree has: $said"
+grep -q 'lamps: .*--effects' <<< "$said" || fail "--quality low chooses no shadows of lamps: $said"
+grep -q 'denoise: .*--denoise' <<< "$said" || fail "--quality low chooses no denoiser: $said"
 expect_error 1 'no study.json of this version' --quality low --size 64x36 --fronts "$work/settings.json"
 
 touch "$work/file"

@@ -10,7 +10,7 @@ namespace {
 // Mirrors DirectConstants of direct.hlsl.
 struct DirectConstants {
   std::uint32_t leave_out_strongest = 0;
-  std::uint32_t by_minimum = 0;
+  std::uint32_t combination = 0;  // ContactCombination
   std::uint32_t by_frustum = 0;
 };
 
@@ -77,7 +77,7 @@ void DirectLighting::dispatch(rtapi::CommandList& list, const Frame& frame,
 
 void DirectLighting::add_strongest(rtapi::CommandList& list, const Frame& frame,
                                    ContactCombination combination) const {
-  const DirectConstants constants = {.by_minimum = static_cast<std::uint32_t>(combination)};
+  const DirectConstants constants = {.combination = static_cast<std::uint32_t>(combination)};
   add_.dispatch(list, frame, {}, PassArguments(views_, constants), frame.width(), frame.height());
 }
 

@@ -21,6 +21,7 @@ rtapi::Result<rtapi::ShaderLibrary> direct_library();
 enum class ContactCombination : std::uint32_t {
   kProduct,  ///< as Control does; where both see the same penumbra, it counts twice
   kMinimum,  ///< the darker of the two; where they see different occluders, one of them counts
+  kAlone,    ///< the shadow map does not count; for visibility that is whole without it
 };
 
 /// The lights that main lighting looks at for a pixel. What it finds is the same. [Northlight deck:

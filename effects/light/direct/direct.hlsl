@@ -12,10 +12,13 @@ static const uint kNoLight = 0xFFFFFF;  // exact when stored as a float
 
 struct DirectConstants {
   uint leave_out_strongest;  // MainLighting
-  uint by_minimum;           // AddStrongest: 0 shadow map times contact shadow, 1 the darker one
+  uint combination;          // AddStrongest: kProduct, kMinimum, kAlone
   uint by_frustum;           // MainLighting: 1 lights_in_view in place of the clusters
 };
 ConstantBuffer<DirectConstants> constants : register(b0, space3);
+
+// Of a light's shadow map and its contact shadow.
+static const uint kProduct = 0, kMinimum = 1, kAlone = 2;
 
 // The lights that reach into the picture: how many, and then their numbers, rising.
 RWStructuredBuffer<uint> lights_in_view : register(u4, space3);
@@ -108,7 +111,8 @@ RWTexture2D<float4> contact : register(u2, space3);  // visibility; r: point lig
 RWTexture2D<float4> total : register(u3, space3);
 
 // Adds the two lights that were left out, with shadow map times contact shadow [Control: section
-// 5.3.1], which counts a penumbra that both see twice, or with the darker of the two.
+// 5.3.1], which counts a penumbra that both see twice, with the darker of the two, or with a shadow
+// that needs no map.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void AddStrongest(uint3 id : SV_DispatchThreadID) {
@@ -126,9 +130,14 @@ void AddStrongest(uint3 id : SV_DispatchThreadID) {
       const uint light = strongest[pixel][kind];
       if (light == kNoLight) continue;
       const float near = contact[pixel][kind];
-      const float far = ShadowMapVisibility(light, lights[light], position, geometric_normal);
       const float3 radiance = LightRadiance(lights[light], brdf, view, position);
-      sum += constants.by_minimum != 0 ? min(near, far) * radiance : near * (radiance * far);
+      if (constants.combination == kAlone) {
+        sum += near * radiance;
+        continue;
+      }
+      const float far = ShadowMapVisibility(light, lights[light], position, geometric_normal);
+      sum += constants.combination == kMinimum ? min(near, far) * radiance
+                                               : near * (radiance * far);
     }
   }
   total[pixel] = float4(sum, 1.0);

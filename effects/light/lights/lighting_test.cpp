@@ -508,17 +508,22 @@ TEST(ContactShadows, ByMinimumCountNoPenumbraTwice) {
   const FloatImage open = total(1, ContactCombination::kMinimum);
   const FloatImage product = total(0.5f, ContactCombination::kProduct);
   const FloatImage minimum = total(0.5f, ContactCombination::kMinimum);
-  int lit = 0, penumbra = 0;
+  // Alone it lights what the map hides, too.
+  const FloatImage alone = total(0.5f, ContactCombination::kAlone);
+  int lit = 0, penumbra = 0, hidden = 0;
   for (std::size_t i = 0; i < all.values.size(); i += 4) {
     ASSERT_NEAR(open.values[i], all.values[i], 1e-6 * all.values[i]);
     ASSERT_NEAR(product.values[i], 0.5f * all.values[i], 1e-6 * all.values[i]);
     ASSERT_LE(minimum.values[i], all.values[i] * 1.000001f);
     ASSERT_GE(minimum.values[i], product.values[i] * 0.999999f);
+    ASSERT_GE(alone.values[i], product.values[i] * 0.999999f);
+    hidden += alone.values[i] > 0 && product.values[i] == 0;
     lit += product.values[i] > 0 && minimum.values[i] == product.values[i];
     penumbra += minimum.values[i] > 1.01f * product.values[i];
   }
   EXPECT_GT(lit, 100);
   EXPECT_GT(penumbra, 5);
+  EXPECT_GT(hidden, 5);
 }
 
 TEST(ContactShadows, StrongestLightsAreNamedByKind) {

@@ -109,6 +109,8 @@ struct MeasuredDenoiser {
   effects::DenoiseDesc desc;
   bool is_step = false;  // of a scale that another one stands for
 };
+// Its technique and its setting as tables have them: "svgf by passes", "3 passes".
+std::pair<std::string, std::string> denoiser_names(const std::string& label);
 // Those of --measure svgf.
 std::vector<MeasuredDenoiser> measured_denoisers();
 // `look_at` gets the last frames of the last seed, with the number of the row in the table.

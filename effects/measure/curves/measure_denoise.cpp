@@ -305,6 +305,12 @@ MeasuredDenoiser svgf_with(const char* label, std::uint32_t passes) {
 
 }  // namespace
 
+std::pair<std::string, std::string> denoiser_names(const std::string& label) {
+  const std::size_t comma = label.find(", ");
+  if (comma == std::string::npos) return {label, "as it is by default"};
+  return {label.substr(0, comma) + " by passes", label.substr(comma + 2)};
+}
+
 std::vector<MeasuredDenoiser> measured_denoisers() {
   std::vector<MeasuredDenoiser> out;
   for (const auto& [label, method] :

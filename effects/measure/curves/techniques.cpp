@@ -33,6 +33,7 @@ std::vector<EffectStep> steps_of(const Effect& row) {
 void match_length(const Setting& reference, Setting& setting) {
   const auto rays = reference.settings.get_constants<ContactShadowConstants>();
   const float length = rays.length;
+  if (find_effect(northlight_effects(), setting.effect)->shadows_alone) return;
   if (setting.effect == reference.effect) {
     setting.change<ContactShadowConstants>([&](auto& constants) { constants = rays; });
   } else {
@@ -50,7 +51,9 @@ void add_technique(const Effect& row, const Options& options, MeasurePlan& plan)
     out.setting.settings = step.settings;
     out.setting.settings.radius = options.effects.at(row.name).radius;
     out.reference = reference.name;
-    if (reference.setting.effect == "contact") match_length(reference.setting, out.setting);
+    out.setting.lit = reference.setting.lit;
+    const bool is_short = reference.setting.effect == "contact" && !reference.setting.lit;
+    if (is_short) match_length(reference.setting, out.setting);
     plan.settings.push_back(out);
   }
 }

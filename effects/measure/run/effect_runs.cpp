@@ -232,7 +232,10 @@ rtapi::Texture EffectRuns::sum(const Setting& setting) const {
   return renderer_->effects().sum(effect->signals.front().name);
 }
 
-rtapi::Result<FloatImage> EffectRuns::read_lit() {
+rtapi::Result<FloatImage> EffectRuns::read_lit(const Setting& setting) {
+  const auto taken =
+      renderer_->composition().take_strongest(*renderer_->effects().find(setting.effect));
+  if (!taken) return taken.error();
   const auto added = renderer_->runner().execute([&](rtapi::CommandList& list) {
     renderer_->filters().record_rest(list);
     renderer_->lights().record_strongest(list);
@@ -244,7 +247,7 @@ rtapi::Result<FloatImage> EffectRuns::read_lit() {
 }
 
 rtapi::Result<FloatImage> EffectRuns::read(const Setting& setting) {
-  if (setting.lit) return read_lit();
+  if (setting.lit) return read_lit(setting);
   if (setting.independent) return mean_;
   const EffectSignal& signal =
       find_effect(renderer_->context().effects, setting.effect)->signals.front();

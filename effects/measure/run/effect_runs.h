@@ -89,7 +89,7 @@ class EffectRuns {
   bool is_glass(const Setting& setting) const;
   rtapi::Status create_background();
   rtapi::Status draw_background();
-  rtapi::Result<effects::FloatImage> read_lit();
+  rtapi::Result<effects::FloatImage> read_lit(const Setting& setting);
   rtapi::Result<effects::RunStatistics> run_independent(const Setting& setting);
   // The picture of a signal with all pixels, of one with a fourth of them; milliseconds.
   rtapi::Result<double> upscale(const effects::EffectSignal& signal, std::uint32_t samples);

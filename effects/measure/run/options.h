@@ -48,8 +48,9 @@ struct Options {
   bool half = false;                     // its file has half floats
   double save_seconds = 60;              // between its saves
   bool resume = false;                   // goes on with the one in the folder
-  std::string committed;  // folder of references that are taken as truth; empty: none
-  std::string measure;    // effect whose error to measure; empty: none
+  std::string committed;      // folder of references that are taken as truth; empty: none
+  std::string fronts_folder;  // of measured fronts of scenes; empty: none
+  std::string measure;        // effect whose error to measure; empty: none
   std::uint32_t measure_reference = 16384;  // samples of its reference
   std::uint32_t measure_truth = 1024;       // samples of the path-traced truth; 0: none
   std::uint32_t repeats = 7;                // runs of each measured setting

@@ -82,8 +82,8 @@ std::string picture_key(const Options& options, const Scene& scene) {
   const auto& [name, materials, sun, backend, precision, checked, threads, frame, effects,
                camera_path, frames_per_second, out, say, profile, split, reference, path_samples,
                bounces, seconds, each_lamp, glass_shadows, half, save_seconds, resume, committed,
-               measure, measure_reference, measure_truth, repeats, cpu_clock, families, rows,
-               command, commit, quick, seeds] = options;
+               fronts_folder, measure, measure_reference, measure_truth, repeats, cpu_clock,
+               families, rows, command, commit, quick, seeds] = options;
   Checksum checksum;
   add_scene(checksum, scene);  // with the materials and the sun that were changed
   checksum.add(name);          // which committed truth is its own

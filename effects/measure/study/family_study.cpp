@@ -15,6 +15,7 @@
 #include "effects/measure/run/picture_key.h"
 #include "effects/measure/study/files.h"
 #include "effects/measure/study/findings.h"
+#include "effects/measure/study/frame_ways.h"
 #include "effects/measure/study/motion.h"
 #include "effects/measure/study/sweep_lag.h"
 
@@ -157,6 +158,7 @@ class PartStudy {
     if (part_.family.name == "sweep-lag-move") {
       return measure_lag_of(LagCause::kMove, progress, results);
     }
+    if (!frame_ways(part_.family.name).empty()) return measure_ways(progress, results);
     if (part_.family.effect.empty()) return measure_filters(progress, results);
     begin_results(results);
     if (results.empty()) return Outcome::kDone;
@@ -210,10 +212,16 @@ class PartStudy {
     const auto done = part_.moves ? run_motion(plan, options, scene, progress, table, look_at)
                                   : run_plan(plan, options, scene, progress, table, look_at);
     if (!is_done(done)) return done;
+    std::vector<double> fixed_ms(table.rows.size());
+    if (!part_.moves && !part_.family.is_sweep) {
+      const auto split = split_times(plan, options, scene, progress, table, fixed_ms);
+      if (!is_done(split)) return split;
+    }
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const MeasuredRow& measured = table.rows[i];
       StudyResult& result = results[places_[settings[i]].first];
       fill(measured, row_of(settings[i], results));
+      row_of(settings[i], results).fixed_ms = fixed_ms[i];
       result.subtitle = table.subtitle;
       result.signal = plan_.signal;
       result.about = table.about;
@@ -221,6 +229,32 @@ class PartStudy {
                                     : fmt::format("ray traced effect with {} samples a pixel",
                                                   options_.measure_reference);
       result.truth_error = measured.truth ? measured.truth_rmse : measured.reference_rmse;
+    }
+    return Outcome::kDone;
+  }
+
+  // A quarter of the pixels takes ms / 4 and 3/4 of what does not grow with them.
+  static rtapi::Result<Outcome> split_times(const MeasurePlan& plan, const Options& options,
+                                            const Scene& scene, const Progress& progress,
+                                            const MeasuredTable& whole,
+                                            std::vector<double>& fixed_ms) {
+    MeasurePlan timed = plan;
+    timed.against_truth = false;
+    timed.also = {};
+    Options own = options;
+    own.frame.width = std::max(options.frame.width / 2, 1u);
+    own.frame.height = std::max(options.frame.height / 2, 1u);
+    own.measure_truth = 0;
+    own.measure_reference = 1;
+    const double pixels = static_cast<double>(options.frame.width) * options.frame.height;
+    const double part = static_cast<double>(own.frame.width) * own.frame.height / pixels;
+    if (part >= 1) return Outcome::kDone;
+    MeasuredTable small;
+    const auto done = run_plan(timed, own, scene, progress, small);
+    if (!is_done(done)) return done;
+    for (std::size_t i = 0; i < fixed_ms.size(); ++i) {
+      const double ms = whole.rows[i].ms;
+      fixed_ms[i] = std::clamp((small.rows[i].ms - part * ms) / (1 - part), 0.0, ms);
     }
     return Outcome::kDone;
   }
@@ -323,15 +357,35 @@ class PartStudy {
       StudyRow& row = result.rows.emplace_back();
       row.command = fmt::format("{} --families {}", options_.command, part_.family.name);
       fill(measured, row);
-      const std::size_t comma = measured.label.find(", ");
-      row.technique = comma == std::string::npos
-                          ? measured.label
-                          : measured.label.substr(0, comma) + (is_sweep ? "" : " by passes");
-      row.label =
-          comma == std::string::npos ? "as it is by default" : measured.label.substr(comma + 2);
+      std::tie(row.technique, row.label) = denoiser_names(measured.label);
+      if (is_sweep) row.technique = measured.label.substr(0, measured.label.find(", "));
       const auto kept = keep_pictures(result.rows.size() - 1, each.image, each.target, result);
       if (!kept) return kept.error();
     }
+    return Outcome::kDone;
+  }
+
+  rtapi::Result<Outcome> measure_ways(const Progress& progress, std::vector<StudyResult>& results) {
+    StudyResult result = begin_result(part_.name(), part_.family.title);
+    result.signal = "radiance";
+    result.truth = "the same frame by many samples";
+    MeasuredTable table;
+    const LookAt look_at = [&](std::size_t way, const FloatImage& image, const Target& target,
+                               const Target*) {
+      const MeasuredRow& measured = table.rows[way];
+      StudyRow& row = result.rows.emplace_back();
+      row.technique = measured.group;
+      row.label = measured.label;
+      row.command = fmt::format("{} --families {}", options_.command, part_.family.name);
+      fill(measured, row);
+      return keep_pictures(result.rows.size() - 1, image, target, result);
+    };
+    const auto done =
+        measure_frame_ways(part_.family.name, options_, scene_, progress, table, look_at);
+    if (!is_done(done)) return done;
+    result.subtitle = table.subtitle;
+    result.about = table.about;
+    results.push_back(std::move(result));
     return Outcome::kDone;
   }
 

@@ -9,6 +9,7 @@
 
 #include "effects/measure/curves/techniques.h"
 #include "effects/measure/study/sweep_plans.h"
+#include "effects/shadows/contact_shadow/contact_shadow.h"
 
 namespace kaamos::measure {
 
@@ -86,7 +87,19 @@ void keep_rows(const std::vector<std::string>& rows, MeasurePlan& plan) {
   });
 }
 
+// Lamps without contact shadows.
+void add_maps_alone(const Options& options, MeasurePlan& plan) {
+  const Effect& row = *find_effect(northlight_effects(), "contact");
+  MeasuredSetting maps{row.about, "no rays: the maps alone"};
+  maps.setting = {.effect = row.name, .settings = options.effects.at(row.name), .lit = true};
+  maps.setting.settings.set_constants(ContactShadowConstants{.length = 0});
+  maps.reference = plan.references.front().name;
+  plan.settings.push_back(std::move(maps));
+}
+
 bool belongs_to(const Effect& row, const StudyFamily& family) {
+  // Short shadows are no question for what has whole ones.
+  if (family.name == "contact" && row.shadows_alone) return false;
   return row.name == family.effect || row.alternative_to == family.effect;
 }
 
@@ -96,12 +109,15 @@ const std::vector<StudyFamily>& study_families() {
   static const std::vector<StudyFamily> families = {
       {"shadows", "Shadows of the sun", "sun"},
       {"contact", "Contact shadows", "contact"},
+      {"lamps", "Shadows of lamps", "contact"},
       {"ao", "Ambient occlusion", "ao"},
       {"reflections", "Reflections", "reflections"},
       {"indirect", "Indirect diffuse light", "gi"},
       {"glass", "Glass", "transparent"},
       {"glass-shadows", "Shadows of glass", "glass-shadow"},
-      {"denoise", "Denoising", ""}};
+      {"denoise", "Denoising", ""},
+      {"upscaling", "Pixels that are traced", ""},
+      {"antialiasing", "Antialiasing", ""}};
   return families;
 }
 
@@ -136,6 +152,11 @@ StudyPlan study_plan(const StudyFamily& family, const Options& options, bool qui
     if (family.effect == "gi") name_modes(plan);
   } else {
     plan.settings.clear();
+    if (family.name == "lamps") {
+      std::erase_if(plan.references, [](const auto& each) { return !each.light; });
+      plan.signal = "radiance of the lamps";
+      add_maps_alone(options, plan);
+    }
     plan.references.resize(1);
   }
   for (const Effect& row : northlight_effects()) {

@@ -5,17 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <set>
-#include <tuple>
 #include <utility>
 
-#include "effects/assets/common/file.h"
-#include "effects/measure/run/failure.h"
-#include "effects/measure/study/family_study.h"
-#include "effects/measure/study/files.h"
 #include "effects/measure/study/findings.h"
-#include "effects/measure/truth/committed_truth.h"
+#include "effects/measure/study/fronts.h"
 
 namespace kaamos::measure {
 
@@ -43,65 +36,127 @@ std::vector<Trade> trades(const std::vector<Candidate>& candidates) {
   return out;
 }
 
-// Null: no frame can take it.
-const MeasuredSetting* find_measured(const MeasurePlan& plan, const StudyRow& row) {
-  for (const MeasuredSetting& each : plan.settings) {
-    if (each.setting.effect != row.effect || each.group != row.technique) continue;
-    if (each.label == row.label && each.setting.times_ao == 0 && !each.setting.lit) return &each;
-  }
-  return nullptr;
-}
-
-// The question of a family at rest that most techniques answer; null: it was not measured.
-const StudyResult* find_result(const StudyFamily& family, const std::vector<StudyResult>& results) {
-  const StudyResult* out = nullptr;
-  std::size_t most = 0;
-  for (const StudyResult& result : results) {
-    const bool is_own =
-        result.family == family.name || result.family.starts_with(family.name + "-");
-    if (!is_own || result.family.find("-motion") != std::string::npos) continue;
-    std::set<std::string> techniques;
-    for (const StudyRow& row : result.rows) {
-      if (row.missing.empty()) techniques.insert(row.technique);
-    }
-    if (techniques.size() <= most) continue;
-    most = techniques.size();
-    out = &result;
-  }
-  return out;
-}
-
 // What a frame takes of a measured setting: the rays of contact shadows end where the light's map
 // is fine enough, which measuring leaves out.
 EffectSettings for_frame(const MeasuredSetting& measured, const Options& options) {
   EffectSettings out = options.effects.at(measured.setting.effect);
   out.samples = measured.setting.settings.samples;
   out.radius = measured.setting.settings.radius;
-  if (measured.setting.effect == "contact") return out;
+  if (measured.setting.effect == "contact" && !measured.setting.lit) return out;
   out.constants = measured.setting.settings.constants;
   out.constants_bytes = measured.setting.settings.constants_bytes;
   return out;
 }
 
-Front front_of(const StudyFamily& family, const Options& options, const StudyResult& result) {
-  Options whole = options;
-  whole.rows.clear();
-  const MeasurePlan plan = study_plan(family, whole, false).plan;
+// Milliseconds for the pixels of the frame.
+double scaled_ms(const StudyRow& row, const StudyResult& result, const Options& options) {
   const double pixels = static_cast<double>(options.frame.width) * options.frame.height;
   const double measured = static_cast<double>(result.width) * result.height;
   const double scale = measured > 0 ? pixels / measured : 1.0;
-  Front out;
+  return row.fixed_ms + (row.ms - row.fixed_ms) * scale;
+}
+
+bool has_numbers(const StudyRow& row) {
+  return row.missing.empty() && std::isfinite(row.ms) && std::isfinite(row.error);
+}
+
+void add_effects(const StudyFamily& family, const Options& options, const StudyResult& result,
+                 Front& front) {
+  Options whole = options;
+  whole.rows.clear();
+  const MeasurePlan plan = study_plan(family, whole, false).plan;
   for (const StudyRow& row : result.rows) {
-    const MeasuredSetting* setting = row.missing.empty() ? find_measured(plan, row) : nullptr;
-    if (setting == nullptr || !std::isfinite(row.ms) || !std::isfinite(row.error)) continue;
-    out.all.push_back({{family,
-                        row.effect,
-                        for_frame(*setting, options),
-                        setting_name(row),
-                        row.ms * scale,
-                        row.error,
-                        {}},
-                       row.traced});
+    const MeasuredSetting* setting = has_numbers(row) ? find_measured(plan, row) : nullptr;
+    if (setting == nullptr) continue;
+    QualityChoice choice{family, row.effect, for_frame(*setting, options)};
+    choice.option = "--effects " + row.effect;
+    choice.name = setting_name(row);
+    choice.ms = scaled_ms(row, result, options);
+    choice.error = row.error;
+    front.all.push_back({std::move(choice), row.traced});
+  }
+}
+
+// Whole frames take what they take more than the plain one, the first row.
+void add_ways(const StudyFamily& family, const Options& options, const StudyResult& result,
+              Front& front) {
+  double plain_ms = 0;
+  for (const StudyRow& row : result.rows) {
+    const FrameWay* way = has_numbers(row) ? find_way(family.name, row) : nullptr;
+    if (way == nullptr) continue;
+    const double ms = scaled_ms(row, result, options);
+    if (way->option.empty()) plain_ms = ms;
+    if (way->in_sequences && !options.frame.moving) continue;
+    QualityChoice choice{family};
+    choice.change = way->change;
+    choice.option = way->option;
+    choice.name = setting_name(row);
+    choice.ms = ms - plain_ms;
+    choice.error = row.error;
+    front.all.push_back({std::move(choice), 0});
+  }
+}
+
+// As --denoise takes it.
+std::string denoise_word(const MeasuredDenoiser& denoiser) {
+  if (denoiser.desc.method == DenoiseMethod::kNone) return "none";
+  return denoiser.label.substr(0, denoiser.label.find(','));
+}
+
+bool is_denoising(const StudyResult& result, const StudyFamily& family) {
+  return result.family.starts_with(family.name + "-") &&
+         result.family.find("-motion") == std::string::npos;
+}
+
+// Over all signals: the root of the mean square of the errors.
+void add_denoisers(const StudyFamily& family, const Options& options,
+                   const std::vector<StudyResult>& results, Front& front) {
+  struct Sum {
+    StudyRow row;
+    double ms = 0, squares = 0;
+    int signals = 0;
+  };
+  std::vector<Sum> sums;
+  int signals = 0;
+  for (const StudyResult& result : results) {
+    if (!is_denoising(result, family) || result.rows.empty()) continue;
+    ++signals;
+    const double raw_ms = scaled_ms(result.rows.front(), result, options);
+    for (const StudyRow& row : result.rows) {
+      if (!has_numbers(row)) continue;
+      auto found = std::find_if(sums.begin(), sums.end(), [&](const Sum& sum) {
+        return sum.row.technique == row.technique && sum.row.label == row.label;
+      });
+      if (found == sums.end()) found = sums.insert(sums.end(), {row});
+      // Every signal's row has the time of all filters.
+      found->ms = std::max(scaled_ms(row, result, options) - raw_ms, 0.0);
+      found->squares += row.error * row.error;
+      ++found->signals;
+    }
+  }
+  for (const Sum& sum : sums) {
+    const MeasuredDenoiser* denoiser = find_denoiser(sum.row);
+    if (denoiser == nullptr || sum.signals != signals) continue;
+    // A still has no frames before it.
+    if (denoiser->desc.method == DenoiseMethod::kTemporal && !options.frame.moving) continue;
+    QualityChoice choice{family};
+    choice.change = [desc = denoiser->desc](Options& to) { to.frame.denoise = desc; };
+    choice.option = "--denoise " + denoise_word(*denoiser);
+    choice.name = setting_name(sum.row);
+    choice.ms = sum.ms;
+    choice.error = std::sqrt(sum.squares / signals);
+    front.all.push_back({std::move(choice), 0});
+  }
+}
+
+Front front_of(const StudyFamily& family, const Options& options,
+               const std::vector<StudyResult>& results) {
+  Front out;
+  if (family.name == "denoise") {
+    add_denoisers(family, options, results, out);
+  } else if (const StudyResult* result = find_result(family, results)) {
+    family.effect.empty() ? add_ways(family, options, *result, out)
+                          : add_effects(family, options, *result, out);
   }
   out.best = pareto_front(trades(out.all));
   return out;
@@ -130,6 +185,11 @@ QualityChoice lowest(const Front& front) {
   const std::vector<Trade> costs = trades(others);
   const double least = costs[pareto_front(costs).back()].error;
   const Candidate& found = others[cheapest_within(costs, kLowFactor * least)];
+  if (found.choice.effect.empty()) {
+    return with_reason(found, fmt::format("the fastest of {} whose error is at most {:g} times the "
+                                          "least ({:.3g})",
+                                          of_settings(front), kLowFactor, least));
+  }
   const std::string why = fmt::format(
       "the fastest of {} without rays whose error is at most {:g} times the least of "
       "theirs ({:.3g})",
@@ -214,31 +274,6 @@ std::vector<QualityChoice> by_budget(double budget_ms, const std::vector<Front>&
   return out;
 }
 
-// A quick study of its own: three settings of each technique, at rest.
-Options quick_options(const Options& options) {
-  Options out = options;
-  std::tie(out.frame.width, out.frame.height) =
-      committed_size(options).value_or(std::pair(160u, 90u));
-  out.frame.moving = false;
-  out.quick = true;
-  out.families.clear();
-  out.rows.clear();
-  out.repeats = 2;
-  out.measure_reference = 256;
-  out.measure_truth = 256;
-  return out;
-}
-
-rtapi::Status make_folders(const std::string& out) {
-  for (const char* folder : {"/study", "/measure-cache"}) {
-    std::error_code failed;
-    std::filesystem::create_directories(out + folder, failed);
-    if (!failed) continue;
-    return failure(fmt::format("cannot make the folder {}{}: {}", out, folder, failed.message()));
-  }
-  return {};
-}
-
 }  // namespace
 
 const std::vector<std::string>& quality_names() {
@@ -246,13 +281,43 @@ const std::vector<std::string>& quality_names() {
   return names;
 }
 
+const MeasuredSetting* find_measured(const MeasurePlan& plan, const StudyRow& row) {
+  for (const MeasuredSetting& each : plan.settings) {
+    if (each.setting.effect != row.effect || each.group != row.technique) continue;
+    if (each.label == row.label && each.setting.times_ao == 0) return &each;
+  }
+  return nullptr;
+}
+
+const MeasuredDenoiser* find_denoiser(const StudyRow& row) {
+  static const std::vector<MeasuredDenoiser> all = [] {
+    std::vector<MeasuredDenoiser> out = measured_denoisers();
+    out.insert(out.begin(), {"raw", default_denoise(DenoiseMethod::kNone)});
+    return out;
+  }();
+  for (const MeasuredDenoiser& each : all) {
+    const auto [technique, label] = denoiser_names(each.label);
+    if (technique == row.technique && label == row.label) return &each;
+  }
+  return nullptr;
+}
+
+const FrameWay* find_way(const std::string& family, const StudyRow& row) {
+  for (const FrameWay& each : frame_ways(family)) {
+    if (each.technique == row.technique && each.label == row.label) return &each;
+  }
+  return nullptr;
+}
+
 std::vector<StudyFamily> quality_families(const Options& options, const Scene& scene) {
   std::vector<StudyFamily> out;
   for (const StudyFamily& family : study_families()) {
-    if (!family.effect.empty() &&
-        is_rendered(scene, options.frame, northlight_effects(), family.effect)) {
-      out.push_back(family);
-    }
+    if (family.name == "contact") continue;
+    const bool is_rendered_here =
+        family.effect.empty()
+            ? options.frame.whole_frame
+            : is_rendered(scene, options.frame, northlight_effects(), family.effect);
+    if (is_rendered_here) out.push_back(family);
   }
   return out;
 }
@@ -262,10 +327,10 @@ std::vector<QualityChoice> choose_quality(const QualityGoal& goal, const Options
                                           const std::vector<StudyResult>& results) {
   std::vector<Front> fronts;
   for (const StudyFamily& family : families) {
-    const StudyResult* result = find_result(family, results);
-    if (result == nullptr) continue;
-    Front front = front_of(family, options, *result);
-    if (!front.best.empty()) fronts.push_back(std::move(front));
+    Front front = front_of(family, options, results);
+    // A single way to make the frame is no choice.
+    const bool has_choice = !family.effect.empty() || front.all.size() > 1;
+    if (!front.best.empty() && has_choice) fronts.push_back(std::move(front));
   }
   if (goal.budget_ms) return by_budget(*goal.budget_ms, fronts);
   std::vector<QualityChoice> out;
@@ -276,6 +341,7 @@ std::vector<QualityChoice> choose_quality(const QualityGoal& goal, const Options
 void apply_quality(const std::vector<QualityChoice>& choices, Options& options) {
   FrameSettings& frame = options.frame;
   for (const QualityChoice& choice : choices) {
+    if (choice.effect.empty()) continue;
     options.effects[choice.effect] = choice.settings;
     // The family's own effect stays among the chosen ones, and what takes its place leaves it out
     // and is named in its place.
@@ -285,6 +351,9 @@ void apply_quality(const std::vector<QualityChoice>& choices, Options& options) 
   }
   add_included(frame.effects, northlight_effects());
   frame.whole_frame = need_whole_frame(frame.effects);
+  for (const QualityChoice& choice : choices) {
+    if (choice.change) choice.change(options);
+  }
 }
 
 std::string quality_text(const QualityGoal& goal, const std::vector<QualityChoice>& choices) {
@@ -294,64 +363,13 @@ std::string quality_text(const QualityGoal& goal, const std::vector<QualityChoic
           : fmt::format("quality {}:\n", quality_names()[static_cast<std::size_t>(goal.quality)]);
   double sum = 0;
   for (const QualityChoice& each : choices) {
-    out += fmt::format("  {}: {} (--effects {}): {:.3g} ms, error {:.3g}: {}\n", each.family.name,
-                       each.name, each.effect, each.ms, each.error, each.why);
+    out += fmt::format("  {}: {}{}: {:.3g} ms, error {:.3g}: {}\n", each.family.name, each.name,
+                       each.option.empty() ? "" : " (" + each.option + ")", each.ms, each.error,
+                       each.why);
     sum += each.ms;
   }
-  out += fmt::format("  together {:.3g} ms, beside surfaces, lights, denoising and composition\n",
-                     sum);
+  out += fmt::format("  together {:.3g} ms, beside surfaces, lights and composition\n", sum);
   return out;
-}
-
-rtapi::Result<Outcome> find_fronts(const Options& options, const std::string& file,
-                                   const Scene& scene, const std::vector<StudyFamily>& families,
-                                   const Progress& progress, std::vector<StudyResult>& results,
-                                   std::string& said) {
-  if (!file.empty()) {
-    const auto bytes = read_file(file);
-    if (!bytes.ok()) return bytes.error();
-    auto parsed = parse_results(std::string(bytes.value().begin(), bytes.value().end()));
-    if (!parsed) return failure(file + " is no study.json of this version: run --study again");
-    results = std::move(*parsed);
-    said = "chosen from " + file + "\n";
-    return Outcome::kDone;
-  }
-  const std::string own = options.out + "/study.json";
-  if (auto kept = parse_results(read_text(own)); kept && !kept->empty()) {
-    std::erase_if(*kept, [&](const StudyResult& result) {
-      return result.scene != options.scene || result.backend != options.backend;
-    });
-    const auto is_there = [&](const StudyFamily& family) {
-      return find_result(family, *kept) != nullptr;
-    };
-    if (std::all_of(families.begin(), families.end(), is_there)) {
-      results = std::move(*kept);
-      said = "chosen from " + own + "\n";
-      return Outcome::kDone;
-    }
-  }
-  if (const auto s = make_folders(options.out); !s) return s.error();
-  const auto is_kept = [&](const StudyFamily& family) {
-    return std::filesystem::exists(fmt::format("{}/study/{}.json", options.out, family.name));
-  };
-  if (!std::all_of(families.begin(), families.end(), is_kept)) {
-    options.say(
-        fmt::format("measuring the techniques in {}, which takes minutes; what was measured "
-                    "is kept in {}/study",
-                    options.scene, options.out));
-  }
-  const Options quick = quick_options(options);
-  for (const StudyFamily& family : families) {
-    const StudyPart part = {family, quick.backend};
-    const auto step = [&](const std::string& what, double done) {
-      return progress("measuring " + family.name + ": " + what, done);
-    };
-    const auto done = study_part(part, quick, scene, step, results);
-    if (!is_done(done)) return done;
-  }
-  said = fmt::format("chosen from what was measured at {} x {} and is kept in {}/study\n",
-                     quick.frame.width, quick.frame.height, options.out);
-  return Outcome::kDone;
 }
 
 }  // namespace kaamos::measure

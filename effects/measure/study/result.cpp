@@ -36,6 +36,7 @@ ordered_json as_json(const StudyResult& result) {
                     {"missing", row.missing},
                     {"note", row.note},
                     {"ms", row.ms},
+                    {"fixed_ms", row.fixed_ms},
                     {"ms_spread", row.ms_spread},
                     {"rays", row.traced},
                     {"rmse", row.error},
@@ -93,6 +94,7 @@ StudyResult as_result(const ordered_json& in) {
     each.at("missing").get_to(row.missing);
     each.at("note").get_to(row.note);
     row.ms = number_in(each, "ms");
+    if (each.contains("fixed_ms")) row.fixed_ms = number_in(each, "fixed_ms");
     row.ms_spread = number_in(each, "ms_spread");
     row.traced = number_in(each, "rays");
     row.error = number_in(each, "rmse");

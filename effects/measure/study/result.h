@@ -26,6 +26,7 @@ struct StudyRow {
   std::string missing;   // why it was not measured; empty: it was
   std::string note;      // what else must be known to read the numbers; may be empty
   double ms = 0;         // median
+  double fixed_ms = 0;   // of it, what does not grow with the picture; 0: that was not measured
   double ms_spread = 0;  // (longest - shortest) / median
   double traced = 0;     // rays per pixel
   double error = 0;      // RMSE against the truth

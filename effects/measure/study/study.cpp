@@ -12,6 +12,7 @@
 #include "effects/measure/study/family_study.h"
 #include "effects/measure/study/figure_18.h"
 #include "effects/measure/study/findings.h"
+#include "effects/measure/study/fronts.h"
 #include "effects/measure/study/report.h"
 #include "effects/measure/study/sweep_plans.h"
 #include "effects/measure/study/tables.h"
@@ -45,7 +46,8 @@ rtapi::Status write_files(const Options& options, const std::vector<StudyResult>
   }
   for (const auto& [file, text] : {std::pair<std::string, std::string>("study.html", *page),
                                    {"study.csv", write_csv(as_csv(results))},
-                                   {"study.json", to_json(results)}}) {
+                                   {"study.json", to_json(results)},
+                                   {"fronts.json", to_fronts(options, results)}}) {
     if (const auto s = write_text(options.out + "/" + file, text); !s) return s;
   }
   return {};
@@ -95,8 +97,9 @@ rtapi::Result<Outcome> run_study(const Options& options, const Scene& scene,
   }
   if (const auto s = write_files(options, results, tables); !s) return s.error();
   for (const std::string& line : study_findings(results)) said += line + "\n";
-  said += fmt::format("\nwrote {}/study.html, .csv, .json and study-FAMILY.svg, study-TABLE.csv\n",
-                      options.out);
+  said += fmt::format(
+      "\nwrote {}/study.html, .csv, .json, fronts.json and study-FAMILY.svg, study-TABLE.csv\n",
+      options.out);
   return Outcome::kDone;
 }
 

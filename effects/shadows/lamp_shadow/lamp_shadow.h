@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The shadow of one local light by its map in the atlas, hard or filtered, by rays, and by both.
-/// [survey 5.1.4, 5.3; Fernando 2005; Story 2015]
+/// The shadow of one local light, or of each pixel's two strongest, by its map in the atlas, hard
+/// or filtered, by rays, and by both. [survey 5.1.4, 5.3; Fernando 2005; Story 2015]
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,13 @@ enum class LampShadow : std::uint32_t {
   kRays,     ///< PassConstants::sample_count rays to its sphere
 };
 
+/// LampShadowConstants::light: those that main lighting names for each pixel, the strongest point
+/// light and the strongest spot light. [EffectNeeds::strongest_lights]
+inline constexpr std::uint32_t kStrongestLamps = 0xFFFFFF;
+
 /// Constants b0, space3: mirrors LampShadowConstants of lamp_shadow.hlsl.
 struct LampShadowConstants {
-  std::uint32_t light = 0;                   ///< a place in light_constants
+  std::uint32_t light = 0;                   ///< a place in light_constants, or kStrongestLamps
   LampShadow method = LampShadow::kMapPcss;  ///< how it is found
   std::uint32_t taps = 32;                   ///< of the filter, at least 1
   std::uint32_t blocker_taps = 16;  ///< of the search for what casts the shadow, at least 1
@@ -33,7 +37,8 @@ struct LampShadowConstants {
   float soft_from = 0.5f;  ///< of kHybrid, as HybridShadowConstants::soft_from
 };
 
-/// The pass. Register u0 of space3 is R32G32B32A32_FLOAT: the visible part of the light. As
+/// The pass. Register u1 of space3 is R32G32B32A32_FLOAT: the visible part of the light (r), or of
+/// the point light (r) and the spot light (g) that u0 names. As
 /// everywhere it is 0 beyond the light's range and on surfaces that face away from it, and 1 inside
 /// the light; outside of a spot's cone it is 0. Lighting::bind is needed too, with maps.
 RayPassDesc lamp_shadow_pass(rtapi::ShaderLibrary library);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The shadow of one local light: by its map in the atlas, hard, filtered as wide everywhere, or as
-// wide as the penumbra; by rays; or by a ray near what casts it and by the map far from it.
+// The shadow of one local light, or of each pixel's two strongest: by its map in the atlas, hard,
+// filtered as wide everywhere, or as wide as the penumbra; by rays; or by a ray near what casts it
+// and by the map far from it.
 // [survey 5.1.4; Fernando 2005; Story 2015]
 #include "hit_lighting.hlsli"
 #include "occluder.hlsli"
 #include "sampling.hlsli"
 
-RWTexture2D<float4> visibility : register(u0, space3);
+RWTexture2D<uint2> strongest : register(u0, space3);  // point light, spot light [direct.hlsl]
+RWTexture2D<float4> visibility : register(u1, space3);
 
 // Mirrors LampShadowConstants of effects/shadows/lamp_shadow/lamp_shadow.h.
 struct LampShadowConstants {
@@ -26,11 +28,13 @@ static const uint kMapPcss = 2;
 static const uint kHybrid = 3;
 static const uint kRayHard = 4;
 
-static const uint kLampPair = 6;
+static const uint kStrongest = 0xFFFFFF;  // for constants.light; in `strongest`: none
+static const uint kLampPair = 6;          // and 7
 static const float kGoldenAngle = 2.3999632;
 
 // A surface as the light sees it. Points are relative to the light.
 struct LampReceiver {
+  uint lamp;         // a place in `lights`
   float3 at;         // moved along the normal, as ShadowMapVisibility does
   float3 normal;
   float distance;    // metres
@@ -54,10 +58,10 @@ float3 PointBeside(LampReceiver receiver, float2 away) {
 }
 
 // The texel that a point falls on; all are 0 where the light saw nothing, or a spot does not shine.
-float4 AtlasTexel(LightConstants light, float3 at, float distance) {
+float4 AtlasTexel(LightConstants light, uint lamp, float3 at, float distance) {
   const float2 uv = ShadowMapUv(light, at, distance);
   if (any(uv < 0.0) || any(uv >= 1.0)) return float4(0, 0, 0, 0);
-  return shadow_atlas[ShadowTileOrigin(constants.light) + uint2(uv * float(kShadowTile))];
+  return shadow_atlas[ShadowTileOrigin(lamp) + uint2(uv * float(kShadowTile))];
 }
 
 bool IsHidden(LampReceiver receiver, float4 occluder, float3 at) {
@@ -70,7 +74,7 @@ float Filter(LightConstants light, LampReceiver receiver, float radius) {
   float lit = 0.0;
   for (uint i = 0; i < taps; ++i) {
     const float3 at = PointBeside(receiver, radius * DiskTap(i, taps, receiver.turn));
-    lit += IsHidden(receiver, AtlasTexel(light, at, length(at)), at) ? 0.0 : 1.0;
+    lit += IsHidden(receiver, AtlasTexel(light, receiver.lamp, at, length(at)), at) ? 0.0 : 1.0;
   }
   return lit / float(taps);
 }
@@ -94,7 +98,7 @@ LampBlockers FindBlockers(LightConstants light, LampReceiver receiver) {
   for (uint i = 0; i < taps; ++i) {
     const float3 at = PointBeside(receiver, radius * DiskTap(i, taps, receiver.turn));
     const float distance = length(at);
-    const float4 occluder = AtlasTexel(light, at, distance);
+    const float4 occluder = AtlasTexel(light, receiver.lamp, at, distance);
     if (!IsHidden(receiver, occluder, at)) continue;
     const float ratio = distance * occluder.w;
     result.distance += distance / clamp(dot(occluder.xyz, at), 0.5 * ratio, 2.0 * ratio);
@@ -149,12 +153,13 @@ float Occluder(LightConstants light, float3 position, float3 normal, float offse
   return IsOpenTowards(origin, direction, end) ? kNoOccluder : 0.0;
 }
 
-float ByRays(LightConstants light, uint2 pixel, float3 position, float3 normal, float offset) {
+float ByRays(LightConstants light, uint2 pixel, uint pair, float3 position, float3 normal,
+             float offset) {
   const uint count = constants.method == kRayHard ? 1u : max(pass_constants.sample_count, 1u);
-  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kLampPair, frame.seed)];
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, pair, frame.seed)];
   float visible = 0.0;
   for (uint i = 0; i < count; ++i) {
-    const float2 u = PixelSample(tile, pass_constants.first_sample + i, kLampPair, frame.seed);
+    const float2 u = PixelSample(tile, pass_constants.first_sample + i, pair, frame.seed);
     const float2 beside =
         constants.method == kRayHard ? float2(0, 0) : SampleDisk(u) * light.radius;
     visible += Occluder(light, position, normal, offset, beside) == kNoOccluder ? 1.0 : 0.0;
@@ -169,7 +174,8 @@ bool IsInReach(LightConstants light, float3 from_light, float distance) {
          dot(from_light, light.direction) > light.cos_outer * distance;
 }
 
-float Visibility(LightConstants light, uint2 pixel) {
+float Visibility(uint lamp, uint2 pixel, uint pair) {
+  const LightConstants light = lights[lamp];
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 from_light = position.xyz - light.position;
@@ -177,18 +183,19 @@ float Visibility(LightConstants light, uint2 pixel) {
   if (!(distance > light.radius)) return 1.0;
   if (!IsInReach(light, from_light, distance)) return 0.0;
   if (constants.method >= kRayHard) {
-    return ByRays(light, pixel, position.xyz, normal, position.w);
+    return ByRays(light, pixel, pair, position.xyz, normal, position.w);
   }
   if (!(dot(from_light, normal) < 0.0)) return 0.0;
   if (constants.method == kMapHard) {
-    return ShadowMapVisibility(constants.light, light, position.xyz, normal);
+    return ShadowMapVisibility(lamp, light, position.xyz, normal);
   }
   LampReceiver receiver;
+  receiver.lamp = lamp;
   receiver.texel = distance * light.map_texel;
   receiver.at = from_light + normal * (kShadowOffset * receiver.texel);
   receiver.normal = normal;
   receiver.distance = length(receiver.at);
-  receiver.turn = 6.2831853 * blue_noise[BlueNoiseIndex(pixel, kLampPair, frame.seed)].x;
+  receiver.turn = 6.2831853 * blue_noise[BlueNoiseIndex(pixel, pair, frame.seed)].x;
   if (!(receiver.distance > 0.0)) return 1.0;
   if (constants.method == kMapPcf) return Filter(light, receiver, constants.widest);
   if (constants.method == kMapPcss) return Pcss(light, receiver);
@@ -199,9 +206,13 @@ float Visibility(LightConstants light, uint2 pixel) {
 [shader("raygeneration")]
 void LampShadowRayGen() {
   const uint2 pixel = FramePixel();
-  float visible = 1.0;
-  if (g_ids[pixel].x != 0 && constants.light < frame.light_count) {
-    visible = Visibility(lights[constants.light], pixel);
+  float2 visible = float2(1, 1);
+  if (g_ids[pixel].x != 0) {
+    for (uint kind = 0; kind < 2; ++kind) {
+      const uint lamp = constants.light == kStrongest ? strongest[pixel][kind] : constants.light;
+      if (lamp < frame.light_count) visible[kind] = Visibility(lamp, pixel, kLampPair + kind);
+      if (constants.light != kStrongest) break;
+    }
   }
-  visibility[pixel] = float4(visible, visible, visible, 1.0);
+  visibility[pixel] = float4(visible, visible.x, 1.0);
 }

@@ -51,7 +51,10 @@ struct LampScene {
     FrameSettings settings;
     settings.width = 72;
     settings.height = 48;
-    settings.effects = choose_effects({"adaptive-sun", kName}, registry());
+    settings.effects = choose_effects(
+        {"adaptive-sun", kName, "lamp-pcf", "lamp-pcss", "lamp-hybrid", "lamp-rays"}, registry());
+    settings.effects.at("lamp-rays").samples = 64;
+    settings.volume.given = std::make_shared<IndirectVolume>();
     settings.denoise = default_denoise(DenoiseMethod::kNone);
     scene.sun = Sun{};  // adaptive-sun is of use
     renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings, registry())
@@ -128,6 +131,44 @@ TEST_P(LampShadows, HybridIsTheRayNearWhatCastsAndTheMapFarFromIt) {
   LampScene near_floor(GetParam(), false, 0.03);
   EXPECT_LT(near_floor.error_of({.method = LampShadow::kHybrid}),
             0.8 * near_floor.error_of({.method = LampShadow::kMapPcss}));
+}
+
+// The lamp is every pixel's strongest of its kind, so that the rows of the registry have its shadow
+// in the channel of the kind, and none of the other.
+TEST_P(LampShadows, OfEachPixelsStrongestLampsAreThoseOfTheLamp) {
+  for (const bool is_spot : {false, true}) {
+    LampScene s(GetParam(), is_spot);
+    s.renderer->render().value();
+    const std::pair<const char*, LampShadow> rows[] = {{"lamp_pcf", LampShadow::kMapPcf},
+                                                       {"lamp_pcss", LampShadow::kMapPcss},
+                                                       {"lamp_hybrid", LampShadow::kHybrid}};
+    const FloatImage ids = s.renderer->read("ids").value();
+    for (const auto& [layer, method] : rows) {
+      const FloatImage strongest = s.renderer->read(layer).value();
+      s.renderer
+          ->run(kName,
+                EffectSettings().set_constants(LampShadowConstants{
+                    .method = method, .widest = method == LampShadow::kMapPcf ? 0.05f : 0.5f}))
+          .value();
+      const FloatImage one = s.renderer->read("lamp_shadow").value();
+      int seen = 0;
+      double off = 0;
+      for (std::size_t i = 0; i < ids.values.size() / ids.channels; ++i) {
+        if (ids.values[ids.channels * i] != 1) continue;
+        const float* of = &strongest.values[strongest.channels * i];
+        // Where the lamp does not shine it is nobody's strongest, and nothing is hidden.
+        if (one.values[one.channels * i] == 0 || of[is_spot ? 1 : 0] == 1) continue;
+        off += std::abs(of[is_spot ? 1 : 0] - one.values[one.channels * i]);
+        EXPECT_EQ(of[is_spot ? 0 : 1], 1);
+        ++seen;
+      }
+      EXPECT_GT(seen, 20) << layer;
+      // The two kinds turn their taps by other random numbers.
+      EXPECT_LT(off, (is_spot ? 0.1 : 1e-6) * seen) << layer;
+    }
+    if (is_spot) continue;
+    EXPECT_LT(s.error("lamp_rays", [&](double x) { return s.truth(x); }), 0.03);
+  }
 }
 
 TEST_P(LampShadows, AdaptiveRaysServeLampsToo) {
