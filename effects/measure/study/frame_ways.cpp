@@ -176,9 +176,9 @@ const std::vector<FrameWay>& frame_ways(const std::string& family) {
   static const std::vector<FrameWay> upscaling = {
       {"every pixel", "one ray each"},
       {"a pixel of four", "upscaled", "--half-resolution all",
-       [](Options& options) { trace_a_fourth(options, false); }},
+       [](Options& options) { trace_a_fourth(options, false); }, false, true},
       {"a pixel of four", "in turns", "--half-resolution all --rotate-pixels",
-       [](Options& options) { trace_a_fourth(options, true); }, true}};
+       [](Options& options) { trace_a_fourth(options, true); }, true, true}};
   static const std::vector<FrameWay> antialiasing = {
       {"one point of a pixel", "as it is by default"},
       {"temporal antialiasing", "as it is by default", "--taa",

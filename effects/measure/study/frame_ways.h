@@ -16,6 +16,7 @@ struct FrameWay {
   std::string option;  // of northlight; empty: as frames are by default
   std::function<void(Options& options)> change = [](Options&) {};
   bool in_sequences = false;  // frames of a sequence alone can take it
+  bool traces_less = false;   // than the plain one
 };
 
 // Those of the family "upscaling" or "antialiasing", the plain one first; none: any other family.

@@ -91,7 +91,8 @@ void add_ways(const StudyFamily& family, const Options& options, const StudyResu
     choice.change = way->change;
     choice.option = way->option;
     choice.name = setting_name(row);
-    choice.ms = ms - plain_ms;
+    // What traces every pixel takes no less than the plain frame, whatever the clock says.
+    choice.ms = way->traces_less ? ms - plain_ms : std::max(ms - plain_ms, 0.0);
     choice.error = row.error;
     front.all.push_back({std::move(choice), 0});
   }
