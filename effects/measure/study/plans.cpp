@@ -100,6 +100,8 @@ void add_maps_alone(const Options& options, MeasurePlan& plan) {
 bool belongs_to(const Effect& row, const StudyFamily& family) {
   // Short shadows are no question for what has whole ones.
   if (family.name == "contact" && row.shadows_alone) return false;
+  // It dims the sky as "gtao" does; the direction that it adds is no part of what is measured here.
+  if (row.name == "gtao-bent") return false;
   return row.name == family.effect || row.alternative_to == family.effect;
 }
 
