@@ -444,8 +444,8 @@ TEST(TemporalGradients, AStillSceneHasNoMoreNoiseThanSvgf) {
   }
 }
 
-// Of an average in which new frames weigh alpha, alpha / (2 - alpha) of the variance is left, and
-// nine tenths of a change are there after ln 0.1 / ln (1 - alpha) frames: 10.3 and 44.9 for 0.2 and
+// An average in which new frames weigh alpha keeps alpha / (2 - alpha) of the variance and shows
+// nine tenths of a change after ln 0.1 / ln (1 - alpha) frames: 10.3 and 44.9 for 0.2 and
 // 0.05. [Schied et al. 2017; Falcor]
 TEST(ScalarAlpha, AmbientOcclusionIsCalmAndLagsLonger) {
   struct Found {

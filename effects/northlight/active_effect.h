@@ -25,7 +25,7 @@ struct EffectInputs {
   const LightStage& lights;      ///< lists and maps of local lights, the volume of indirect light
   rtapi::Texture kept_radiance;  ///< of the frame before; null: no effect of the frame reads it
   bool is_sorted = false;        ///< rays are sorted, where a pass has keys for them
-  /// Of all effects.
+  /// What all effects of a frame share.
   std::shared_ptr<SharedParts> shared = std::make_shared<SharedParts>();
 };
 

@@ -17,7 +17,7 @@ struct DirectConstants {
 };
 ConstantBuffer<DirectConstants> constants : register(b0, space3);
 
-// Of a light's shadow map and its contact shadow.
+// How a light's shadow map and its contact shadow are joined.
 static const uint kProduct = 0, kMinimum = 1, kAlone = 2;
 
 // The lights that reach into the picture: how many, and then their numbers, rising.

@@ -152,7 +152,7 @@ class FrameWays {
     Errors errors;
     if (const auto error = errors.add(image, target_); !error.empty()) return failure(error);
     row.errors = errors.summary(target_);
-    // Of what is seen: a lamp in a mirror is thousands of times as bright as all else.
+    // Radiance would measure lamps in mirrors alone, which are thousands of times as bright.
     row.errors.rmse = std::pow(10.0, -row.errors.psnr / 20);
     row.ms = median(ms);
     row.ms_min = *std::min_element(ms.begin(), ms.end());

@@ -220,7 +220,7 @@ TEST(Quality, WaysToMakeTheFrameAreChosenWhereItCanTakeThem) {
   EXPECT_EQ(moving.frame.effects.at("gi").pixel_step, 1u);
 }
 
-// Of lamps the question is the light that they leave, which contact shadows answer beside maps.
+// Whole shadows of lamps compete with maps and contact shadows: both tell what light a lamp leaves.
 TEST(Quality, LampsHaveWholeShadowsOrMapsAndContact) {
   const std::vector<StudyResult> measured = {
       result("lamps", {row("lamps", "contact/no rays: the maps alone", 0.1, 0.01, 0),
