@@ -299,18 +299,27 @@ inline uint64_t structure_of(const Descriptor& scene) {
   return scene.kind == DescriptorKind::kAccelerationStructure ? scene.address : 0;
 }
 
+// What TraceRay checks before it traces, from the shader itself or for a hit object.
+template <class Ray>
+inline void check_trace_of(Invocation& invocation, uint32_t site, bool unknown,
+                           const Descriptor& acceleration_structure, uint32_t flags,
+                           uint32_t indices, const Ray& ray) {
+  if (unknown) {
+    reached(invocation, ReachedBy::kTraceRay, site, structure_of(acceleration_structure), flags,
+            indices);
+  }
+  RayDesc plain;
+  __builtin_memcpy(&plain, &ray, sizeof(plain));
+  check_trace(invocation, site, flags, plain);
+}
+
 template <class Ray, class Payload>
 inline void trace_ray(Invocation& invocation, uint32_t site, uint32_t type, bool unknown,
                       const Descriptor& acceleration_structure, uint32_t flags, uint32_t mask,
                       uint32_t ray_contribution, uint32_t multiplier, uint32_t miss_index,
                       const Ray& ray, Payload& payload) {
-  if (unknown) {
-    reached(invocation, ReachedBy::kTraceRay, site, structure_of(acceleration_structure), flags,
-            trace_indices(mask, ray_contribution, multiplier, miss_index));
-  }
-  RayDesc plain;
-  __builtin_memcpy(&plain, &ray, sizeof(plain));
-  check_trace(invocation, site, flags, plain);
+  check_trace_of(invocation, site, unknown, acceleration_structure, flags,
+                 trace_indices(mask, ray_contribution, multiplier, miss_index), ray);
   PayloadBox<Payload> box = {{kPayloadMagic, type, sizeof(Payload), 0}, payload, {}};
   shader::trace_ray(invocation, acceleration_structure, flags, mask, ray_contribution, multiplier,
                     miss_index, ray, box.value);
@@ -322,13 +331,8 @@ inline Hit trace_hit_object(Invocation& invocation, uint32_t site, uint32_t type
                             const Descriptor& acceleration_structure, uint32_t flags, uint32_t mask,
                             uint32_t ray_contribution, uint32_t multiplier, uint32_t miss_index,
                             const Ray& ray, Payload& payload) {
-  if (unknown) {
-    reached(invocation, ReachedBy::kTraceRay, site, structure_of(acceleration_structure), flags,
-            trace_indices(mask, ray_contribution, multiplier, miss_index));
-  }
-  RayDesc plain;
-  __builtin_memcpy(&plain, &ray, sizeof(plain));
-  check_trace(invocation, site, flags, plain);
+  check_trace_of(invocation, site, unknown, acceleration_structure, flags,
+                 trace_indices(mask, ray_contribution, multiplier, miss_index), ray);
   PayloadBox<Payload> box = {{kPayloadMagic, type, sizeof(Payload), 0}, payload, {}};
   const Hit hit =
       shader::trace_hit_object<Hit>(invocation, acceleration_structure, flags, mask,
