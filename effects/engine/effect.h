@@ -111,6 +111,7 @@ struct EffectNeeds {
   bool local_lights = false;  ///< the scene has local lights
   bool glass = false;         ///< the scene has glass, which the effect shows
   bool panes = false;         ///< the scene has glass, whose shadows the effect shows
+  bool particles = false;     ///< the scene has particles
   bool glossy = false;        ///< a material is not matte [kMatteRoughness], or the effect is named
   bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
   bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3

@@ -103,7 +103,7 @@ bool has_glass(const Scene& scene) {
 
 bool scene_offers(const Scene& scene, const EffectNeeds& needs) {
   return (!needs.sun || scene.sun) && (!(needs.glass || needs.panes) || has_glass(scene)) &&
-         (!needs.glossy || has_glossy(scene)) &&
+         (!needs.glossy || has_glossy(scene)) && (!needs.particles || !scene.particles.empty()) &&
          (!needs.local_lights || count_local_lights(scene) > 0);
 }
 

@@ -335,6 +335,16 @@ void Checker::rest() {
             "field of view is " + std::to_string(camera.vertical_fov) + ", 0..pi is allowed");
   }
   for (const Light& light : scene_.lights) this->light(light);
+  for (std::size_t i = 0; i < scene_.particles.size(); ++i) {
+    const Particle& particle = scene_.particles[i];
+    const std::string where = "particle " + std::to_string(i);
+    const glm::dvec3 sum = particle.position + glm::dvec3(particle.radiance);
+    require(std::isfinite(sum.x + sum.y + sum.z) && particle.radius > 0.0f &&
+                std::isfinite(particle.radius),
+            where, "position or radiance is not finite, or radius is not above 0");
+    require(particle.opacity >= 0.0f && particle.opacity <= 1.0f, where,
+            "opacity is " + std::to_string(particle.opacity) + ", 0..1 is allowed");
+  }
   if (scene_.sun)
     require(unit(scene_.sun->direction_to_sun) && scene_.sun->angular_radius >= 0.0f, "sun",
             "direction is not a unit vector or angular radius is negative");

@@ -155,6 +155,16 @@ struct Camera {
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target,
                    const glm::dvec3& up = glm::dvec3(0, 1, 0));
 
+/// A round spot of light that turns towards the camera: a spark, a puff of smoke. It is drawn over
+/// the finished frame: neither the G-buffer nor an acceleration structure has it, and files do not.
+/// It is densest in its middle: at a share s of its radius, (1 - s^2)^2 of that.
+struct Particle {
+  glm::dvec3 position{0.0};  ///< of its middle, world space
+  float radius = 0.01f;      ///< metres, above 0
+  glm::vec3 radiance{0.0f};  ///< that it adds
+  float opacity = 0.0f;      ///< part of what is behind it that it hides, 0 to 1; 0: it only adds
+};
+
 /// A point from which an environment map shows the scene, world space.
 struct EnvironmentProbe {
   glm::dvec3 position{0.0};  ///< outside of everything solid
@@ -183,6 +193,7 @@ struct Scene {
   Sky sky;                               ///< what rays see that miss
   float exposure = 1.0f;                 ///< radiance times this goes to the tone curve
   std::vector<EnvironmentProbe> probes;  ///< of environment maps; empty: they are found
+  std::vector<Particle> particles;       ///< drawn over the frame
 };
 
 /// Triangles after instancing.

@@ -13,7 +13,7 @@ class SceneChecksum {
 
   void add(const Scene& scene) {
     const auto& [name, meshes, instances, materials, images, samplers, cameras, sun, lights, nodes,
-                 skins, animations, sky, exposure, probes] = scene;
+                 skins, animations, sky, exposure, probes, particles] = scene;
     add_all(meshes);
     add_all(instances);
     add_all(materials);
@@ -33,6 +33,9 @@ class SceneChecksum {
     checksum_.add_each(zenith, horizon, ground, exposure);
     for (const auto& [position, box_min, box_max] : probes) {
       checksum_.add_each(position, box_min, box_max);
+    }
+    for (const auto& [position, radius, radiance, opacity] : particles) {
+      checksum_.add_each(position, radius, radiance, opacity);
     }
   }
 

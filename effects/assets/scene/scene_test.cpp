@@ -55,6 +55,12 @@ TEST(Validate, NamesTheFirstBrokenRule) {
   scene = valid_scene();
   scene.sun->direction_to_sun = glm::vec3(1, 1, 1);
   expect_refused(scene, "unit vector");
+  scene = valid_scene();
+  scene.particles.resize(2);
+  scene.particles[1].radius = 0;
+  expect_refused(scene, "particle 1: position or radiance is not finite, or radius is not above 0");
+  scene.particles[1] = {.opacity = 1.5f};
+  expect_refused(scene, "particle 1: opacity is 1.5");
 }
 
 TEST(Mesh, StoresShortIndicesWhereTheyFit) {
