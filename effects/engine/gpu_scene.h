@@ -86,12 +86,15 @@ struct GpuScene {
   std::vector<rtapi::Buffer> indices;        ///< one per mesh
   std::vector<rtapi::Buffer> bottom_levels;  ///< one per mesh
   rtapi::Buffer instances;                   ///< RaytracingInstanceDesc, one per instance
-  rtapi::Buffer top_level;                   ///< what rays are traced against
-  rtapi::Buffer previous_instances;          ///< PreviousInstance, one per instance, at least one
-  rtapi::Buffer materials;                   ///< MaterialConstants, one per material
-  std::vector<rtapi::Texture> textures;      ///< one per image
-  std::vector<GpuGeometry> geometries;       ///< of all meshes, in the order of their records
-  GpuSceneStatistics statistics;             ///< of create_gpu_scene
+  /// The same as draws take them, where rays see other levels of detail than draws; else empty.
+  /// [StructureOptions::coarser_rays]
+  rtapi::Buffer drawn_instances;
+  rtapi::Buffer top_level;               ///< what rays are traced against
+  rtapi::Buffer previous_instances;      ///< PreviousInstance, one per instance, at least one
+  rtapi::Buffer materials;               ///< MaterialConstants, one per material
+  std::vector<rtapi::Texture> textures;  ///< one per image
+  std::vector<GpuGeometry> geometries;   ///< of all meshes, in the order of their records
+  GpuSceneStatistics statistics;         ///< of create_gpu_scene
 };
 
 /// Buffers and textures of a valid scene, and the arguments of its meshes' records; no acceleration

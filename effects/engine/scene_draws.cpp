@@ -39,7 +39,8 @@ std::size_t end_of_mesh(const std::vector<GpuGeometry>& geometries, std::size_t 
 std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask) {
   std::vector<SceneDraw> out;
   if (!gpu.instances) return out;
-  const auto descs = gpu.instances.data<rtapi::RaytracingInstanceDesc>();
+  const auto descs = (gpu.drawn_instances ? gpu.drawn_instances : gpu.instances)
+                         .data<rtapi::RaytracingInstanceDesc>();
   for (std::size_t i = 0; i < descs.size(); ++i) {
     const rtapi::RaytracingInstanceDesc& desc = descs[i];
     if ((desc.InstanceMask & mask) == 0 || desc.AccelerationStructure == 0) continue;

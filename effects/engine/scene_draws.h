@@ -49,7 +49,8 @@ class ClipDepth {
   Bounds bounds_;
 };
 
-/// The draws of a scene as its instances stand in GpuScene::instances now, in their order. Left out
+/// The draws of a scene as its instances stand in GpuScene::instances now (or drawn_instances,
+/// where there are any), in their order. Left out
 /// is what no ray of instance mask `mask` can hit: other instances, inactive ones, transforms
 /// without an inverse.
 std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask = kMaskSolid);

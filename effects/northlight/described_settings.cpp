@@ -24,14 +24,17 @@ constexpr std::uint32_t kMostSamples = 65536;
 // somebody has described it below, or left it out here.
 SettingTable<StructureOptions> structures_settings() {
   const StructureOptions options;
-  const auto& [deformable_period, hero_period, compact] = options;
-  static_cast<void>(std::tie(deformable_period, hero_period, compact));
+  const auto& [deformable_period, hero_period, compact, coarser_rays] = options;
+  static_cast<void>(std::tie(deformable_period, hero_period, compact, coarser_rays));
   using C = StructureOptions;
   return {
       count_setting("deformable-period", &C::deformable_period, {0, 65536}, "frames",
                     "after which structures that deform are built anew; 0: only updated"),
       count_setting("hero-period", &C::hero_period, {0, 65536}, "frames", "the same for heroes"),
-      switch_setting("compact", &C::compact, "structures that stand still are compacted")};
+      switch_setting("compact", &C::compact, "structures that stand still are compacted"),
+      count_setting("coarser-rays", &C::coarser_rays, {0, 16}, "levels",
+                    "of detail by which rays see coarser instances than draws do; a fault, shown "
+                    "with --primary raster")};
 }
 
 // A member that may be absent.

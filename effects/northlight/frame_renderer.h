@@ -104,6 +104,7 @@ class FrameRenderer {
   /// The stages; what they made is there once prepare is done.
   ///@{
   const SceneStage& scene_stage() const { return *scene_; }
+  SceneStage& scene_stage() { return *scene_; }
   SurfaceStage& surfaces() { return stages_->surfaces; }
   const LightStage& lights() const { return stages_->lights; }
   const EffectStage& effects() const { return stages_->effects; }

@@ -19,7 +19,8 @@ rtapi::Status SceneStage::create() {
       std::any_of(scene.instances.begin(), scene.instances.end(),
                   [](const Instance& instance) { return instance.motion.morph != kNoIndex; });
   Profile* profile = context_.profile;
-  if (settings.moving || !scene.skins.empty() || has_morph) {
+  if (settings.moving || settings.structures.coarser_rays > 0 || !scene.skins.empty() ||
+      has_morph) {
     const auto step = Profile::enter(profile, ProfilePart::kStart, "structures");
     auto manager = StructureManager::create(context_.device, context_.runner.queue(), scene,
                                             settings.structures);
@@ -73,6 +74,18 @@ rtapi::Status SceneStage::begin_frame(const FrameMoment& moment) {
     runner.add({"structures", runner.now_ms() - start, {}});
   }
   return context_.frame.set_camera(context_.device, context_.scene, moment.camera, time);
+}
+
+rtapi::Status SceneStage::set_coarser_rays(std::uint32_t levels) {
+  if (!structures_ || context_.settings.structures.coarser_rays == 0) {
+    return make_error(ErrorId::kFrameRenderer,
+                      "rays see the levels of detail that draws show: set "
+                      "StructureOptions::coarser_rays above 0");
+  }
+  structures_->set_coarser_rays(levels);
+  const FrameMoment& moment = context_.moment;
+  return structures_->execute(context_.device, context_.runner.queue(), states_at(moment),
+                              moment.camera.position());
 }
 
 rtapi::Status SceneStage::set_seed(std::uint32_t seed) {

@@ -31,6 +31,10 @@ class SceneStage {
   /// @errors KA3046 the camera is elsewhere than the scene's first and FrameSettings::moving is not
   /// set; others of the device.
   rtapi::Status begin_frame(const FrameMoment& moment);
+  /// What runs from here on sees other levels of detail, over the surfaces that are drawn already.
+  /// [StructureOptions::coarser_rays]
+  /// @errors KA3046 coarser_rays is 0 in the settings; those of the device.
+  rtapi::Status set_coarser_rays(std::uint32_t levels);
   /// The samples of what runs from here on, as if the frame had had this seed.
   /// @errors those of the device.
   rtapi::Status set_seed(std::uint32_t seed);

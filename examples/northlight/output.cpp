@@ -160,12 +160,19 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
                        {"expected_share", d.expected_share()},
                        {"expected_share_of_equals", d.expected_share_of_equals()},
                        {"neighbours", d.neighbours},
+                       {"other_levels", d.other_levels},
                        {"silhouettes", d.silhouettes},
                        {"surfaces_close_by", d.others},
                        {"hit_or_not", d.hit_or_not},
                        {"draw_ms", primary->draw_ms},
                        {"resolve_ms", primary->resolve_ms},
                        {"ray_ms", primary->ray_ms}};
+  }
+  if (const auto& levels = result.levels) {
+    json["levels"] = {{"pixels", levels->pixels},
+                      {"lit", levels->lit},
+                      {"false_shadows", levels->false_shadows},
+                      {"false_light", levels->false_light}};
   }
   return json;
 }
@@ -297,12 +304,28 @@ std::string describe_primary(const FrameResult& result) {
   return fmt::format(
       "drawn in {:.1f} ms and resolved in {:.1f} ms; primary rays take {:.1f} ms\n"
       "{:.2e} of {} covered pixels show another triangle than rays hit, {} in all: {} a neighbour, "
-      "{} beyond a silhouette, {} another surface close by, {} something or nothing\n"
+      "{} another level of detail, {} beyond a silhouette, {} another surface close by, {} "
+      "something "
+      "or nothing\n"
       "vertices snap to 1/256 pixel: by the length of the triangles' edges that makes {:.2e}, and "
       "with {:.1f} pixels a triangle, if all were equal, {:.2e}\n",
       primary.draw_ms, primary.resolve_ms, primary.ray_ms, d.share(), d.covered, d.differing(),
-      d.neighbours, d.silhouettes, d.others, d.hit_or_not, d.expected_share(),
+      d.neighbours, d.other_levels, d.silhouettes, d.others, d.hit_or_not, d.expected_share(),
       d.pixels_per_triangle(), d.expected_share_of_equals());
+}
+
+std::string describe_levels(const FrameResult& result) {
+  if (!result.levels) return {};
+  const LevelMismatch& m = *result.levels;
+  const auto share = [](std::uint64_t count, std::uint64_t of) {
+    return 100.0 * static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(of, 1));
+  };
+  return fmt::format(
+      "rays see other levels of detail than draws: of {} lit pixels of such instances {} ({:.1f} "
+      "%) "
+      "are in a false shadow, of {} dark ones {} ({:.1f} %) in false light\n",
+      m.lit, m.false_shadows, share(m.false_shadows, m.lit), m.pixels - m.lit, m.false_light,
+      share(m.false_light, m.pixels - m.lit));
 }
 
 std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
@@ -330,7 +353,7 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
         100 * bake->error, renderer.lights().bakes_on_demand() ? ", before cells are filtered" : "",
         mebibytes(bake->bytes));
   }
-  out += describe_primary(result) + describe_views(result);
+  out += describe_primary(result) + describe_levels(result) + describe_views(result);
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
   if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "effects/assets/built_in/built_in.h"
 
+#include "effects/assets/built_in/boulders.h"
 #include "effects/assets/built_in/crown.h"
 #include "effects/assets/built_in/destruction.h"
 #include "effects/assets/built_in/foliage.h"
@@ -36,6 +37,7 @@ constexpr BuiltInScene kScenes[] = {
     {"light-forest", [] { return make_light_forest({}); }},
     {"projector", [] { return make_projector(); }},
     {"terrain", [] { return make_terrain({}); }},
+    {"boulders", [] { return make_boulders({}); }},
     {"pub", [] { return make_stress_scene({StressKind::kPub}); }},
     {"resort", [] { return make_stress_scene({StressKind::kResort}); }},
     {"breakfast", [] { return make_stress_scene({StressKind::kBreakfast}); }},

@@ -273,6 +273,11 @@ rtapi::Status StructureManager::create_top_level(const Device& device) {
   auto instances = CreateUploadBuffer(device, none, "instances");
   if (!instances) return instances.error();
   gpu_.instances = *instances;
+  if (options_.coarser_rays > 0) {
+    auto drawn = CreateUploadBuffer(device, none, "drawn instances");
+    if (!drawn) return drawn.error();
+    gpu_.drawn_instances = *drawn;
+  }
   BuildRaytracingAccelerationStructureInputs inputs;
   inputs.Flags = Flags::kPreferFastTrace;
   inputs.NumDescs = static_cast<std::uint32_t>(placements_.size());

@@ -29,6 +29,9 @@ struct StructureOptions {
   std::uint32_t hero_period = 30;
   ///@}
   bool compact = true;  ///< static structures are compacted
+  /// Levels of detail by which rays see an instance coarser than draws do, as far as it has any.
+  /// 0: both see the same one. More shows what comes of it.
+  std::uint32_t coarser_rays = 0;
 };
 
 /// The cost of the scene and its last frame.
@@ -83,6 +86,10 @@ class StructureManager {
   rtapi::Status execute(const rtapi::Device& device, rtapi::CommandQueue& queue,
                         std::span<const InstanceState> states, const glm::dvec3& origin);
 
+  /// Changes StructureOptions::coarser_rays from the next frame on; only where it was not 0 at
+  /// first.
+  void set_coarser_rays(std::uint32_t levels) { options_.coarser_rays = levels; }
+
   /// The scene for passes and Frame; its resources stay the same over all frames.
   const GpuScene& scene() const { return gpu_; }
   /// The cost of the scene and its last frame.
@@ -136,6 +143,10 @@ class StructureManager {
   void record_top_level(rtapi::CommandList& list, std::span<const InstanceState> states,
                         const glm::dvec3& origin);
   std::uint32_t mesh_of(std::size_t instance, const InstanceState& state) const;
+  // The level that rays see of an instance of which `drawn` is drawn.
+  std::uint32_t traced_mesh(std::size_t instance, std::uint32_t drawn) const;
+  rtapi::RaytracingInstanceDesc instance_desc(std::size_t i, const Instance& now,
+                                              const glm::dvec3& origin) const;
   void write_instances(std::span<const InstanceState> states, const glm::dvec3& origin);
   bool must_rebuild(const Body& body) const;
   rtapi::BuildRaytracingAccelerationStructureInputs inputs(const Body& body) const;

@@ -195,6 +195,38 @@ std::uint32_t StructureManager::mesh_of(std::size_t instance, const InstanceStat
                                 : static_cast<std::uint32_t>(state.mesh);
 }
 
+std::uint32_t StructureManager::traced_mesh(std::size_t instance, std::uint32_t drawn) const {
+  const std::vector<Level>& levels = instances_[instance].levels;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (levels[i].mesh != drawn) continue;
+    return levels[std::min(i + options_.coarser_rays, levels.size() - 1)].mesh;
+  }
+  return drawn;
+}
+
+RaytracingInstanceDesc StructureManager::instance_desc(std::size_t i, const Instance& now,
+                                                       const glm::dvec3& origin) const {
+  const Placement& placement = placements_[i];
+  const Body* body =
+      placement.body == kNoIndex ? nullptr : &bodies_[static_cast<std::size_t>(placement.body)];
+  RaytracingInstanceDesc desc;
+  const glm::mat3x4 rows = transform_3x4(now, origin);
+  std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
+  desc.InstanceID = static_cast<std::uint32_t>(i) & 0xFFFFFFu;
+  desc.InstanceMask = instance_mask(now);
+  const std::size_t first_record = body ? body->first_record : meshes_[now.mesh].first;
+  desc.InstanceContributionToHitGroupIndex =
+      static_cast<std::uint32_t>(first_record * kRayTypeCount) & 0xFFFFFFu;
+  // The traversal of opaque instances never looks for an any-hit shader. [Northlight deck:
+  // FORCE_OPAQUE]
+  desc.Flags = meshes_[now.mesh].opaque && !(now.mask & kMaskTransparent)
+                   ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
+                   : 0u;
+  desc.AccelerationStructure =
+      (body ? body->structure : gpu_.bottom_levels[now.mesh]).GetGPUVirtualAddress();
+  return desc;
+}
+
 void StructureManager::write_instances(std::span<const InstanceState> states,
                                        const glm::dvec3& origin) {
   const std::span<RaytracingInstanceDesc> descs = gpu_.instances.data<RaytracingInstanceDesc>();
@@ -208,22 +240,12 @@ void StructureManager::write_instances(std::span<const InstanceState> states,
     placement.mesh = now.mesh;
     const Body* body =
         placement.body == kNoIndex ? nullptr : &bodies_[static_cast<std::size_t>(placement.body)];
-    RaytracingInstanceDesc desc;
-    const glm::mat3x4 rows = transform_3x4(now, origin);
-    std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
-    desc.InstanceID = static_cast<std::uint32_t>(i) & 0xFFFFFFu;
-    desc.InstanceMask = instance_mask(now);
-    const std::size_t first_record = body ? body->first_record : meshes_[now.mesh].first;
-    desc.InstanceContributionToHitGroupIndex =
-        static_cast<std::uint32_t>(first_record * kRayTypeCount) & 0xFFFFFFu;
-    // The traversal of opaque instances never looks for an any-hit shader. [Northlight deck:
-    // FORCE_OPAQUE]
-    desc.Flags = meshes_[now.mesh].opaque && !(now.mask & kMaskTransparent)
-                     ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
-                     : 0u;
-    desc.AccelerationStructure =
-        (body ? body->structure : gpu_.bottom_levels[now.mesh]).GetGPUVirtualAddress();
-    descs[i] = desc;
+    Instance traced = now;
+    traced.mesh = traced_mesh(i, now.mesh);
+    descs[i] = instance_desc(i, traced, origin);
+    if (gpu_.drawn_instances) {
+      gpu_.drawn_instances.data<RaytracingInstanceDesc>()[i] = instance_desc(i, now, origin);
+    }
 
     PreviousInstance before;
     if (frame_ > 0) {

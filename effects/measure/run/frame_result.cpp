@@ -47,6 +47,12 @@ rtapi::Result<FrameResult> read_frame(FrameRenderer& renderer, const LayerChoice
     const auto primary = renderer.surfaces().compare();
     if (!primary) return primary.error();
     out.primary = *primary;
+    const FrameSettings& settings = renderer.context().settings;
+    if (settings.structures.coarser_rays > 0 && settings.effects.count("sun") != 0) {
+      const auto levels = count_level_mismatch(renderer);
+      if (!levels) return levels.error();
+      out.levels = *levels;
+    }
   }
   return out;
 }

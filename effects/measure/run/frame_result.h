@@ -13,6 +13,7 @@
 
 #include "effects/measure/run/options.h"
 #include "effects/northlight/frame_renderer.h"
+#include "effects/northlight/level_mismatch.h"
 
 namespace kaamos::measure {
 
@@ -35,6 +36,7 @@ struct FrameResult {
   std::vector<effects::PassStatistics> passes;
   std::vector<std::string> left_out;                  // effects and parts left out, and why
   std::optional<effects::PrimaryComparison> primary;  // of surfaces that were drawn
+  std::optional<effects::LevelMismatch> levels;       // where rays see others than draws
   std::vector<ViewResult> views;                      // of --view
 };
 

@@ -24,11 +24,21 @@ constexpr double kEquilateral = 4.559;  // perimeter of such a triangle over the
 
 using Corners = std::array<glm::dvec3, 3>;
 
+// The instances as one of the pictures shows them.
+std::span<const rtapi::RaytracingInstanceDesc> seen_instances(const GpuScene& gpu, bool is_drawn) {
+  return (is_drawn && gpu.drawn_instances ? gpu.drawn_instances : gpu.instances)
+      .data<rtapi::RaytracingInstanceDesc>();
+}
+
+std::uint32_t mesh_of(const GpuScene& gpu, const rtapi::RaytracingInstanceDesc& desc) {
+  return gpu.geometries[desc.InstanceContributionToHitGroupIndex / kRayTypeCount].mesh;
+}
+
 // World positions. Skinned meshes are taken in their bind pose, which has the same neighbours.
-Corners corners_of(const Scene& scene, const GpuScene& gpu, const SeenTriangle& seen) {
-  const auto& desc = gpu.instances.data<rtapi::RaytracingInstanceDesc>()[seen.instance - 1];
-  const std::size_t record = desc.InstanceContributionToHitGroupIndex / kRayTypeCount;
-  const Mesh& mesh = scene.meshes[gpu.geometries[record].mesh];
+Corners corners_of(const Scene& scene, const GpuScene& gpu, const SeenTriangle& seen,
+                   bool is_drawn) {
+  const auto& desc = seen_instances(gpu, is_drawn)[seen.instance - 1];
+  const Mesh& mesh = scene.meshes[mesh_of(gpu, desc)];
   Corners out;
   for (std::uint32_t i = 0; i < 3; ++i) {
     const glm::vec4 p(mesh.corner(mesh.geometries[seen.geometry], seen.primitive, i).position, 1);
@@ -93,6 +103,7 @@ double PrimaryDifference::expected_share_of_equals() const {
 PrimaryDifference compare_pictures(const Scene& scene, const GpuScene& gpu,
                                    const SeenPictures& pictures) {
   PrimaryDifference out;
+  const auto drawn = seen_instances(gpu, true), traced = seen_instances(gpu, false);
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint64_t> sizes;
   for (std::size_t i = 0; i < pictures.traced.size(); ++i) {
     const SeenTriangle &a = pictures.drawn[i], &b = pictures.traced[i];
@@ -101,12 +112,17 @@ PrimaryDifference compare_pictures(const Scene& scene, const GpuScene& gpu,
       ++out.covered;
       ++sizes[{b.instance, b.geometry, b.primitive}];
     }
-    if (a.same_triangle(b)) continue;
+    const bool other_level =
+        a.instance != 0 && a.instance == b.instance &&
+        mesh_of(gpu, drawn[a.instance - 1]) != mesh_of(gpu, traced[a.instance - 1]);
+    if (a.same_triangle(b) && !other_level) continue;
     if (a.instance == 0 || b.instance == 0) {
       ++out.hit_or_not;
+    } else if (other_level) {
+      ++out.other_levels;
     } else if (std::fabs(a.view_z - b.view_z) > kDepthJump * std::min(a.view_z, b.view_z)) {
       ++out.silhouettes;
-    } else if (share_a_corner(corners_of(scene, gpu, a), corners_of(scene, gpu, b))) {
+    } else if (share_a_corner(corners_of(scene, gpu, a, true), corners_of(scene, gpu, b, false))) {
       ++out.neighbours;
     } else {
       ++out.others;
@@ -115,7 +131,7 @@ PrimaryDifference compare_pictures(const Scene& scene, const GpuScene& gpu,
   out.triangles = sizes.size();
   for (const auto& [id, size] : sizes) {
     const auto& [instance, geometry, primitive] = id;
-    const Corners corners = corners_of(scene, gpu, {instance, geometry, primitive});
+    const Corners corners = corners_of(scene, gpu, {instance, geometry, primitive}, false);
     out.expected +=
         static_cast<double>(size) * flip_chance(corners, pictures.camera, pictures.height);
   }

@@ -34,17 +34,20 @@ struct SeenTriangle {
 
 /// Pixels where draws and rays differ, by the first of these reasons that holds.
 struct PrimaryDifference {
-  std::uint64_t pixels = 0;       ///< of the picture
-  std::uint64_t covered = 0;      ///< where rays hit something
-  std::uint64_t triangles = 0;    ///< different ones that rays hit
-  std::uint64_t hit_or_not = 0;   ///< one shows a surface, the other nothing
-  std::uint64_t silhouettes = 0;  ///< the depths differ by more than 1 %
-  std::uint64_t neighbours = 0;   ///< the triangles share a corner
-  std::uint64_t others = 0;       ///< other surfaces close by: a leaf over a leaf, a foot's floor
-  double expected = 0;            ///< pixels that snapping flips, by the length of all edges
+  std::uint64_t pixels = 0;        ///< of the picture
+  std::uint64_t covered = 0;       ///< where rays hit something
+  std::uint64_t triangles = 0;     ///< different ones that rays hit
+  std::uint64_t hit_or_not = 0;    ///< one shows a surface, the other nothing
+  std::uint64_t other_levels = 0;  ///< rays see another level of detail of the instance
+  std::uint64_t silhouettes = 0;   ///< the depths differ by more than 1 %
+  std::uint64_t neighbours = 0;    ///< the triangles share a corner
+  std::uint64_t others = 0;        ///< other surfaces close by: a leaf over a leaf, a foot's floor
+  double expected = 0;             ///< pixels that snapping flips, by the length of all edges
 
   /// All of them.
-  std::uint64_t differing() const { return hit_or_not + silhouettes + neighbours + others; }
+  std::uint64_t differing() const {
+    return hit_or_not + other_levels + silhouettes + neighbours + others;
+  }
   /// Their share of the covered pixels.
   double share() const;
   /// Covered pixels per triangle that rays hit.
