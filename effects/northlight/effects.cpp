@@ -7,6 +7,7 @@
 #include "effects/indirect/rows.h"
 #include "effects/light/rows.h"
 #include "effects/occlusion/rows.h"
+#include "effects/particles/particles.h"
 #include "effects/reflections/rows.h"
 #include "effects/shadows/rows.h"
 
@@ -24,6 +25,7 @@ std::vector<Effect> make_effects() {
         glass_alternatives}) {
     for (Effect& row : alternatives()) out.push_back(std::move(row));
   }
+  out.push_back(particles_row());  // over all others
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "effects/assets/built_in/peter_panning.h"
 #include "effects/assets/built_in/projector.h"
 #include "effects/assets/built_in/runner.h"
+#include "effects/assets/built_in/sparks.h"
 #include "effects/assets/built_in/stress_scenes.h"
 #include "effects/assets/built_in/terrain.h"
 
@@ -38,6 +39,7 @@ constexpr BuiltInScene kScenes[] = {
     {"projector", [] { return make_projector(); }},
     {"terrain", [] { return make_terrain({}); }},
     {"boulders", [] { return make_boulders({}); }},
+    {"sparks", [] { return make_sparks({}); }},
     {"pub", [] { return make_stress_scene({StressKind::kPub}); }},
     {"resort", [] { return make_stress_scene({StressKind::kResort}); }},
     {"breakfast", [] { return make_stress_scene({StressKind::kBreakfast}); }},
