@@ -40,6 +40,7 @@ constexpr BuiltInScene kScenes[] = {
     {"terrain", [] { return make_terrain({}); }},
     {"boulders", [] { return make_boulders({}); }},
     {"sparks", [] { return make_sparks({}); }},
+    {"lounge-loose-table", [] { return make_lounge_loose_table(); }},
     {"pub", [] { return make_stress_scene({StressKind::kPub}); }},
     {"resort", [] { return make_stress_scene({StressKind::kResort}); }},
     {"breakfast", [] { return make_stress_scene({StressKind::kBreakfast}); }},

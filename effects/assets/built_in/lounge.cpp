@@ -277,4 +277,34 @@ Scene make_lounge() {
   return scene;
 }
 
+Scene make_lounge_loose_table() {
+  Scene scene = make_lounge();
+  scene.name = "lounge-loose-table";
+  Animation slide = {.name = "slide", .channels = {}, .duration = 2 * kTableSeconds};
+  for (Instance& instance : scene.instances) {
+    if (instance.name != "table" && instance.name != "magazine") continue;
+    instance.motion.node = static_cast<std::int32_t>(scene.nodes.size());
+    instance.motion.animation = 0;
+    // Nodes move what is still in the instance's own space.
+    const glm::dvec3 way =
+        glm::inverse(glm::dmat3(instance.transform)) * glm::dvec3(kTableSlide, 0, 0);
+    Channel channel;
+    channel.node = static_cast<std::uint32_t>(scene.nodes.size());
+    channel.path = ChannelPath::kTranslation;
+    channel.times = {0.0f, static_cast<float>(kTableSeconds),
+                     static_cast<float>(2 * kTableSeconds)};
+    channel.values = {glm::vec4(0), glm::vec4(glm::vec3(way), 0), glm::vec4(0)};
+    slide.channels.push_back(std::move(channel));
+    Node node;
+    node.name = instance.name;
+    scene.nodes.push_back(std::move(node));
+  }
+  scene.animations.push_back(std::move(slide));
+  Camera& camera = scene.cameras.front();
+  camera.name = "below the table";
+  camera.camera_to_world = look_at(glm::dvec3(-1.3, 0.55, 1.3), glm::dvec3(0, 0.1, 0));
+  camera.vertical_fov = 0.7;
+  return scene;
+}
+
 }  // namespace kaamos::effects
