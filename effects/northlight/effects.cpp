@@ -6,6 +6,7 @@
 #include "effects/glass/rows.h"
 #include "effects/indirect/rows.h"
 #include "effects/light/rows.h"
+#include "effects/materials/material_variants.h"
 #include "effects/occlusion/rows.h"
 #include "effects/particles/particles.h"
 #include "effects/reflections/rows.h"
@@ -25,6 +26,7 @@ std::vector<Effect> make_effects() {
         glass_alternatives}) {
     for (Effect& row : alternatives()) out.push_back(std::move(row));
   }
+  out.push_back(material_variants_row());
   out.push_back(particles_row());  // over all others
   return out;
 }

@@ -13,6 +13,7 @@
 #include "effects/assets/built_in/mirror_hall.h"
 #include "effects/assets/built_in/oracle_scenes.h"
 #include "effects/assets/built_in/peter_panning.h"
+#include "effects/assets/built_in/portrait.h"
 #include "effects/assets/built_in/projector.h"
 #include "effects/assets/built_in/runner.h"
 #include "effects/assets/built_in/sparks.h"
@@ -40,6 +41,7 @@ constexpr BuiltInScene kScenes[] = {
     {"terrain", [] { return make_terrain({}); }},
     {"boulders", [] { return make_boulders({}); }},
     {"sparks", [] { return make_sparks({}); }},
+    {"portrait", [] { return make_portrait(); }},
     {"lounge-loose-table", [] { return make_lounge_loose_table(); }},
     {"pub", [] { return make_stress_scene({StressKind::kPub}); }},
     {"resort", [] { return make_stress_scene({StressKind::kResort}); }},

@@ -26,6 +26,14 @@ Value under_key(Value::Object members) {
   return Value(Value::Object{{kKey, Value(std::move(members))}});
 }
 
+/// Models of a material's own, in `model` of its extras.
+struct ModelName {
+  const char* name;
+  std::uint32_t flag;
+};
+constexpr ModelName kModels[] = {
+    {"skin", kMaterialSkin}, {"eye", kMaterialEye}, {"hair", kMaterialHair}};
+
 /// One object below the key, and the warnings about its values.
 class Reader {
  public:
@@ -66,6 +74,16 @@ class Reader {
     if (value >= 0.0)
       warnings_.push_back(where_ + ", extras: " + key + " is not whole; it is left out");
     return {};
+  }
+  /// The flag of a member that names a model; 0, with a warning, where it names none.
+  std::uint32_t model(const char* key) {
+    if (!has(key)) return 0;
+    const Value& value = object_->Get(key);
+    for (const ModelName& each : kModels) {
+      if (value.IsString() && value.Get<std::string>() == each.name) return each.flag;
+    }
+    warn(key, "\"skin\", \"eye\" or \"hair\"");
+    return 0;
   }
   /// Three numbers from 0: a colour, radiance or irradiance; black, with a warning, where it is
   /// none.
@@ -141,6 +159,14 @@ void add_instance_extras(Value& extras, const Instance& instance) {
   extras = Value(std::move(all));
 }
 
+Value material_extras(const MaterialConstants& material) {
+  for (const ModelName& each : kModels) {
+    if ((material.flags & each.flag) == 0) continue;
+    return under_key({{"model", Value(std::string(each.name))}});
+  }
+  return {};
+}
+
 std::optional<SceneExtras> read_scene_extras(const Value& extras, const std::string& where,
                                              std::vector<std::string>& warnings) {
   Reader reader(extras, where, warnings);
@@ -192,6 +218,11 @@ std::optional<std::uint8_t> read_instance_mask(const Value& extras, const std::s
   const std::optional<int> mask = reader.whole("mask", 255.0);
   if (!mask) return {};
   return static_cast<std::uint8_t>(*mask);
+}
+
+std::uint32_t read_material_model(const Value& extras, const std::string& where,
+                                  std::vector<std::string>& warnings) {
+  return Reader(extras, where, warnings).model("model");
 }
 
 }  // namespace kaamos::effects

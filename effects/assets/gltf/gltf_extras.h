@@ -41,6 +41,8 @@ tinygltf::Value sun_extras(const Sun& sun);
 tinygltf::Value lamp_extras(const Light& light, int texture);
 /// For the node of an instance; what `extras` holds already is kept.
 void add_instance_extras(tinygltf::Value& extras, const Instance& instance);
+/// For a material; null where the unified model shows it.
+tinygltf::Value material_extras(const MaterialConstants& material);
 
 /// Each reads what the function above wrote, from the extras of the same object. Empty where there
 /// is nothing of ours; values that are not usable are left out with a warning that begins with
@@ -59,6 +61,9 @@ std::optional<ProjectionExtras> read_projection_extras(const tinygltf::Value& ex
 std::optional<std::uint8_t> read_instance_mask(const tinygltf::Value& extras,
                                                const std::string& where,
                                                std::vector<std::string>& warnings);
+/// The bit of MaterialFlags; 0: none.
+std::uint32_t read_material_model(const tinygltf::Value& extras, const std::string& where,
+                                  std::vector<std::string>& warnings);
 ///@}
 
 }  // namespace kaamos::effects

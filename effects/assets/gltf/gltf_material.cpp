@@ -466,6 +466,7 @@ Status MaterialReader::material(const tinygltf::Material& from, std::size_t id) 
   to.roughness = factor(pbr.roughnessFactor, 1.0f);
   to.normal_scale = number(from.normalTexture.scale, 1.0f);
   if (from.doubleSided) to.flags |= kMaterialDoubleSided;
+  to.flags |= read_material_model(from.extras, where, reader_.warnings);
   read_reflectance(from, to);
   const auto glossy = from.extensions.find(kGlossiness);
   const bool is_glossy = glossy != from.extensions.end() && glossy->second.IsObject();

@@ -293,6 +293,28 @@ TEST(GltfExtras, UnusableValuesAreLeftOutWithAWarning) {
   EXPECT_FALSE(loaded.value().complete) << "it has no camera";
 }
 
+TEST(GltfExtras, AMaterialNamesAModelOfItsOwn) {
+  const auto with_model = [](const std::string& model) {
+    QuadFile file;
+    file.nodes = R"([{"mesh":0}])";
+    file.more = R"(,"materials":[{"extras":{"kaamos":{"model":)" + model + "}}}]";
+    return load(file.bytes());
+  };
+  const auto hair = with_model(R"("hair")");
+  ASSERT_TRUE(hair.ok()) << hair.error().message;
+  EXPECT_TRUE(hair.value().warnings.empty());
+  EXPECT_EQ(hair.value().scene.materials.front().constants.flags, kMaterialHair);
+  for (const char* unknown : {R"("fur")", "3"}) {
+    const auto loaded = with_model(unknown);
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+    ASSERT_EQ(loaded.value().warnings.size(), 1u);
+    EXPECT_NE(loaded.value().warnings[0].find("model is not \"skin\", \"eye\" or \"hair\""),
+              std::string::npos)
+        << loaded.value().warnings[0];
+    EXPECT_EQ(loaded.value().scene.materials.front().constants.flags, 0u);
+  }
+}
+
 TEST(GltfExtras, ASlideNamesATextureOfTheFile) {
   const auto with_slide = [](const std::string& projection) {
     QuadFile file;

@@ -265,6 +265,7 @@ void Writer::add_material(const Material& material) {
     use_extension("KHR_materials_unlit");
     to.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
   }
+  to.extras = material_extras(from);
   add_reflectance(from, to);
   to.normalTexture.scale = from.normal_scale;
   to.doubleSided = (from.flags & kMaterialDoubleSided) != 0;

@@ -36,6 +36,13 @@ enum MaterialFlags : std::uint32_t {
   /// Shows its base colour as it is, whatever light falls on it: upload_scene makes it emission, of
   /// a radiance that the exposure takes back, and takes reflection away. [KHR_materials_unlit]
   kMaterialUnlit = 1u << 4,
+  /// What a model of its own would show better than the unified one, which all effects but
+  /// effects/materials take for it. At most one of them.
+  ///@{
+  kMaterialSkin = 1u << 5,
+  kMaterialEye = 1u << 6,
+  kMaterialHair = 1u << 7,
+  ///@}
 };
 
 /// A texture slot without an image.
