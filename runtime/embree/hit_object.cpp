@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/hit_object.h"
 
+#include "kaamos/shader/reordering.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/trace.h"
@@ -59,6 +60,7 @@ void invoke_hit_object(shader::Invocation& caller, const shader::HitObject& hit,
 uint32_t record_constant(shader::Invocation& caller, const shader::HitObject& hit,
                          uint32_t offset) {
   if (hit.is_bound == 0) return 0;
+  if (offset == shader::kReorderedRecord) table_of(worker_of(caller), hit).at(hit.record);
   return table_of(worker_of(caller), hit).argument(hit.record, offset);
 }
 

@@ -34,6 +34,12 @@ void Checked::told(const std::string& what, const char* id) {
   fail(what + ": no message " + id);
 }
 
+void Checked::not_told(const std::string& what, const char* id) {
+  for (const Message& message : take_messages()) {
+    if (message.Id.text() == id) fail(what + ": " + message.Text);
+  }
+}
+
 void Checked::silent(const std::string& what) {
   for (const Message& message : take_messages()) {
     if (message.Severity == MessageSeverity::kInfo) continue;

@@ -20,6 +20,8 @@ class Checked : public Context {
   ~Checked();
   // The message must have arrived since the last call.
   void told(const std::string& what, const char* id);
+  // It may not.
+  void not_told(const std::string& what, const char* id);
   // No error or warning of checked mode may have arrived since then.
   void silent(const std::string& what);
   rtapi::Status execute(rtapi::CommandList& list) { return queue().ExecuteAndWait(list); }

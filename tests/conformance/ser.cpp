@@ -4,6 +4,7 @@
 #include <shaders/ser.h>
 #include <shaders/ser_qualified.h>
 
+#include "tests/conformance/checked.h"
 #include "tests/conformance/program.h"
 
 namespace kaamos::conformance {
@@ -537,6 +538,35 @@ void reordering_changes_nothing(Context& t) {
   }
 }
 
+// Objects with a record that their table does not have.
+void invalid_records_of_reordering(Context& t) {
+  struct Case {
+    const char* what;
+    Ray ray;
+    bool is_invalid;
+  };
+  for (const Case& each :
+       {Case{"the hit's own record", object_ray(kTraced), false},
+        {"the last record of the table", object_ray(kTraced, kSetIndex, 1), false},
+        {"a record past its end", object_ray(kTraced, kSetIndex, 2), true},
+        {"a miss's own record", object_ray(kMakeMiss), false},
+        {"a record past the miss table's end", object_ray(kMakeMiss, kSetIndex, 4), true},
+        {"a NOP", object_ray(kMakeNop, kSetIndex, 5), false},
+        {"an object that is bound to none", object_ray(kOfQuery), false}}) {
+    Checked c(t);
+    Objects program(c, "OnlyReordered");
+    program.scene = c.scene({triangle(5)});
+    program.record("Plain");
+    program.record("Plain");
+    program.outcome(each.ray);
+    if (each.is_invalid) {
+      c.told(each.what, "KA0895");
+    } else {
+      c.not_told(each.what, "KA0895");
+    }
+  }
+}
+
 void barriers_of_reordering(Context& t) {
   Objects program(t, "WritesAndMoves");
   program.create();
@@ -577,6 +607,7 @@ std::vector<RuleTest> ser_tests() {
           {"SER-02, SER-05", objects_are_values},
           {"SER-28", recursion, "*"},
           {"SER-29", stack_sizes},
+          {"SER-32", invalid_records_of_reordering, "*"},
           {"SER-34, SER-35, SER-37, SER-41", reordering_changes_nothing},
           {"SER-38", barriers_of_reordering}};
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// OPTIONS: -T lib_6_9 -disable-payload-qualifiers
 // Hit objects. The first half is standard.hlsl with HitObject::TraceRay and Invoke instead of
 // TraceRay.
 #define THROUGH_HIT_OBJECTS
@@ -242,6 +243,17 @@ void Reordered() {
     sum += 100 * (DispatchRaysIndex().x == i);
   }
   words.Store(4 * i, sum);
+}
+
+// The object is only reordered by, with the record Ray.extra.z if Ray.extra.y is kSetIndex.
+[shader("raygeneration")]
+void OnlyReordered() {
+  const Ray ray = rays[0];
+  Seen seen = nothingSeen();
+  dx::HitObject hit = chosen(ray, seen);
+  if (ray.extra.y == kSetIndex) hit.SetShaderTableIndex(ray.extra.z);
+  dx::MaybeReorderThread(hit);
+  words.Store<Seen>(0, seen);
 }
 
 // Closest-hit shaders that trace once more, by Ray.extra.x: 1 HitObject::TraceRay, 2 and Invoke,

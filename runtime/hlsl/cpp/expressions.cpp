@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "kaamos/shader/reordering.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/cpp/emitter.h"
 #include "runtime/hlsl/ir/operators.h"
@@ -456,6 +457,10 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kSameBytes:
       return call("ks::same_bytes<" + type(expr.type) + ">", expr.operands);
     case ExprKind::kRecordConstant:
+      if (!module_.check_access && expr.operands[1]->kind == ExprKind::kLiteral &&
+          static_cast<uint32_t>(expr.operands[1]->literal[0]) == shader::kReorderedRecord) {
+        return "0u";
+      }
       return "ks::record_constant(ctx.invocation, " + value(expr.operands[0]) + ", " +
              value(expr.operands[1]) + ")";
     case ExprKind::kQuad:  // a statement by now

@@ -16,7 +16,10 @@ namespace {
 std::string content_of(const ir::Module& module, const std::string& cpp, bool spirv) {
   std::string content = cpp;
   if (!spirv) return content;
-  for (const ir::EntryPoint& entry : module.entry_points) content += emit_glsl(module, entry).text;
+  for (const ir::EntryPoint& entry : module.entry_points) {
+    content += emit_glsl(module, entry).text;
+    if (has_twin(module, entry)) content += emit_glsl_twin(module, entry).text;
+  }
   return content + spirv_version();
 }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "kaamos/shader/spirv_interface.h"
 #include "runtime/files/write_file.h"
 #include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/driver/arguments.h"
@@ -115,11 +116,10 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
     case Emit::kGlsl:
       for (const ir::EntryPoint& entry : module.entry_points) {
         if (module.entry_points.size() > 1) text += "// ---- " + entry.name + "\n";
-        if (entry.function->uses_hit_object) {
-          text += "// uses dx::HitObject, which is not offered on Vulkan\n";
-          continue;
-        }
         text += emit_glsl(module, entry).text;
+        if (!has_twin(module, entry)) continue;
+        text += "// ---- " + entry.name + ", as a callable shader for dx::HitObject\n";
+        text += emit_glsl_twin(module, entry).text;
       }
       break;
     case Emit::kSpirv: {
@@ -129,12 +129,10 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
       }
       const SpirvLibrary library = compile_spirv(module);
       if (library.error) return fail(library.error.message());
-      const auto& words = library.modules[0];
-      if (words.empty()) {
-        return fail("'" + module.entry_points[0].name +
-                    "' uses dx::HitObject, which is not offered on Vulkan");
-      }
-      text.assign(reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t));
+      const auto& all = library.modules[0];
+      const auto words =
+          kaamos::shader::spirv::spirv_pair(all.data(), static_cast<uint32_t>(all.size()));
+      text.assign(reinterpret_cast<const char*>(words.words), words.count * sizeof(uint32_t));
       break;
     }
     default:

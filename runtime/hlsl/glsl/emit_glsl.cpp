@@ -7,6 +7,7 @@
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/glsl/emitter.h"
 #include "runtime/hlsl/glsl/prelude.h"
+#include "runtime/hlsl/ir/hit_object.h"
 #include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
@@ -25,9 +26,9 @@ constexpr char kExtensions[] =
 
 }  // namespace
 
-GlslEmitter::GlslEmitter(const Module& module, const EntryPoint& entry)
-    : module_(module), entry_(entry) {
-  shader_.stage = entry.stage;
+GlslEmitter::GlslEmitter(const Module& module, const EntryPoint& entry, bool twin)
+    : module_(module), entry_(entry), twin_(twin) {
+  shader_.stage = twin ? kStageCallable : entry.stage;
 }
 
 void GlslEmitter::collect(const Expr& root) {
@@ -152,7 +153,7 @@ std::string GlslEmitter::entry_argument(size_t index) {
     case EntryParameter::kCallableData:
       return "g_argument";
     case EntryParameter::kAttributes:
-      return attributes_function(t, false) + "()";
+      return twin_ ? twin_attributes(t) : attributes_function(t, false) + "()";
     case EntryParameter::kDispatchThreadId:
       return group_value("(" + std::string(kGroupId) +
                          ") * gl_WorkGroupSize + gl_LocalInvocationID");
@@ -192,7 +193,8 @@ void GlslEmitter::emit_main() {
   initialise_globals();
   const bool payload = (entry_.stage & kPayloadStages) != 0;
   const bool callable = entry_.stage == kStageCallable;
-  const bool incoming = entry_.payload != nullptr && (payload || callable);
+  const bool incoming = entry_.payload != nullptr && (payload || callable) && !twin_;
+  if (twin_) begin_twin();
   if (incoming) {
     payload_block(payload ? "rayPayloadInEXT" : "callableDataInEXT", 0, entry_.payload, "g_in");
     line("g_depths = g_in.depths;");
@@ -220,7 +222,9 @@ void GlslEmitter::emit_main() {
   if (incoming) {
     line("g_in.data = " + convert_wire(entry_.payload, true) + "(g_argument);");
   }
-  if (entry_.stage == kStageAnyHit && entry_.function->may_end_shader) {
+  if (twin_) {
+    end_twin();
+  } else if (entry_.stage == kStageAnyHit && entry_.function->may_end_shader) {
     line("if (g_ended == 1u) ignoreIntersectionEXT;");
     line("if (g_ended == 2u) terminateRayEXT;");
   }
@@ -258,7 +262,7 @@ GlslShader GlslEmitter::run() {
   }
   if (entry_.stage == kStageIntersection) {
     declarations_ += "float g_t_reported = 0.0;\n";
-    start_ += "  g_t_reported = gl_RayTmaxEXT;\n";
+    start_ += "  g_t_reported = " + (twin_ ? twin_value(kHitT) : "gl_RayTmaxEXT") + ";\n";
   }
   emit_globals();
   for (const Function* function : module_.functions) {
@@ -298,6 +302,15 @@ GlslShader GlslEmitter::run() {
 
 GlslShader emit_glsl(const Module& module, const EntryPoint& entry) {
   return GlslEmitter(module, entry).run();
+}
+
+bool has_twin(const Module& module, const EntryPoint& entry) {
+  constexpr uint32_t kStages = kPayloadStages | kStageIntersection;
+  return module.hit_object != nullptr && (entry.stage & kStages) != 0;
+}
+
+GlslShader emit_glsl_twin(const Module& module, const EntryPoint& entry) {
+  return GlslEmitter(module, entry, true).run();
 }
 
 }  // namespace kaamos::hlsl

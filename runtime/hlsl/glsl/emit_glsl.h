@@ -24,4 +24,9 @@ struct GlslShader {
 // The module must have passed the checker without errors; emission cannot fail.
 GlslShader emit_glsl(const ir::Module& module, const ir::EntryPoint& entry);
 
+// The twin of an any-hit, intersection, closest-hit or miss shader, a callable shader that
+// functions of HitObject run in its place: in libraries of Shader Model 6.9.
+bool has_twin(const ir::Module& module, const ir::EntryPoint& entry);
+GlslShader emit_glsl_twin(const ir::Module& module, const ir::EntryPoint& entry);
+
 }  // namespace kaamos::hlsl

@@ -39,12 +39,16 @@ FrontendOptions options_of(const fs::path& path) {
     if (word != "OPTIONS:") continue;
     while (words >> word) {
       if (word == "-enable-16bit-types") options.native_16bit = true;
+      if (word == "-disable-payload-qualifiers") options.payload_qualifiers = false;
       if (word == "-Zpr") options.row_major = true;
       if (word == "-HV") words >> options.hlsl_version;
       if (word == "-D" && words >> word) options.defines.push_back(word);
       if (word == "-T") words >> options.target;
     }
   }
+  const std::string rest(std::istreambuf_iterator<char>(file), {});
+  const auto has = [&](const char* word) { return rest.find(word) != std::string::npos; };
+  if (has("dx::HitObject") && has("[raypayload]")) options.target = "lib_6_9";
   return options;
 }
 
@@ -72,8 +76,12 @@ int sweep_file(const fs::path& path, bool checked, std::string& wrong) {
   }
   int passed = 0;
   for (const ir::EntryPoint& entry : module->entry_points) {
-    const SpirvModule spirv = compile_spirv(emit_glsl(*module, entry), entry.name);
-    const std::string error = !spirv.error ? validate(spirv.words) : spirv.error.message();
+    const auto check = [&](const GlslShader& shader) {
+      const SpirvModule spirv = compile_spirv(shader, entry.name);
+      return !spirv.error ? validate(spirv.words) : spirv.error.message();
+    };
+    std::string error = check(emit_glsl(*module, entry));
+    if (has_twin(*module, entry)) error += check(emit_glsl_twin(*module, entry));
     if (error.empty()) {
       ++passed;
     } else {
@@ -86,9 +94,7 @@ int sweep_file(const fs::path& path, bool checked, std::string& wrong) {
 void sweep(const std::string& folder, int at_least, bool checked = false) {
   std::vector<fs::path> files;
   for (const auto& file : fs::recursive_directory_iterator(kRoot + "/" + folder)) {
-    // Vulkan has no hit objects (KA0968).
-    const bool hit_objects = file.path().stem().string().starts_with("ser");
-    if (file.path().extension() == ".hlsl" && !hit_objects) files.push_back(file.path());
+    if (file.path().extension() == ".hlsl") files.push_back(file.path());
   }
   std::sort(files.begin(), files.end());
   int passed = 0;

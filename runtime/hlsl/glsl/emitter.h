@@ -3,7 +3,8 @@
 // The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
 // stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
 // atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp,
-// graphics.cpp (vertex and pixel shaders), system_values.cpp, emit_glsl.cpp (functions, main).
+// graphics.cpp (vertex and pixel shaders), hit_objects.cpp (HitObject, twins), system_values.cpp,
+// emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
 // a number added if the name is not unique; k_ for the prelude; g_ for what is generated here.
@@ -40,7 +41,8 @@ class GlslNames {
 
 class GlslEmitter {
  public:
-  GlslEmitter(const ir::Module& module, const ir::EntryPoint& entry);
+  // `twin`: the callable twin of a hit or miss shader (hit_objects.cpp).
+  GlslEmitter(const ir::Module& module, const ir::EntryPoint& entry, bool twin = false);
   GlslShader run();
 
  private:
@@ -158,10 +160,34 @@ class GlslEmitter {
   uint32_t attribute_words() const;
   void each_scalar(const ir::Type* type, const std::string& at,
                    const std::function<void(ir::Scalar, const std::string&)>& visit);
+  std::string words_of(const ir::Type* type, const std::string& words, bool store);
   std::string attributes_function(const ir::Type* attributes, bool store);
   std::string report_function(const ir::Type* attributes);
   std::string reported_t();
   void report_hit(const ir::Stmt& stmt);
+
+  // hit_objects.cpp
+  std::string hit_type();
+  std::string hit_member(uint32_t index);
+  std::string with_hit(std::string text);
+  void declare_twin_data();
+  void declare_twin();
+  std::string twin_payload(const std::string& data, const ir::Type* type, bool store);
+  std::string search_function();
+  std::string trace_hit_function(const ir::Type* payload);
+  std::string invoke_function(const ir::Type* payload);
+  std::string twin_trace_function(const ir::Type* payload);
+  void invoke(const ir::Stmt& stmt);
+  std::string same_bytes(const ir::Expr& expr);
+  std::string record_constant(const ir::Expr& expr);
+  std::string twin_value(uint32_t index);
+  std::string twin_report_function(const ir::Type* attributes);
+  void begin_twin();
+  void end_twin();
+  std::string twin_attributes(const ir::Type* attributes);
+  std::string twin_transform(bool to_world, bool transposed, const ir::Type* type);
+  std::string twin_object_ray(bool origin);
+  std::string twin_system_value(const ir::Expr& expr);
 
   // waves.cpp
   std::string multi_prefix_function(shader::WaveOp op, const ir::Type* type);
@@ -240,6 +266,8 @@ class GlslEmitter {
   const ir::Module& module_;
   ir::Location statement_location_;
   const ir::EntryPoint& entry_;
+  const bool twin_;
+  std::string twin_location_;  // of the data that the shader passes to twins
   GlslShader shader_;
 
   // Sections of the text, in the order in which they are put together.

@@ -291,8 +291,10 @@ std::string GlslEmitter::value(const Expr* e) {
       return sample(expr);
     case ExprKind::kDimensions:
       return dimensions(expr);
-    case ExprKind::kSameBytes:  // of hit objects, which have no GLSL
+    case ExprKind::kSameBytes:
+      return same_bytes(expr);
     case ExprKind::kRecordConstant:
+      return record_constant(expr);
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -147,7 +147,7 @@ void GlslEmitter::declare_status() {
   generated("g_Status",
             "layout(buffer_reference, scalar, buffer_reference_align = 8) buffer g_Status {\n"
             "  uint removal_reason;\n"
-            "  uint reserved;\n"
+            "  uint reordered;\n"
             "  uint counts[" +
                 std::to_string(2 * shader::spirv::kCountCount) +
                 "];\n  uint64_t unknown_structure;\n};\n");
@@ -218,6 +218,7 @@ void GlslEmitter::declare_top_level() {
 }
 
 std::string GlslEmitter::trace_function(const Type* payload) {
+  if (twin_) return twin_trace_function(payload);
   auto& name = generated_["trace " + type(payload)];
   if (!name.empty()) {
     return name;
@@ -281,10 +282,12 @@ std::string GlslEmitter::trace_function(const Type* payload) {
 }
 
 void GlslEmitter::trace_ray(const Stmt& stmt) {
-  const std::string function = trace_function(stmt.place->type);
+  const std::string function = stmt.result != nullptr ? trace_hit_function(stmt.place->type)
+                                                      : trace_function(stmt.place->type);
   std::string text = call(function, stmt.operands);
   text.pop_back();
-  line(text + ", " + path(stmt.place).text +
+  line((stmt.result != nullptr ? variable(stmt.result) + " = " : "") + text + ", " +
+       path(stmt.place).text +
        (module_.check_access
             ? ", " + site(stmt.location) + (is_unknown(module_, stmt) ? ", true" : ", false")
             : "") +
@@ -433,6 +436,25 @@ void GlslEmitter::each_scalar(const Type* t, const std::string& at,
   }
 }
 
+// Statements that store each scalar of `value` in words, or load it from them.
+std::string GlslEmitter::words_of(const Type* t, const std::string& words, bool store) {
+  std::string text;
+  uint32_t next = 0;
+  each_scalar(t, "value", [&](Scalar scalar, const std::string& part) {
+    const auto word = [&](uint32_t i) { return words + "[" + std::to_string(i) + "]"; };
+    const uint32_t count = scalar_bytes(scalar, ScalarStorage::kBuffer) == 8 ? 2 : 1;
+    if (store) {
+      for (uint32_t i = 0; i < count; ++i) {
+        text += "  " + word(next + i) + " = " + to_word(scalar, part, static_cast<int>(i)) + ";\n";
+      }
+    } else {
+      text += "  " + part + " = " + from_words(scalar, word(next), word(next + 1)) + ";\n";
+    }
+    next += count;
+  });
+  return text;
+}
+
 // A function that stores a value in the attributes, or loads one from them.
 std::string GlslEmitter::attributes_function(const Type* t, bool store) {
   auto& name = generated_[(store ? "store attributes " : "load attributes ") + type(t)];
@@ -444,29 +466,21 @@ std::string GlslEmitter::attributes_function(const Type* t, bool store) {
   const bool floats = attributes_are_floats();
   std::string text = store ? "void " + name + "(" + type(t) + " value) {\n"
                            : type(t) + " " + name + "() {\n  " + type(t) + " value;\n";
-  uint32_t next = 0;
-  each_scalar(t, "value", [&](Scalar scalar, const std::string& part) {
-    if (floats) {
-      const std::string to = "g_attributes." + glsl::component(static_cast<int>(next++));
+  if (floats) {
+    int next = 0;
+    each_scalar(t, "value", [&](Scalar, const std::string& part) {
+      const std::string to = "g_attributes." + glsl::component(next++);
       text += "  " + (store ? to + " = " + part : part + " = " + to) + ";\n";
-      return;
-    }
-    const auto word = [](uint32_t i) { return "g_attributes[" + std::to_string(i) + "]"; };
-    const uint32_t count = scalar_bytes(scalar, ScalarStorage::kBuffer) == 8 ? 2 : 1;
-    if (store) {
-      for (uint32_t i = 0; i < count; ++i) {
-        text += "  " + word(next + i) + " = " + to_word(scalar, part, static_cast<int>(i)) + ";\n";
-      }
-    } else {
-      text += "  " + part + " = " + from_words(scalar, word(next), word(next + 1)) + ";\n";
-    }
-    next += count;
-  });
+    });
+  } else {
+    text += words_of(t, "g_attributes", store);
+  }
   helpers_ += text + (store ? "}\n" : "  return value;\n}\n");
   return name;
 }
 
 std::string GlslEmitter::report_function(const Type* attributes) {
+  if (twin_) return twin_report_function(attributes);
   auto& name = generated_["report " + type(attributes)];
   if (!name.empty()) {
     return name;

@@ -6,6 +6,8 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/build_info.h>
 
+#include "kaamos/shader/spirv_interface.h"
+
 namespace kaamos::hlsl {
 namespace {
 
@@ -102,7 +104,7 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name) {
 }
 
 std::string spirv_version() {
-  constexpr int kRevision = 1;  // of finish_spirv
+  constexpr int kRevision = 2;  // of finish_spirv, and of what goes with a module
   return std::to_string(GLSLANG_VERSION_MAJOR) + "." + std::to_string(GLSLANG_VERSION_MINOR) + "." +
          std::to_string(GLSLANG_VERSION_PATCH) + " " + std::to_string(kRevision);
 }
@@ -110,14 +112,20 @@ std::string spirv_version() {
 SpirvLibrary compile_spirv(const ir::Module& module) {
   SpirvLibrary out;
   for (const ir::EntryPoint& entry : module.entry_points) {
-    if (entry.function->uses_hit_object) {  // not offered on Vulkan
-      out.modules.emplace_back();
-      continue;
-    }
     SpirvModule spirv = compile_spirv(emit_glsl(module, entry), entry.name);
     if (spirv.error) {
       out.error = std::move(spirv.error);
       break;
+    }
+    if (has_twin(module, entry)) {
+      SpirvModule twin = compile_spirv(emit_glsl_twin(module, entry), entry.name);
+      if (twin.error) {
+        out.error = std::move(twin.error);
+        break;
+      }
+      const auto count = static_cast<uint32_t>(twin.words.size());
+      spirv.words.insert(spirv.words.end(), twin.words.begin(), twin.words.end());
+      spirv.words.insert(spirv.words.end(), {count, shader::spirv::kTwinMark});
     }
     out.modules.push_back(std::move(spirv.words));
   }

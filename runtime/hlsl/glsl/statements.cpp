@@ -231,7 +231,8 @@ void GlslEmitter::statement(const Stmt& stmt) {
     case StmtKind::kTraceRay:
       trace_ray(stmt);
       break;
-    case StmtKind::kInvoke:  // of hit objects, which have no GLSL
+    case StmtKind::kInvoke:
+      invoke(stmt);
       break;
     case StmtKind::kQuery:
       query(stmt);

@@ -81,6 +81,11 @@ std::string GlslEmitter::system_value(const Expr& expr) {
   const bool launched = entry_.stage != kStageCompute;
   const bool ray = (entry_.stage & kRayStages) != 0;
   const bool hit = (entry_.stage & kHitStages) != 0;
+  if (twin_ && expr.system_value != SystemValue::kDispatchRaysIndex &&
+      expr.system_value != SystemValue::kDispatchRaysDimensions) {
+    const std::string text = twin_system_value(expr);
+    return text.empty() ? zero(expr.type) : text;
+  }
   // The checker rejects a system value that the stage does not have, except in code that never
   // runs.
   const auto if_has = [&](bool has, const auto& text) {

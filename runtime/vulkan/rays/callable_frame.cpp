@@ -54,16 +54,30 @@ uint64_t bytes_of_level(const runtime::LinkedShader& shader) {
          code.payload_storage_bytes;
 }
 
+uint64_t bytes_of_twin(const runtime::LinkedShader& shader, const TwinLevels& twins) {
+  constexpr uint64_t kHeaderBytes = 16;
+  constexpr uint64_t kQueryBytes = 512;
+  return shader.code->stack_bytes + kQueryBytes +
+         2 * (kHeaderBytes + sizeof(shader::HitObject) + uint64_t{twins.payload_words} * 4);
+}
+
 }  // namespace
 
 CallableFrame callable_frame(const runtime::LinkedPipeline& pipeline, uint32_t depth,
-                             uint64_t stack_bytes) {
+                             uint64_t stack_bytes, const TwinLevels& twins) {
+  const bool nests = needs_own_stack(pipeline);
+  if (twins.count == 0 && !nests) return {depth, 0};
+  depth = (nests ? depth : 1) + twins.count;
   if (depth <= kDriversLevels) return {depth, 0};
-  if (!needs_own_stack(pipeline)) return {depth, 0};
   uint64_t level = 0;
   for (const auto& record : pipeline.records) {
     if (record->kind != runtime::RecordKind::kCallable || record->shader == nullptr) continue;
     level = std::max(level, bytes_of_level(*record->shader));
+  }
+  if (twins.count != 0) {
+    for (const auto& shader : pipeline.shaders) {
+      level = std::max(level, bytes_of_twin(*shader, twins));
+    }
   }
   // A quarter of the stack, which is what nested_payload_limit() leaves.
   const uint64_t most = stack_bytes / 4 / kLanes / kDriversLevels;

@@ -15,13 +15,18 @@
 namespace kaamos::vulkan {
 
 struct CallableFrame {
-  uint32_t depth = 0;  // number of levels that there is memory for
+  uint32_t depth = 0;  // number of levels that there is memory for, with those of twins
   uint32_t words = 0;  // size of the extra shader; 0: none is needed
 };
-// For callables that should nest `depth` deep. stack_bytes is the stack of a driver thread, which
-// holds that memory for 8 lanes at once; at most a quarter of it is used.
+// Twins of hit and miss shaders (spirv_interface.h), which nest below and above callables.
+struct TwinLevels {
+  uint32_t count = 0;
+  uint32_t payload_words = 0;
+};
+// For callables that should nest `depth` deep, besides the twins. stack_bytes is the stack of a
+// driver thread, which holds that memory for 8 lanes at once; at most a quarter of it is used.
 CallableFrame callable_frame(const runtime::LinkedPipeline& pipeline, uint32_t depth,
-                             uint64_t stack_bytes);
+                             uint64_t stack_bytes, const TwinLevels& twins = {});
 
 // The module of the extra shader; specialization constant 0 is the number of words.
 std::span<const uint32_t> callable_frame_spirv();

@@ -16,6 +16,13 @@ namespace {
 
 using shader::spirv::DispatchBlock;
 using shader::spirv::DispatchFeedback;
+using shader::spirv::TwinTables;
+
+// The flags of a pipeline that are flags of its rays as well.
+constexpr uint32_t kSkipFlags =
+    static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipTriangles) |
+    static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipProceduralPrimitives);
+static_assert(kSkipFlags == 0x300);
 
 // One of the application's tables, where its copy in the driver's form goes, and how many records
 // it has.
@@ -25,6 +32,7 @@ struct Table {
   ApplicationTable source;
   uint64_t offset = 0;   // in the buffer
   uint64_t records = 0;  // records written: the application's, followed by null records
+  uint64_t twins = 0;    // of the callable table: records of twins, which follow
 
   // With a stride of 0 every index means the first record.
   bool repeats() const { return source.count() == 1 && source.stride_bytes == 0; }
@@ -60,7 +68,9 @@ class RaysDispatch {
   rtapi::Status check_stack() const;
   rtapi::Status place_tables(uint64_t start, uint64_t max_hit_record);
   void write_table(const Table& table);
-  void warn_of_structure();
+  void place_twins();
+  void write_twins();
+  void warn_of_status();
   GridLimits limits() const;
   rtapi::Status trace(const std::vector<GridPart>& parts);
   VkStridedDeviceAddressRegionKHR region(TableIndex index) const;
@@ -73,6 +83,8 @@ class RaysDispatch {
   TableLayout layout_;
   Table tables_[kTableCount];
   uint64_t bytes_ = 0;  // size of everything in the buffer
+  TwinTables twins_;
+  uint64_t twin_tables_ = 0;  // where TwinTables is in it; 0: no shader uses hit objects
   const GpuBuffer* buffer_ = nullptr;
   CountedOutcome result_;
 };
@@ -158,6 +170,46 @@ rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record
   return {};
 }
 
+// The records of twins follow those of callables. Their table has a stride, so that a table that
+// repeats its record is one of a single record here, with 0 as the largest index.
+void RaysDispatch::place_twins() {
+  const uint64_t stride = layout_.stride();
+  const Table& hits = tables_[kHitGroup];
+  const Table& misses = tables_[kMiss];
+  Table& callables = tables_[kCallable];
+  const auto last = [](const Table& table) { return table.repeats() ? 0 : table.source.count(); };
+  TwinTables& twins = twins_;
+  twins.first = static_cast<uint32_t>(callables.records);
+  twins.last_hit = static_cast<uint32_t>(last(hits));
+  twins.last_miss = static_cast<uint32_t>(last(misses));
+  twins.ray_flags = static_cast<uint32_t>(pipeline_.linked().flags) & kSkipFlags;
+  for (int i = 0; i < 2; ++i) {
+    const ApplicationTable& source = (i == 0 ? hits : misses).source;
+    twins.address[i] = source.address;
+    twins.size_bytes[i] = source.host != nullptr ? source.size_bytes : 0;
+    twins.stride_bytes[i] = source.stride_bytes;
+  }
+  callables.offset = layout_.aligned(bytes_);
+  const uint64_t records = twins_of(hits.kind) * (last(hits) + 1) + last(misses) + 1;
+  twin_tables_ = layout_.aligned(callables.offset + (callables.records + records) * stride);
+  bytes_ = twin_tables_ + sizeof(twins);
+  callables.twins = records;
+}
+
+void RaysDispatch::write_twins() {
+  const uint64_t stride = layout_.stride();
+  const Table& callables = tables_[kCallable];
+  uint8_t* out = buffer_->host() + callables.offset + callables.records * stride;
+  std::memset(out, 0, callables.twins * stride);
+  for (const TableIndex index : {kHitGroup, kMiss}) {
+    const Table& table = tables_[index];
+    translate_twins(table.source, table.kind, pipeline_.linked().identifiers, pipeline_.groups(),
+                    layout_, out);
+    out += twins_of(table.kind) * (uint64_t{twins_.last_hit} + 1) * stride;
+  }
+  std::memcpy(buffer_->host() + twin_tables_, &twins_, sizeof(twins_));
+}
+
 void RaysDispatch::write_table(const Table& table) {
   const uint64_t stride = layout_.stride();
   uint8_t* out = buffer_->host() + table.offset;
@@ -173,9 +225,19 @@ void RaysDispatch::write_table(const Table& table) {
            "). Was it written, and with an identifier of this state object?"});
 }
 
-void RaysDispatch::warn_of_structure() {
+void RaysDispatch::warn_of_status() {
   DispatchFeedback status;
   std::memcpy(&status, buffer_->host(), sizeof(status));
+  if (status.reordered != 0) {
+    const uint32_t found = status.reordered - 1;
+    const Table& table = tables_[(found & 1) != 0 ? kMiss : kHitGroup];
+    result_.warnings.push_back({runtime::Id::kRecordOutOfBounds,
+                                std::string(table.name) +
+                                    " table: MaybeReorderThread got a hit object with record " +
+                                    std::to_string(found >> 1) + ", but the table has " +
+                                    std::to_string(table.source.count()) + " (" + label_ +
+                                    "). Do SizeInBytes, StrideInBytes and the index terms agree?"});
+  }
   if (status.unknown_structure == 0) return;
   result_.warnings.push_back(
       {runtime::Id::kNoTopLevel, "there is no top level at address " +
@@ -201,6 +263,9 @@ VkStridedDeviceAddressRegionKHR RaysDispatch::region(TableIndex index) const {
   const Table& table = tables_[index];
   const uint64_t stride = layout_.stride();
   if (index == kRayGeneration) return {buffer_->address() + table.offset, stride, stride};
+  if (table.twins != 0) {
+    return {buffer_->address() + table.offset, stride, (table.records + table.twins) * stride};
+  }
   return {buffer_->address() + table.offset, table.repeats() ? 0 : stride, table.records * stride};
 }
 
@@ -214,10 +279,12 @@ rtapi::Status RaysDispatch::execute() {
   auto scene = environment_.structures->tables();
   if (!scene) return scene.error();
   if (auto s = place_tables(bytes_of_blocks(parts.size()), scene->max_hit_record); !s) return s;
+  if (pipeline_.has_twins()) place_twins();
   auto buffer = environment_.scratch->get(gpu_, bytes_);
   if (!buffer) return buffer.error();
   buffer_ = *buffer;
   for (const Table& table : tables_) write_table(table);
+  if (pipeline_.has_twins()) write_twins();
   const uint8_t* ray_generation = buffer_->host() + tables_[kRayGeneration].offset;
   const bool nothing = std::all_of(ray_generation, ray_generation + layout_.handle_bytes,
                                    [](uint8_t byte) { return byte == 0; });
@@ -227,6 +294,10 @@ rtapi::Status RaysDispatch::execute() {
   DispatchBlock block = dispatch_block(command_.state, *scene);
   block.miss_count = tables_[kMiss].limit();
   block.callable_count = tables_[kCallable].limit();
+  if (pipeline_.has_twins()) {
+    block.twin_tables = buffer_->address() + twin_tables_;
+    if (tables_[kCallable].repeats()) block.callable_count = 0;
+  }
   block.hit_group_count = tables_[kHitGroup].limit();
   block.dimensions[0] = desc.Width;
   block.dimensions[1] = desc.Height;
@@ -262,7 +333,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   place.tables = &desc;
   result_.reached = tell_checks(environment_, pipeline_.stage_shaders(), place);
   result_.missing = missing_records(environment_);
-  warn_of_structure();
+  warn_of_status();
   return status;
 }
 

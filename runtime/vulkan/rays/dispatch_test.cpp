@@ -278,6 +278,19 @@ TEST(StateObject, ShadersWithoutSpirvAreNamed) {
   EXPECT_THAT(pipeline.error().message, HasSubstr("test.hlsl"));
 }
 
+TEST(StateObject, HitObjectsNeedTwinsOfWhatTheyRun) {
+  KAAMOS_NEED_GPU(gpu);
+  Bench bench(gpu);
+  PipelineBuilder builder;
+  builder.ray_generation("// uses hit objects\nvoid main() {}\n");
+  builder.miss("void main() {}\n");
+  const auto pipeline = bench.create(builder.pipeline());
+  ASSERT_FALSE(pipeline);
+  EXPECT_EQ(pipeline.error().id.text(), "KA0968");
+  EXPECT_THAT(pipeline.error().message, HasSubstr("\"shader1\" of test.hlsl"));
+  EXPECT_THAT(pipeline.error().message, HasSubstr("lib_6_9"));
+}
+
 TEST(StateObject, BindingsComeAsConstants) {
   KAAMOS_NEED_GPU(gpu);
   Bench bench(gpu);

@@ -17,11 +17,17 @@ bool needs_own_stack(const runtime::LinkedPipeline& pipeline) {
 uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
                               const std::vector<VkRayTracingShaderGroupCreateInfoKHR>& groups,
                               const std::vector<const runtime::LinkedRecord*>& records,
-                              uint32_t trace_depth, uint32_t callable_depth) {
+                              size_t twins, uint32_t trace_depth, uint32_t callable_depth) {
   uint64_t ray_generation = 0;
   uint64_t shading = 0;    // closest-hit and miss shaders, which may trace
   uint64_t traversal = 0;  // intersection shaders plus the any-hit shaders that they call
   uint64_t callable = 0;
+  for (size_t i = 0; i < twins; ++i) {
+    callable = std::max<uint64_t>(
+        callable, gpu.vk().vkGetRayTracingShaderGroupStackSizeKHR(
+                      gpu.device(), pipeline, static_cast<uint32_t>(records.size() + i),
+                      VK_SHADER_GROUP_SHADER_GENERAL_KHR));
+  }
   for (uint32_t i = 0; i < records.size(); ++i) {
     const auto bytes = [&](uint32_t used, VkShaderGroupShaderKHR shader) -> uint64_t {
       if (used == VK_SHADER_UNUSED_KHR) return 0;

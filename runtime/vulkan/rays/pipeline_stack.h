@@ -15,11 +15,12 @@ namespace kaamos::vulkan {
 // state, to be set to pipeline_stack_bytes.
 bool needs_own_stack(const runtime::LinkedPipeline& pipeline);
 
-// `groups` in the order of creation.
+// `groups` in the order of creation: those of the records, then `twins` callables that stand for
+// hit and miss shaders.
 uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
                               const std::vector<VkRayTracingShaderGroupCreateInfoKHR>& groups,
                               const std::vector<const runtime::LinkedRecord*>& records,
-                              uint32_t trace_depth, uint32_t callable_depth);
+                              size_t twins, uint32_t trace_depth, uint32_t callable_depth);
 
 // Returns how many traces lavapipe can nest with a payload of this size (PAYLOAD). It keeps the
 // payloads of all 8 lanes on its thread's stack, and for each level both the shader's own payload

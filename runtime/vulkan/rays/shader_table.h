@@ -26,6 +26,15 @@ class GroupHandles {
     offsets_[record] = bytes_.size();
     bytes_.insert(bytes_.end(), handle, handle + handle_bytes_);
   }
+  void add_twin(const runtime::LinkedShader* shader, const uint8_t* handle) {
+    twins_[shader] = bytes_.size();
+    bytes_.insert(bytes_.end(), handle, handle + handle_bytes_);
+  }
+  // Null for a shader that is null.
+  const uint8_t* find_twin(const runtime::LinkedShader* shader) const {
+    const auto it = twins_.find(shader);
+    return it == twins_.end() ? nullptr : bytes_.data() + it->second;
+  }
   // Null for a record without a group, for which nothing runs.
   const uint8_t* find(const runtime::LinkedRecord* record) const {
     const auto it = offsets_.find(record);
@@ -37,6 +46,7 @@ class GroupHandles {
   uint32_t handle_bytes_;
   std::vector<uint8_t> bytes_;
   std::unordered_map<const runtime::LinkedRecord*, size_t> offsets_;
+  std::unordered_map<const runtime::LinkedShader*, size_t> twins_;
 };
 
 // A table of the application, as in D3D12_GPU_VIRTUAL_ADDRESS_RANGE_AND_STRIDE.
@@ -78,5 +88,12 @@ inline constexpr uint64_t kNoRecord = UINT64_MAX;
 uint64_t translate_table(const ApplicationTable& table, runtime::RecordKind kind,
                          const runtime::IdentifierTable& identifiers, const GroupHandles& groups,
                          const TableLayout& layout, uint8_t* out);
+
+// The number of twins of a record: any-hit, intersection, closest-hit, or miss.
+uint64_t twins_of(runtime::RecordKind kind);
+// Writes records with the twins of those of `table`, twins_of(kind) for each, likewise.
+void translate_twins(const ApplicationTable& table, runtime::RecordKind kind,
+                     const runtime::IdentifierTable& identifiers, const GroupHandles& groups,
+                     const TableLayout& layout, uint8_t* out);
 
 }  // namespace kaamos::vulkan

@@ -129,5 +129,45 @@ TEST(ShaderTable, RecordsWithoutShadersAreNullWithoutAWord) {
   EXPECT_EQ(t.handle(0, 40), std::vector<uint8_t>(40, 0));
 }
 
+// Any-hit, intersection and closest-hit shader of each record, or nothing.
+TEST(ShaderTable, TwinsHaveTheArgumentsOfTheirRecord) {
+  const TableLayout layout;
+  Pipeline pipeline(32);
+  runtime::LinkedShader any_hit, closest_hit, miss;
+  const std::vector<uint8_t> handles[] = {std::vector<uint8_t>(32, 0xB0),
+                                          std::vector<uint8_t>(32, 0xB1),
+                                          std::vector<uint8_t>(32, 0xB2)};
+  pipeline.groups.add_twin(&any_hit, handles[0].data());
+  pipeline.groups.add_twin(&closest_hit, handles[1].data());
+  pipeline.groups.add_twin(&miss, handles[2].data());
+  pipeline.add(RecordKind::kHitGroup);
+  pipeline.add(RecordKind::kMiss);
+  pipeline.records[0]->any_hit = &any_hit;
+  pipeline.records[0]->closest_hit = &closest_hit;
+  pipeline.records[1]->shader = &miss;
+  std::vector<uint8_t> table(3 * 64);
+  put(table, 0, pipeline.records[1].get());  // of the other kind
+  put(table, 64, pipeline.records[0].get());
+  const auto twins = [&](RecordKind kind) {
+    const ApplicationTable source = {table.data(), 0x10000, table.size(), 64};
+    Translated result;
+    result.stride = layout.stride();
+    result.bytes.assign(source.count() * twins_of(kind) * result.stride, 0xEE);
+    translate_twins(source, kind, pipeline.identifiers, pipeline.groups, layout,
+                    result.bytes.data());
+    return result;
+  };
+  const Translated hits = twins(RecordKind::kHitGroup);
+  const std::vector<uint8_t> null(40, 0);
+  for (const size_t i : {0, 1, 2, 4, 6, 7, 8}) EXPECT_EQ(hits.handle(i, 40), null) << i;
+  EXPECT_EQ(hits.handle(3, 32), handles[0]);
+  EXPECT_EQ(hits.handle(5, 32), handles[1]);
+  EXPECT_EQ(hits.arguments(3, 32), 0x10000u + 64 + 32);
+  EXPECT_EQ(hits.arguments(5, 32), 0x10000u + 64 + 32);
+  const Translated misses = twins(RecordKind::kMiss);
+  EXPECT_EQ(misses.handle(0, 32), handles[2]);
+  EXPECT_EQ(misses.handle(1, 40), null);
+}
+
 }  // namespace
 }  // namespace kaamos::vulkan

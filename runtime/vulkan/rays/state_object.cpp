@@ -71,6 +71,40 @@ rtapi::Status add_group(const runtime::LinkedRecord& record, bool own_intersecti
   return {};
 }
 
+// Adds a group for the twin of each hit or miss shader of the records; returns the shaders.
+rtapi::Result<std::vector<const runtime::LinkedShader*>> add_twins(
+    const runtime::LinkedPipeline& linked, StageList& stages, Groups& groups) {
+  std::vector<const runtime::LinkedShader*> twins;
+  for (const auto& record : linked.records) {
+    const bool miss = record->kind == runtime::RecordKind::kMiss;
+    for (const runtime::LinkedShader* shader :
+         {record->any_hit, record->intersection, record->closest_hit,
+          miss ? record->shader : nullptr}) {
+      if (shader == nullptr || std::find(twins.begin(), twins.end(), shader) != twins.end()) {
+        continue;
+      }
+      auto stage = stages.add_twin(*shader);
+      if (!stage) return stage.error();
+      groups.infos.push_back(general_group(*stage));
+      twins.push_back(shader);
+    }
+  }
+  return twins;
+}
+
+bool uses_hit_objects(const runtime::LinkedPipeline& linked) {
+  return std::any_of(linked.shaders.begin(), linked.shaders.end(), [](const auto& shader) {
+    return (shader->code->flags & shader::kExportUsesHitObject) != 0;
+  });
+}
+
+// In words, the largest payload that a shader of the pipeline may have.
+uint32_t payload_words(const runtime::LinkedPipeline& linked) {
+  uint32_t bytes = std::max(linked.max_payload_bytes, 4u);
+  for (const auto& shader : linked.shaders) bytes = std::max(bytes, shader->code->payload_bytes);
+  return (bytes + 3) / 4;
+}
+
 VkPipelineCreateFlags create_flags(rtapi::RaytracingPipelineFlags flags) {
   const auto bits = static_cast<uint32_t>(flags);
   VkPipelineCreateFlags result = 0;
@@ -132,28 +166,46 @@ rtapi::Status RaytracingPipeline::start() {
   max_trace_depth_ =
       std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
   uint32_t max_callable_depth = kMaxCallableDepth;
+  has_twins_ = uses_hit_objects(*linked_);
+  TwinLevels twins;
+  if (has_twins_) twins.payload_words = payload_words(*linked_);
   if (gpu.workarounds().has(Workaround::kBoundPayloads)) {
     const uint64_t stack = default_thread_stack_bytes();
-    max_trace_depth_ =
-        std::min(max_trace_depth_, nested_payload_limit(largest_payload(*linked_), stack));
+    max_trace_depth_ = std::min(
+        max_trace_depth_,
+        nested_payload_limit(
+            largest_payload(*linked_) + (has_twins_ ? sizeof(shader::HitObject) : 0), stack));
     max_callable_depth =
         std::min(max_callable_depth, nested_payload_limit(largest_callable_data(*linked_), stack));
   }
-  CallableFrame frame;
+  // A level for each Invoke, then an intersection and an any-hit shader.
+  if (has_twins_) twins.count = max_trace_depth_ + 2;
+  CallableFrame frame = {max_callable_depth + twins.count};
   if (gpu.workarounds().has(Workaround::kReserveCallables)) {
-    frame = callable_frame(*linked_, max_callable_depth, default_thread_stack_bytes());
-    max_callable_depth = frame.depth;
+    frame = callable_frame(*linked_, max_callable_depth, default_thread_stack_bytes(), twins);
   } else if (gpu.is_lavapipe()) {
-    max_callable_depth = std::min(max_callable_depth, kMaxBareCallableDepth);
+    frame.depth = std::min(frame.depth, kMaxBareCallableDepth);
   }
+  if (has_twins_) {
+    max_trace_depth_ = std::min(max_trace_depth_, std::max(frame.depth, 4u) - 3);
+    twins.count = max_trace_depth_ + 2;
+  }
+  max_callable_depth = std::min(max_callable_depth, frame.depth - twins.count);
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
-  StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics()});
+  StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics(), 0,
+                         twins.payload_words});
   const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
   Groups groups;
   bool runs = false;
   for (const auto& record : linked_->records) {
     if (auto s = add_group(*record, own_intersection, stages, groups); !s) return s;
     runs |= record->kind == runtime::RecordKind::kRayGeneration;
+  }
+  std::vector<const runtime::LinkedShader*> twin_shaders;
+  if (has_twins_) {
+    auto added = add_twins(*linked_, stages, groups);
+    if (!added) return added.error();
+    twin_shaders = std::move(*added);
   }
   if (frame.words != 0) {
     auto stage = stages.add(callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, frame.words);
@@ -174,16 +226,17 @@ rtapi::Status RaytracingPipeline::start() {
   VkPipelineDynamicStateCreateInfo dynamic = {VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
   dynamic.dynamicStateCount = 1;
   dynamic.pDynamicStates = &stack_state;
-  const bool own_stack = needs_own_stack(*linked_);
+  const bool own_stack = has_twins_ || needs_own_stack(*linked_);
   if (own_stack) info.pDynamicState = &dynamic;
   const VkResult r = gpu.vk().vkCreateRayTracingPipelinesKHR(
       gpu.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &handle_);
   if (r != VK_SUCCESS) return gpu.error(r, "ray tracing pipeline \"" + linked_->name + "\"");
   if (own_stack) {
-    stack_bytes_ = pipeline_stack_bytes(gpu, handle_, groups.infos, groups.records,
-                                        max_trace_depth_, max_callable_depth);
+    stack_bytes_ =
+        pipeline_stack_bytes(gpu, handle_, groups.infos, groups.records, twin_shaders.size(),
+                             max_trace_depth_, max_callable_depth + twins.count);
   }
-  return read_handles(groups.records);
+  return read_handles(groups.records, twin_shaders);
 }
 
 void RaytracingPipeline::bind(VkCommandBuffer commands) const {
@@ -194,14 +247,19 @@ void RaytracingPipeline::bind(VkCommandBuffer commands) const {
 }
 
 rtapi::Status RaytracingPipeline::read_handles(
-    const std::vector<const runtime::LinkedRecord*>& records) {
+    const std::vector<const runtime::LinkedRecord*>& records,
+    const std::vector<const runtime::LinkedShader*>& twins) {
   const Gpu& gpu = layout_->gpu();
   const size_t size = gpu.properties().ray_tracing.shaderGroupHandleSize;
-  std::vector<uint8_t> bytes(size * records.size());
+  const size_t count = records.size() + twins.size();
+  std::vector<uint8_t> bytes(size * count);
   const VkResult r = gpu.vk().vkGetRayTracingShaderGroupHandlesKHR(
-      gpu.device(), handle_, 0, static_cast<uint32_t>(records.size()), bytes.size(), bytes.data());
+      gpu.device(), handle_, 0, static_cast<uint32_t>(count), bytes.size(), bytes.data());
   if (r != VK_SUCCESS) return gpu.error(r, "reading shader group handles");
   for (size_t i = 0; i < records.size(); ++i) groups_.add(records[i], bytes.data() + i * size);
+  for (size_t i = 0; i < twins.size(); ++i) {
+    groups_.add_twin(twins[i], bytes.data() + (records.size() + i) * size);
+  }
   return {};
 }
 

@@ -59,6 +59,8 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   // The depth to which traces may nest: what the pipeline declares, or the device's limit if that
   // is lower.
   uint32_t max_trace_depth() const { return max_trace_depth_; }
+  // A shader uses hit objects, so that dispatches need the records of twins.
+  bool has_twins() const { return has_twins_; }
   // Indexed by kShaderConstant - 1.
   const std::vector<const runtime::LinkedShader*>& stage_shaders() const { return stage_shaders_; }
 
@@ -67,13 +69,15 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
                      std::shared_ptr<const runtime::LinkedPipeline> linked)
       : layout_(std::move(layout)), linked_(std::move(linked)) {}
   rtapi::Status start();
-  rtapi::Status read_handles(const std::vector<const runtime::LinkedRecord*>& records);
+  rtapi::Status read_handles(const std::vector<const runtime::LinkedRecord*>& records,
+                             const std::vector<const runtime::LinkedShader*>& twins);
 
   std::shared_ptr<PipelineLayout> layout_;
   std::shared_ptr<const runtime::LinkedPipeline> linked_;
   VkPipeline handle_ = VK_NULL_HANDLE;
   std::vector<const runtime::LinkedShader*> stage_shaders_;
   uint32_t max_trace_depth_ = 0;
+  bool has_twins_ = false;
   uint32_t stack_bytes_ = 0;  // 0: Vulkan's default
   GroupHandles groups_;
 };

@@ -102,6 +102,9 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
   constants.add(shader::spirv::kMaxCallableDepthConstant, options.max_callable_depth);
   constants.add(shader::spirv::kShaderConstant, options.shader);
   if (options.count) constants.add(shader::spirv::kCountConstant, 1);
+  if (options.twin_payload_words != 0) {
+    constants.add(shader::spirv::kTwinPayloadConstant, options.twin_payload_words);
+  }
   for (const StageConstant& constant : more) constants.add(constant.id, constant.value);
   return std::move(constants.result);
 }
@@ -113,12 +116,6 @@ StageList::~StageList() {
 }
 
 rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
-  if ((shader.code->flags & shader::kExportUsesHitObject) != 0) {
-    return runtime::make_error(runtime::Id::kNoHitObject,
-                               "shader \"" + shader.name + "\" of " + shader.library->name +
-                                   " uses dx::HitObject, which is not offered on Vulkan; use the "
-                                   "Embree backend, or TraceRay.");
-  }
   if (shader.code->spirv == nullptr) {
     return runtime::make_error(
         runtime::Id::kNoSpirv,
@@ -126,12 +123,14 @@ rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
             " has no code for Vulkan, because its library was compiled without SPIR-V; compile it "
             "again with kaamos-hlsl -spirv.");
   }
-  if ((shader.code->flags & shader::kExportUsesRayQuery) != 0 && !gpu_.features().ray_query) {
-    return runtime::make_error(
-        runtime::Id::kNoRayQuery,
-        "shader \"" + shader.name + "\" of " + shader.library->name +
-            " uses RayQuery, but the device has no VK_KHR_ray_query; use another device "
-            "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
+  constexpr uint32_t kByQuery = shader::kExportUsesRayQuery | shader::kExportUsesHitObject;
+  if ((shader.code->flags & kByQuery) != 0 && !gpu_.features().ray_query) {
+    const bool query = (shader.code->flags & shader::kExportUsesRayQuery) != 0;
+    return runtime::make_error(runtime::Id::kNoRayQuery,
+                               "shader \"" + shader.name + "\" of " + shader.library->name +
+                                   " uses " + (query ? "RayQuery" : "dx::HitObject") +
+                                   ", but the device has no VK_KHR_ray_query; use another device "
+                                   "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
   }
   return {};
 }
@@ -139,8 +138,9 @@ rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
 rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
   if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
   if (auto s = check_code(shader); !s) return s.error();
-  auto made = create_module({shader.code->spirv, shader.code->spirv_words},
-                            "the module of shader \"" + shader.name + "\"");
+  const shader::spirv::SpirvPair pair = shader::spirv::spirv_pair(*shader.code);
+  auto made =
+      create_module({pair.words, pair.count}, "the module of shader \"" + shader.name + "\"");
   if (made) modules_[shader.code] = *made;
   return made;
 }
@@ -197,6 +197,26 @@ rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader,
   shaders_.push_back(&shader);
   return push(stage_of(shader.code->stage), *made,
               stage_constants(shader, gpu_.workarounds().shader_bits(), options, more));
+}
+
+rtapi::Result<uint32_t> StageList::add_twin(const runtime::LinkedShader& shader) {
+  if (auto s = check_code(shader); !s) return s.error();
+  const shader::spirv::SpirvPair pair = shader::spirv::spirv_pair(*shader.code);
+  if (pair.twin == nullptr) {
+    return runtime::make_error(
+        runtime::Id::kNoHitObject,
+        "a shader of the pipeline uses dx::HitObject, but shader \"" + shader.name + "\" of " +
+            shader.library->name +
+            " cannot be run by it on Vulkan, because it was not compiled for Shader Model 6.9; "
+            "compile it with -T lib_6_9.");
+  }
+  auto made = create_module({pair.twin, pair.twin_count}, "the twin of \"" + shader.name + "\"");
+  if (!made) return made.error();
+  StageOptions options = options_;
+  options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  shaders_.push_back(&shader);
+  return push(VK_SHADER_STAGE_CALLABLE_BIT_KHR, *made,
+              stage_constants(shader, gpu_.workarounds().shader_bits(), options));
 }
 
 rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,

@@ -19,8 +19,9 @@ namespace kaamos::vulkan {
 struct StageOptions {
   uint32_t max_trace_depth = 0;
   uint32_t max_callable_depth = 0;
-  bool count = false;   // for statistics
-  uint32_t shader = 0;  // CheckEntry::shader
+  bool count = false;               // for statistics
+  uint32_t shader = 0;              // CheckEntry::shader
+  uint32_t twin_payload_words = 0;  // kTwinPayloadConstant; 0: no shader uses hit objects
 };
 
 // A specialization constant of a stage.
@@ -61,6 +62,9 @@ class StageList {
   // as above.
   rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, std::span<const uint32_t> code,
                               std::span<const StageConstant> more);
+  // Adds the twin of a hit or miss shader, a callable shader (spirv_interface.h). Errors: KA0968 it
+  // has none, and as above.
+  rtapi::Result<uint32_t> add_twin(const runtime::LinkedShader& shader);
   // Adds one of the backend's own shaders, after all others; `constant` is its specialization
   // constant 0.
   rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,

@@ -41,6 +41,9 @@ std::shared_ptr<PipelineBuilder::Code> PipelineBuilder::code(shader::Stage stage
   if (glsl.find("executeCallableEXT") != std::string::npos) {
     made->desc.flags |= shader::kExportCalls;
   }
+  if (glsl.find("// uses hit objects") != std::string::npos) {
+    made->desc.flags |= shader::kExportUsesHitObject;
+  }
   made->desc.spirv = spirv ? made->words.data() : nullptr;
   made->desc.spirv_words = static_cast<uint32_t>(made->words.size());
   made->library.name = "test.hlsl";

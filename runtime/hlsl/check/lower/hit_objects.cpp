@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "kaamos/shader/abi.h"
+#include "kaamos/shader/reordering.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/check/names/layout.h"
 #include "runtime/hlsl/ir/hit_object.h"
@@ -89,20 +90,27 @@ std::optional<Value> HitObjects::call_function(const QualifiedName& name, const 
   return call_reorder(values, call->location);
 }
 
-// The order in which threads go on is not observable, so there is nothing to do. [DXR:
-// MaybeReorderThread]
+// The order in which threads go on is not observable, so there is nothing to do but to look at the
+// record, in checked libraries. [DXR: MaybeReorderThread]
 Value HitObjects::call_reorder(std::vector<Value>& arguments, SourceLocation location) {
   if (!lower_.intrinsics.check_count("MaybeReorderThread", arguments.size(), 1, 3, location)) {
     return error_value();
   }
-  use("dx::MaybeReorderThread", ir::kStageRayGeneration, location);
-  const Type* number = types_.scalar(Scalar::kUint32);
   const bool has_hit = arguments.size() != 2;
+  lower_.intrinsics.use_in_stages("dx::MaybeReorderThread", ir::kStageRayGeneration, location);
+  if (has_hit && body_.function) body_.function->hit_objects = true;
+  const Type* number = types_.scalar(Scalar::kUint32);
   for (size_t i = 0; i < arguments.size(); ++i) {
     const Type* type = has_hit && i == 0 ? names_.hit_object() : number;
     if (!lower_.conversions.convert(arguments[i], type, arguments[i].location)) {
       return error_value();
     }
+  }
+  if (has_hit) {
+    const ir::Expr* value = lower_.places.load(arguments[0]);
+    if (!value) return error_value();
+    body_.temporary(build_.expr(ir::ExprKind::kRecordConstant, number->ir,
+                                {value, build_.uint32(shader::kReorderedRecord)}));
   }
   return rvalue(build_.int32(0), types_.void_type());
 }

@@ -49,6 +49,8 @@ inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable 
 inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 // Checked libraries: CheckEntry::shader.
 inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
+// How many words of payload the data of twins has (TwinData); at least 1.
+inline constexpr uint32_t kTwinPayloadConstant = 0xFFFF0005u;
 // Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's
 // format differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it
 // does not. The bits of an integer component, to whose range values are clamped; of a UNORM
@@ -99,9 +101,11 @@ struct DispatchBlock {
   uint32_t rows = 0;      // height of this part, for kInterleaveRows
   uint32_t reserved = 0;  // makes root_arguments a multiple of 16
   uint8_t root_arguments[512] = {};
+  uint64_t twin_tables = 0;  // TwinTables, if a shader of the pipeline uses hit objects
 };
 static_assert(offsetof(DispatchBlock, root_arguments) == 112);
-static_assert(sizeof(DispatchBlock) == 624);
+static_assert(offsetof(DispatchBlock, twin_tables) == 624);
+static_assert(sizeof(DispatchBlock) == 632);
 
 // Maps the HLSL value of an acceleration structure to Vulkan's. A hash table with open addressing:
 // look at slot hash(address) & top_level_mask and at the following slots until you find `address`,
@@ -151,7 +155,9 @@ enum Count : uint32_t {
 // Written by shaders, read after the dispatch.
 struct DispatchFeedback {
   uint32_t removal_reason = 0;  // 0, or 1 + RemovalReason: the device is removed
-  uint32_t reserved = 0;
+  // 0, or 1 + (record << 1 | 1 if of the miss table): MaybeReorderThread got an object whose table
+  // does not have its record.
+  uint32_t reordered = 0;
   uint32_t counts[kCountCount][2] = {};  // low and high half; additions carry
   uint64_t unknown_structure = 0;        // one that rays were traced against in vain
   uint64_t checks = 0;                   // CheckState of a checked device; 0: nobody listens
@@ -199,6 +205,61 @@ static_assert(sizeof(ReachedEntry) == 32);
 // constants above allow writes DispatchFeedback and does nothing.
 //
 // Attributes: vec2 if the HLSL type holds two 32-bit floats, otherwise uint[words].
+
+// ---------------------------------------------------------------------------------------------
+// Hit objects
+//
+// Vulkan has none, so HitObject::TraceRay is a ray query. What it calls while it traverses, and
+// what HitObject::Invoke calls, are twins: a library of Shader Model 6.9 has each of its any-hit,
+// intersection, closest-hit and miss shaders a second time, as a callable shader. ExportDesc::spirv
+// is then followed by the module of the twin, the number of its words, and kTwinMark, all of which
+// spirv_words counts.
+inline constexpr uint32_t kTwinMark = 0x4E495754u;  // no module ends with it
+
+struct SpirvPair {
+  const uint32_t* words = nullptr;
+  uint32_t count = 0;
+  const uint32_t* twin = nullptr;  // null: there is none
+  uint32_t twin_count = 0;
+};
+inline SpirvPair spirv_pair(const uint32_t* words, uint32_t count) {
+  SpirvPair out = {words, count};
+  if (words == nullptr || count < 3 || words[count - 1] != kTwinMark) return out;
+  out.twin_count = words[count - 2];
+  out.count = count - 2 - out.twin_count;
+  out.twin = words + out.count;
+  return out;
+}
+inline SpirvPair spirv_pair(const ExportDesc& code) {
+  return spirv_pair(code.spirv, code.spirv_words);
+}
+
+// The data of a twin is
+//   struct { uint depths; uint control; uint type; uint bytes; HitObject hit;
+//            uint payload[kTwinPayloadConstant]; }
+// with the depths of payloads below, a word for each scalar of the payload (two for 64 bits), and
+// type and bytes of the payload in checked libraries.
+enum TwinControl : uint32_t {
+  kTwinIgnored = 1,   // by an any-hit shader
+  kTwinEnded = 2,     // the search ends
+  kTwinAccepted = 4,  // by an intersection shader: the hit it leaves in the data
+  kTwinOpaque = 8,    // for an intersection shader: its hits run no any-hit shader
+};
+
+// Where the twins of records are in the driver's callable table, in which they follow the
+// callables: three for each record of the hit group table (any-hit, intersection, closest-hit),
+// then one for each record of the miss table. Also the application's two tables themselves, hit
+// groups first.
+struct TwinTables {
+  uint32_t first = 0;
+  uint32_t last_hit = 0;   // larger indices become this one, a null record
+  uint32_t last_miss = 0;  // likewise
+  uint32_t ray_flags = 0;  // of the pipeline, for every ray
+  uint64_t address[2] = {0, 0};
+  uint64_t size_bytes[2] = {0, 0};
+  uint64_t stride_bytes[2] = {0, 0};
+};
+static_assert(sizeof(TwinTables) == 64);
 
 // ---------------------------------------------------------------------------------------------
 // Vertex and pixel shaders
