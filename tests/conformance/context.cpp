@@ -62,7 +62,7 @@ std::unique_ptr<SharedDevice> new_device(DeviceDesc desc) {
 }
 
 std::string pool_name(const Target& target) {
-  return target.name() + (target.checked ? "/checked" : "");
+  return target.name() + (target.checked ? "/checked" : "") + "/" + GetName(target.tier);
 }
 
 std::unique_ptr<SharedDevice> take_device(const Target& target) {
@@ -106,6 +106,7 @@ DeviceDesc Target::device_desc() const {
   desc.Backend = backend;
   desc.Precision = precision;
   desc.Checked = checked;
+  desc.Tier = tier;
   return desc;
 }
 

@@ -19,7 +19,8 @@ namespace kaamos::conformance {
 struct Target {
   std::string backend = "embree";
   rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;
-  bool checked = false;      // checked mode
+  bool checked = false;  // checked mode
+  rtapi::RaytracingTier tier = rtapi::kHighestRaytracingTier;
   std::string name() const;  // "embree/robust", "vulkan"; checked targets have the same names
   rtapi::DeviceDesc device_desc() const;
 };

@@ -50,9 +50,21 @@ void list_rules(const std::string& filter) {
   }
 }
 
+// The tiers that devices can have.
+std::vector<std::string> tier_names() {
+  using rtapi::RaytracingTier;
+  std::vector<std::string> out;
+  for (const RaytracingTier tier :
+       {RaytracingTier::kNotSupported, RaytracingTier::kTier1_0, RaytracingTier::kTier1_1,
+        RaytracingTier::kTier1_2, RaytracingTier::kTier2_0}) {
+    if (tier <= rtapi::kHighestRaytracingTier) out.emplace_back(rtapi::GetName(tier));
+  }
+  return out;
+}
+
 // Without --precision, the two Embree precisions that keep the most rules.
 std::vector<Target> targets_of(const std::string& backend, const std::string& precision,
-                               bool checked) {
+                               bool checked, rtapi::RaytracingTier tier) {
   using rtapi::TraversalPrecision;
   const std::pair<const char*, TraversalPrecision> precisions[] = {
       {"exact", TraversalPrecision::kExact},
@@ -61,9 +73,9 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
   std::vector<Target> out;
   for (const auto& [name, value] : precisions) {
     const bool wanted = precision.empty() ? value != TraversalPrecision::kFast : precision == name;
-    if (wanted && backend != "vulkan") out.push_back({"embree", value, checked});
+    if (wanted && backend != "vulkan") out.push_back({"embree", value, checked, tier});
   }
-  if (backend != "embree") out.push_back({"vulkan", TraversalPrecision::kRobust, checked});
+  if (backend != "embree") out.push_back({"vulkan", TraversalPrecision::kRobust, checked, tier});
   return out;
 }
 
@@ -87,6 +99,7 @@ std::string misuse(const std::string& backend, const std::string& precision,
 
 int main(int argc, char** argv) {
   std::string backend, filter, json, precision;
+  std::string tier_name = rtapi::GetName(rtapi::kHighestRaytracingTier);
   bool list = false, checked = false;
   CLI::App app("Tests this machine's backends against the rules of DirectX Raytracing.");
   app.set_version_flag("--version", std::string("kaamos-conformance ") + rtapi::GetVersion());
@@ -95,6 +108,10 @@ int main(int argc, char** argv) {
   app.add_option("--precision", precision,
                  "precision of embree: fast, robust or exact; default: exact and robust")
       ->check(CLI::IsMember({"fast", "robust", "exact"}));
+  app.add_option("--tier", tier_name,
+                 "tier of the devices; what it refuses of a higher one does not fail")
+      ->check(CLI::IsMember(tier_names()))
+      ->capture_default_str();
   app.add_option("--filter", filter, "only rules whose number begins with this, such as SBT-");
   app.add_option("--json", json, "write the results into this file");
   app.add_flag("--checked", checked,
@@ -107,13 +124,14 @@ int main(int argc, char** argv) {
     std::cerr << "kaamos-conformance: " << error << "\n";
     return 2;
   }
+  const rtapi::RaytracingTier tier = rtapi::ParseRaytracingTier(tier_name).value();
   if (list) {
     list_rules(filter);
     return 0;
   }
   std::vector<TargetResults> results;
   bool failed = false;
-  for (const Target& target : targets_of(backend, precision, checked)) {
+  for (const Target& target : targets_of(backend, precision, checked, tier)) {
     const DeviceCheck device = check_device(target);
     if (!device.error.empty()) {
       std::cerr << target.name() << ": no device: " << device.error << "\n";

@@ -62,6 +62,8 @@ std::string configs_of(const StateObjectDesc& desc) {
     } else if (const auto* config = std::get_if<RaytracingPipelineConfig1>(&each)) {
       out += ", depth " + std::to_string(config->MaxTraceRecursionDepth) + ", flags " +
              std::to_string(static_cast<uint32_t>(config->Flags));
+    } else if (const auto* old = std::get_if<RaytracingPipelineConfig>(&each)) {
+      out += ", depth " + std::to_string(old->MaxTraceRecursionDepth);
     }
   }
   return out;
@@ -69,8 +71,19 @@ std::string configs_of(const StateObjectDesc& desc) {
 
 }  // namespace
 
+// Tier 1.0 knows no pipeline config 1, which differs by its flags.
+void Program::suit_tier() {
+  if (context_->target().tier >= RaytracingTier::kTier1_1) return;
+  for (StateSubobject& each : desc.Subobjects) {
+    const auto* config = std::get_if<RaytracingPipelineConfig1>(&each);
+    if (config == nullptr || config->Flags != RaytracingPipelineFlags::kNone) continue;
+    each = RaytracingPipelineConfig{config->MaxTraceRecursionDepth};
+  }
+}
+
 void Program::create() {
   if (pipeline) return;
+  suit_tier();
   if (shared_name_.empty() || desc.Subobjects.size() != shared_size_) {
     pipeline = try_create().value();
   } else {

@@ -114,6 +114,7 @@ class Program {
   void share_as(const std::string& name);
 
  private:
+  void suit_tier();
   uint32_t add(size_t table, const std::string& name,
                const std::vector<rtapi::LocalArgument>& arguments);
   Context* context_;

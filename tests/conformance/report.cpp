@@ -21,6 +21,8 @@ const char* name_of(Outcome outcome) {
       return "not applicable";
     case Outcome::kNotOffered:
       return "not offered";
+    case Outcome::kRefused:
+      return "refused";
     case Outcome::kNotTested:
       break;
   }
@@ -56,11 +58,15 @@ std::string line_of(const Target& target, const Progress& progress) {
 }
 
 std::string summary_of(const TargetResults& results) {
-  size_t required = 0, passed = 0, not_tested = 0;
+  size_t required = 0, passed = 0, not_tested = 0, refused = 0;
   std::string failing, not_offered;
   for (const RuleResult& result : results.second) {
     if (result.outcome == Outcome::kNotOffered) {
       not_offered += (not_offered.empty() ? "" : ", ") + std::string(result.rule->id);
+      continue;
+    }
+    if (result.outcome == Outcome::kRefused) {
+      ++refused;
       continue;
     }
     if (!result.rule->required() || result.outcome == Outcome::kNotApplicable) continue;
@@ -72,10 +78,17 @@ std::string summary_of(const TargetResults& results) {
       if (result.outcome == Outcome::kKnownDeviation) failing += " (known)";
     }
   }
-  std::string out = results.first.name() + ": " + std::to_string(passed) + " of " +
-                    std::to_string(required) + " required rules pass";
+  const std::string tier = rtapi::GetName(results.first.tier);
+  const bool lower = results.first.tier != rtapi::kHighestRaytracingTier;
+  std::string out = results.first.name() + (lower ? " of tier " + tier : "") + ": " +
+                    std::to_string(passed) + " of " + std::to_string(required) +
+                    " required rules pass";
   if (!failing.empty()) out += "; failing: " + failing;
   if (not_tested > 0) out += "; not yet tested: " + std::to_string(not_tested);
+  if (refused > 0) {
+    out +=
+        "; refused, because a device of tier " + tier + " lacks them: " + std::to_string(refused);
+  }
   if (!not_offered.empty()) out += "; not offered: " + not_offered;
   return out;
 }

@@ -159,8 +159,12 @@ bool may_provoke(const RuleTest& test, std::string_view report) {
   return allowed == "*" || allowed.find(report.substr(0, 6)) != std::string_view::npos;
 }
 
-bool lacks_hit_objects(const std::string& failures) {
-  return failures.rfind("KA0968 ", 0) == 0;
+bool refused_by_tier(const std::string& failures, rtapi::RaytracingTier tier) {
+  using rtapi::RaytracingTier;
+  const auto has = [&](const char* id) { return failures.find(id) != std::string::npos; };
+  if (tier < RaytracingTier::kTier1_0 && has("KA0545")) return true;
+  return tier < RaytracingTier::kTier1_1 && (has("KA0520") || has("KA0541") || has("KA0542") ||
+                                             has("needs tier 1.1, but this device"));
 }
 
 std::string run_here(const RuleTest& test, const Target& target) {
@@ -246,7 +250,7 @@ std::string lacking(const std::string& failures) {
   if (failures.rfind("KA0963 ", 0) == 0) {
     return "the device has no VK_KHR_ray_query, which the test needs";
   }
-  return lacks_hit_objects(failures) ? "the backend has no HitObject" : "";
+  return "";
 }
 
 RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
@@ -254,10 +258,15 @@ RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
                      const Target& target, const std::string& device_name) {
   RuleResult result = result_without_run(rule);
   std::string lacks;
+  bool refused = false;
   for (size_t i = 0; i < tests.size(); ++i) {
     if (!test_covers(tests[i], rule.id)) continue;
     if (std::string lacked = lacking(failures[i]); !lacked.empty()) {
       lacks = std::move(lacked);
+      continue;
+    }
+    if (refused_by_tier(failures[i], target.tier)) {
+      refused = true;
       continue;
     }
     if (result.outcome != Outcome::kFailed && result.outcome != Outcome::kPassed) {
@@ -271,6 +280,7 @@ RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
   if (!lacks.empty() && result.outcome != Outcome::kFailed) {
     return {&rule, Outcome::kNotOffered, lacks};
   }
+  if (refused && result.outcome != Outcome::kFailed) return {&rule, Outcome::kRefused};
   if (result.outcome != Outcome::kFailed) return result;
   if (const Deviation* known = find_deviation(rule.id, target.name(), device_name)) {
     result.outcome = Outcome::kKnownDeviation;

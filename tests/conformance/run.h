@@ -20,8 +20,8 @@ bool test_covers(const RuleTest& test, std::string_view rule);
 // Tells whether this message of checked mode is one that the test's violations must cause.
 bool may_provoke(const RuleTest& test, std::string_view report);
 
-// The backend refused the test's shaders because of HitObject.
-bool lacks_hit_objects(const std::string& failures);
+// The device refused what a test does because its tier is too low for it, as it should.
+bool refused_by_tier(const std::string& failures, rtapi::RaytracingTier tier);
 
 // Runs in this process. Returns what was expected and found, one a line; empty: the rules hold.
 std::string run_here(const RuleTest& test, const Target& target);
@@ -39,7 +39,15 @@ struct DeviceCheck {
 };
 DeviceCheck check_device(const Target& target);
 
-enum class Outcome { kPassed, kFailed, kKnownDeviation, kNotApplicable, kNotOffered, kNotTested };
+enum class Outcome {
+  kPassed,
+  kFailed,
+  kKnownDeviation,
+  kNotApplicable,
+  kNotOffered,
+  kRefused,  // by a device whose tier is below that of the rule
+  kNotTested
+};
 struct RuleResult {
   const Rule* rule = nullptr;
   Outcome outcome = Outcome::kNotTested;

@@ -146,6 +146,7 @@ void tiers(Context& t) {
             static_cast<uint32_t>(model));
   }
   DeviceDesc low = t.target().device_desc();
+  low.Tier = RaytracingTier::kTier1_1;
   low.ShaderModel = ShaderModel::k6_4;
   t.refused("tier 1.1 without shader model 6.5", CreateDevice(low), "KA0914");
 }
