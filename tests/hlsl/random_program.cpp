@@ -14,6 +14,7 @@ struct Shape {
   int count = 0;  // 0: no array
   bool operator==(const Shape&) const = default;
 
+  bool is_long() const { return columns > 4; }
   bool real() const { return kind == 'f' || kind == 'h' || kind == 'd'; }
   Shape scalar() const { return {kind}; }
   Shape with(char other) const { return {other, columns, rows, count}; }
@@ -28,6 +29,7 @@ struct Shape {
                       : kind == 'l' ? "int64_t"
                                     : "uint16_t";
     if (rows > 0) return out + std::to_string(rows) + "x" + std::to_string(columns);
+    if (is_long()) return "vector<" + out + ", " + std::to_string(columns) + ">";
     return columns > 1 ? out + std::to_string(columns) : out;
   }
 };
@@ -84,10 +86,16 @@ class Writer {
     if (s.kind != 'b' && one_in(4)) {
       s.rows = 2 + below(3);
       s.columns = 2 + below(3);
+    } else if (one_in(5)) {
+      s = long_vector(s.kind);
     }
     return s;
   }
-  Shape any_vector(char kind) { return {kind, 1 + below(4)}; }
+  Shape any_vector(char kind) {
+    if (one_in(5)) return long_vector(kind);
+    return {kind, 1 + below(4)};
+  }
+  Shape long_vector(char kind) { return {kind, 5 + below(4)}; }
 
   std::string literal(Shape s) {
     if (s.kind == 'b') return one_in(2) ? "true" : "false";
@@ -211,18 +219,25 @@ class Writer {
         return "select(" + e(s.with('b')) + ", " + e(s) + ", " + e(s) + ")";
       case 7: {
         const int from = 2 + below(3);
+        if (s.is_long()) return leaf(s);
         return e({s.kind, from}) + swizzle(from, s.columns, true);
       }
       case 8:
         return "((" + s.name() + ")" + e(s.with("iufbhdls"[below(8)])) + ")";
       case 9:
-        if (s.columns == 1) return "dot(" + e({s.kind, 3}) + ", " + e({s.kind, 3}) + ")";
+        if (s.columns == 1) {
+          const Shape operand = one_in(3) ? long_vector(s.kind) : Shape{s.kind, 3};
+          return "dot(" + e(operand) + ", " + e(operand) + ")";
+        }
         if (s.columns > 2)
           return s.name() + "(" + e({s.kind, 2}) + ", " + e({s.kind, s.columns - 2}) + ")";
         return s.name() + "(" + e(s.scalar()) + ", " + e(s.scalar()) + ")";
       case 10: {
         const int inner = 2 + below(3);
-        if (s.columns == 1) return e({s.kind, 3}) + "[" + index() + "]";
+        if (s.columns == 1) {
+          return e(one_in(3) ? long_vector(s.kind) : Shape{s.kind, 3}) + "[" + index() + "]";
+        }
+        if (s.is_long()) return leaf(s);
         if (one_in(3)) return e({s.kind, s.columns, inner}) + "[" + index() + "]";
         if (one_in(2))
           return "mul(" + e({s.kind, inner}) + ", " + e({s.kind, s.columns, inner}) + ")";
@@ -296,7 +311,10 @@ class Writer {
     }
     if (s.rows == 0 && s.columns > 1 && one_in(2)) {
       const int from = s.columns;
-      if (one_in(3)) {
+      if (s.is_long()) {  // has no swizzles
+        place.name += "[" + index() + "]";
+        s.columns = 1;
+      } else if (one_in(3)) {
         place.name += "[" + index() + "]";
         s.columns = 1;
       } else {

@@ -24,6 +24,7 @@ hlsl::FrontendOptions options_of(const std::string& text) {
   options.path = "random.hlsl";
   options.text = text;
   options.native_16bit = true;
+  options.target = "lib_6_9";
   return options;
 }
 
