@@ -3,8 +3,8 @@
 // The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
 // stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
 // atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp,
-// graphics.cpp (vertex and pixel shaders), hit_objects.cpp (HitObject, twins), system_values.cpp,
-// emit_glsl.cpp (functions, main).
+// graphics.cpp (vertex and pixel shaders), hit_objects.cpp and twins.cpp (HitObject),
+// system_values.cpp, emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
 // a number added if the name is not unique; k_ for the prelude; g_ for what is generated here.
@@ -41,7 +41,7 @@ class GlslNames {
 
 class GlslEmitter {
  public:
-  // `twin`: the callable twin of a hit or miss shader (hit_objects.cpp).
+  // `twin`: the callable twin of a hit or miss shader (twins.cpp).
   GlslEmitter(const ir::Module& module, const ir::EntryPoint& entry, bool twin = false);
   GlslShader run();
 
@@ -180,6 +180,8 @@ class GlslEmitter {
   void invoke(const ir::Stmt& stmt);
   std::string same_bytes(const ir::Expr& expr);
   std::string record_constant(const ir::Expr& expr);
+
+  // twins.cpp
   std::string twin_value(uint32_t index);
   std::string twin_report_function(const ir::Type* attributes);
   void begin_twin();
