@@ -302,7 +302,7 @@ inline constexpr ErrorId kVulkanTableLimit{964};  ///< shader table too large fo
 inline constexpr ErrorId kNoGraphics{965};  ///< the Vulkan device has no graphics pipelines
 inline constexpr ErrorId kVertexFormatUnsupported{966};  ///< vertex format not supported by the Vulkan device
 inline constexpr ErrorId kNoBarycentrics{967};  ///< the Vulkan device has no barycentrics
-inline constexpr ErrorId kNoHitObject{968};  ///< HitObject is not offered on Vulkan
+inline constexpr ErrorId kNoHitObject{968};  ///< shader that hit objects cannot run on Vulkan
 inline constexpr ErrorId kOutOfMemory{990};  ///< out of memory
 inline constexpr ErrorId kPrecisionUnsupported{991};  ///< traversal precision not available
 inline constexpr ErrorId kEmbreeUnusable{992};  ///< Embree cannot be used
