@@ -7,6 +7,7 @@
 
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
+#include "effects/shadows/edge_shadow/edge_shadow.h"
 #include "effects/shadows/glass_shadow/glass_shadow.h"
 #include "effects/shadows/glass_shadow/glass_shadow_map.h"
 #include "effects/shadows/hybrid_shadow/hybrid_shadow.h"
@@ -71,6 +72,7 @@ std::vector<EffectStep> adaptive_steps() {
 }
 
 constexpr std::uint32_t kPlane = kShadowMapReceiverPlane;
+constexpr std::uint32_t kEdgeSamples = 16;
 
 Effect sun_pcf_row() {
   const ShadowMapConstants defaults = {.method = kShadowMapPcf,
@@ -182,6 +184,30 @@ Effect sun_hybrid_row() {
                {"4096 x 4096, 36 + 64 taps", EffectSettings().set_constants(most)}};
   row.may_equal = "far from what casts the shadows it is sun-pcss";
   row.misses = "penumbras near what casts them, and below things at several heights";
+  return row;
+}
+
+Effect sun_edges_row() {
+  EdgeShadowConstants defaults;
+  defaults.map = {.method = kShadowMapPcf,
+                  .flags = kPlane,
+                  .constant_bias = 0.5f,
+                  .slope_bias = 0.0f,
+                  .radius = 0.25f,
+                  .taps = 32};
+  Effect row = shadow_map_row("sun-edges", "sun shadow by rays where a map finds its edges",
+                              "sun_edges", defaults.map);
+  row.library = {"shadows/edge_shadow/edge_shadow", edge_shadow_library};
+  row.make = make_edge_shadow;
+  row.signals.push_back({.name = "sun_edges_places", .channels = 2, .output = 1, .is_sum = false});
+  set_constants(row, defaults, edge_shadow_settings());
+  row.defaults.samples = kEdgeSamples;
+  row.samples_option = "sun-edges-samples";
+  for (const std::uint32_t rays : {4u, kEdgeSamples, 64u}) {
+    row.steps.push_back({fmt::format("2048 x 2048, {} rays at edges", rays),
+                         EffectSettings{.samples = rays}.set_constants(defaults)});
+  }
+  row.misses = "what is thinner than a texel of its map, and what touches nearer than its bias";
   return row;
 }
 
@@ -306,6 +332,7 @@ std::vector<Effect> shadow_alternatives() {
       sun_backprojection_row(),
       sun_cascades_row(),
       sun_hybrid_row(),
+      sun_edges_row(),
       glass_shadow_map_row(),
   };
   for (const auto rows : {filtered_shadow_rows, screen_shadow_rows, lamp_shadow_rows}) {

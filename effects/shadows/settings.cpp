@@ -76,6 +76,17 @@ SettingTable<HybridShadowConstants> hybrid_shadow_settings() {
                       "to what casts the shadow, from which the map alone says", "Story 2015")});
 }
 
+SettingTable<EdgeShadowConstants> edge_shadow_settings() {
+  using C = EdgeShadowConstants;
+  const SettingTable<ShadowMapConstants> map = close_settings(
+      shadow_map_settings(kShadowMapPcf), {"grid", "survey-rule", "per-object", "blend"});
+  return join_settings(settings_within(&C::map, map),
+                       {number_setting("margin", &C::margin, {0, 64}, "texels",
+                                       "that the map may be wrong; rays go to pixels so near to "
+                                       "edges",
+                                       "survey 4")});
+}
+
 SettingTable<GlassShadowConstants> glass_shadow_settings() {
   return {number_setting("tint", &GlassShadowConstants::tint, {0, 1}, "", kTint, kColored)};
 }

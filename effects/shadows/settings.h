@@ -6,6 +6,7 @@
 #include "effects/engine/setting.h"
 #include "effects/shadows/adaptive_shadow/adaptive_shadow.h"
 #include "effects/shadows/contact_shadow/contact_shadow.h"
+#include "effects/shadows/edge_shadow/edge_shadow.h"
 #include "effects/shadows/filtered_shadow_map/filtered_shadow_map.h"
 #include "effects/shadows/glass_shadow/glass_shadow.h"
 #include "effects/shadows/glass_shadow/glass_shadow_map.h"
@@ -20,6 +21,7 @@ namespace kaamos::effects {
 ///@{
 SettingTable<ShadowMapConstants> shadow_map_settings(ShadowMapMethod method);
 SettingTable<HybridShadowConstants> hybrid_shadow_settings();
+SettingTable<EdgeShadowConstants> edge_shadow_settings();
 SettingTable<GlassShadowMapConstants> glass_shadow_map_settings();
 SettingTable<FilteredShadowMapConstants> filtered_shadow_map_settings(
     FilteredShadowMapMethod method);
