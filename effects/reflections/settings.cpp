@@ -63,6 +63,8 @@ SettingTable<ScreenReflectionConstants> screen_reflection_settings() {
                       "McGuire & Mara 2014"),
        number_setting("thickness", &C::thickness, {0, kFar}, "m",
                       "that surfaces are taken to reach back"),
+       number_setting("step-thickness", &C::step_thickness, {0, 1024}, "steps",
+                      "depths of a step from sample to sample that they reach back besides"),
        number_setting("edge-fade", &C::edge_fade, {0, 1}, "pictures",
                       "at the edge, where hits fade to the fallback"),
        word_setting("source", &C::source, {"current-frame", "previous-frame"},

@@ -19,6 +19,7 @@ struct ScreenReflectionConstants {
   uint source;       // kCurrentFrame, kPreviousFrame
   uint fallback;     // kFallbackNone, kFallbackSky, kFallbackEnvironment
   uint strict;       // 1: only hits that leave no doubt
+  float step_thickness;  // depths of a step that surfaces reach back besides
 };
 
 ReflectionLengths LengthsOf(ScreenReflectionConstants screen) {

@@ -82,6 +82,7 @@ ScreenHit MarchReflection(ReflectionPoint surface, ReflectionRay sample, uint ow
                           ScreenReflectionConstants screen, float2 size) {
   ScreenRule rule;
   rule.thickness = Contain(screen.thickness, kLongestRay);
+  rule.step_thickness = screen.step_thickness;
   rule.strict = screen.strict != 0;
   rule.without_lamps = !IsMirror(surface.roughness);
   rule.own_instance = own_instance;

@@ -51,6 +51,12 @@ void Refine(ScreenRay ray, uint times, inout float s0, inout float s1) {
   }
 }
 
+// The depth in metres that a surface is taken to have where the ray goes from s0 to s1.
+float Thickness(ScreenRay ray, ScreenRule rule, float s0, float s1) {
+  return rule.thickness +
+         rule.step_thickness * abs(ScreenDepth(ray, s1) - ScreenDepth(ray, s0));
+}
+
 // `length` is the whole ray's, metres; `jitter`, 0 to 1, moves all samples by that part of a step.
 ScreenHit MarchScreen(ScreenRay ray, ScreenRule rule, MarchSettings settings, float length,
                       float jitter, float2 size) {
@@ -65,6 +71,7 @@ ScreenHit MarchScreen(ScreenRay ray, ScreenRule rule, MarchSettings settings, fl
   const float2 extent = abs(ray.along);
   const float major = max(extent.x, extent.y);
   float s0 = 0.0;
+  bool is_behind = false;  // the point before, of what its pixel shows
   uint i = 0;
   for (; i < settings.steps && s0 < 1.0; ++i) {
     const float s =
@@ -76,22 +83,29 @@ ScreenHit MarchScreen(ScreenRay ray, ScreenRule rule, MarchSettings settings, fl
     if (s * major < kNearestSample || !IsMet(pixel, rule)) continue;
     const float surface = SceneDepth(pixel);
     const float depth = ScreenDepth(ray, s);
-    const float depth_before = settings.march == kMarchMetres ? depth : ScreenDepth(ray, before);
-    if (surface == kSkyZ || max(depth, depth_before) < surface) continue;
-    if (min(depth, depth_before) > surface + rule.thickness) {
+    const bool are_points = settings.march == kMarchMetres;
+    const float depth_before = are_points ? depth : ScreenDepth(ray, before);
+    const bool was_behind = is_behind;
+    is_behind = max(depth, depth_before) >= surface;
+    if (surface == kSkyZ || !is_behind) continue;
+    // How far behind a surface points are says nothing where a step is longer than it is thick: the
+    // place where the step crosses it does.
+    const bool is_refined = settings.refinements > 0;
+    const bool is_crossed = are_points && is_refined && !was_behind;
+    const float thickness = Thickness(ray, rule, before, s);
+    bool is_passed = !is_crossed && min(depth, depth_before) > surface + thickness;
+    float from = before, to = s;
+    if (!is_passed) Refine(ray, settings.refinements, from, to);
+    const int2 refined = min(int2(ScreenPlace(ray, to)), int2(size) - 1);
+    if (is_refined && !is_passed) {
+      is_passed = ScreenDepth(ray, to) > SceneDepth(refined) + thickness;
+    }
+    if (is_passed) {
       state.passed_behind = true;
       if (rule.strict) break;
       continue;
     }
-    float from = before, to = s;
-    Refine(ray, settings.refinements, from, to);
-    const int2 refined = min(int2(ScreenPlace(ray, to)), int2(size) - 1);
-    const float behind = ScreenDepth(ray, to) - SceneDepth(refined);
-    if (settings.refinements > 0 && behind > rule.thickness) {
-      state.passed_behind = true;
-      continue;
-    }
-    if (AcceptHit(ray, rule, refined, from, to, state, hit)) return hit;
+    if (AcceptHit(ray, rule, refined, before, s, state, hit)) return hit;
   }
   hit.outcome = s0 < 1.0 && i == settings.steps && settings.march == kMarchPixels
                     ? kOutOfSteps

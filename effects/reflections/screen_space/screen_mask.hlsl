@@ -64,17 +64,19 @@ bool IsLeft(ScreenRay ray, uint2 block, float first_pixel) {
 
 // Tells whether a ray's depths in a part of it may meet a surface of the blocks that it passes
 // there.
-bool MayMeet(ScreenRay ray, float s0, float s1, float before, float thickness, int2 blocks) {
+bool MayMeet(ScreenRay ray, float s0, float s1, float before, float thickness,
+             float step_thickness, int2 blocks) {
   const float2 a = ScreenPlace(ray, s0), b = ScreenPlace(ray, s1);
   const int2 first = clamp(int2(floor((min(a, b) - 1.0) / float(kBlock))), int2(0, 0), blocks - 1);
   const int2 last = clamp(int2(floor((max(a, b) + 1.0) / float(kBlock))), int2(0, 0), blocks - 1);
   const float d0 = ScreenDepth(ray, before), d1 = ScreenDepth(ray, s1);
   const float nearest = min(d0, d1) * (1.0 - 1e-5), farthest = max(d0, d1) * (1.0 + 1e-5);
+  const float behind = thickness + step_thickness * (farthest - nearest);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       const float4 bounds = depth_bounds[int2(x, y)];
       if (!(bounds.y > 0.0) || IsLeft(ray, uint2(x, y), bounds.z)) continue;
-      if (farthest >= bounds.x && nearest <= bounds.y + thickness) return true;
+      if (farthest >= bounds.x && nearest <= bounds.y + behind) return true;
     }
   }
   return false;
@@ -92,10 +94,17 @@ bool MayHit(ScreenRay ray, float length, float2 size) {
   float back = 0.0;
   if (constants.screen.march == kMarchPixels) back = max(constants.screen.stride, 1.0) / major;
   if (constants.screen.march == kMarchLine) back = 1.0 / float(constants.screen.steps);
-  const float thickness = Contain(constants.screen.thickness, kLongestRay);
+  float thickness = Contain(constants.screen.thickness, kLongestRay);
+  float step_thickness = constants.screen.step_thickness;
+  if (constants.screen.march == kMarchMetres) {
+    // No step is deeper.
+    thickness += step_thickness * 1.001 * length / float(constants.screen.steps);
+    step_thickness = 0.0;
+  }
   for (uint i = 0; i < parts; ++i) {
     const float s0 = float(i) / float(parts), s1 = float(i + 1) / float(parts);
-    if (MayMeet(ray, s0, s1, max(0.0, s0 - back), thickness, int2(blocks))) return true;
+    if (MayMeet(ray, s0, s1, max(0.0, s0 - back), thickness, step_thickness,
+                int2(blocks))) return true;
   }
   return false;
 }

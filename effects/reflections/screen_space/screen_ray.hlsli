@@ -130,6 +130,7 @@ struct ScreenHit {
 // The rule by which surfaces are met.
 struct ScreenRule {
   float thickness;     // metres that a surface is taken to reach back
+  float step_thickness;  // and besides, in depths of the step that meets it
   bool strict;         // only hits that leave no doubt
   bool without_lamps;  // the ray passes through the shapes of lamps
   uint own_instance;   // that the ray starts on

@@ -96,6 +96,7 @@ ScreenReflectionConstants march_of_metres() {
   constants.longest = 20.0f;
   constants.steps = 64;
   constants.refinements = 6;
+  constants.step_thickness = 1.0f;
   return constants;
 }
 

@@ -55,6 +55,9 @@ struct ScreenReflectionConstants {
   ScreenSource source = ScreenSource::kCurrentFrame;       ///< of light
   ScreenFallback fallback = ScreenFallback::kEnvironment;  ///< of rays without a hit
   std::uint32_t strict = 0;  ///< 1: only hits that leave no doubt count
+  /// Thickness besides, in depths of the step from sample to sample: so that no surface is thinner
+  /// than what a step passes by.
+  float step_thickness = 0.0f;
 };
 
 /// Points along the ray, 64 up to 20 m, and a search where one is behind a surface.

@@ -84,7 +84,44 @@ TEST(ScreenMarches, FewSamplesMissWhatLiesBetweenThem) {
   EXPECT_GT(few.missed(), 2 * all.missed());
   March metres = with_sky(kMetres);
   metres.constants.steps = 8;
+  metres.constants.step_thickness = 0;
   EXPECT_GT(look(kEmbree, make_screen_boxes(), metres).confusion.missed(), 2 * all.missed());
+}
+
+// Where a step is longer than surfaces are thick, most points are too far behind what the ray
+// crosses. The place where it does tells. [survey 6.2]
+TEST(ScreenMarches, AStepIsRefinedBeforeThicknessIsTested) {
+  March metres = with_sky(kMetres);  // steps of 0.3 m
+  metres.constants.thickness = 0.02f;
+  metres.constants.step_thickness = 0;
+  const HitConfusion found = look(kEmbree, make_screen_boxes(), metres).confusion;
+  EXPECT_GT(part(found.correct(), found.correct() + found.missed()), 0.75);
+  EXPECT_GT(part(found.correct(), found.hits()), 0.95);
+  metres.constants.refinements = 0;
+  const HitConfusion points = look(kEmbree, make_screen_boxes(), metres).confusion;
+  EXPECT_LT(part(points.correct(), points.correct() + points.missed()), 0.3);
+}
+
+// A halved step ends in a pixel whose depth is that of its middle: its plane is what the ray hits.
+TEST(ScreenMarches, RefinedHitsLieOnThePlanesOfPixels) {
+  const HitConfusion found = look(kEmbree, make_mirror_hall(), with_sky(kMetres)).confusion;
+  EXPECT_GT(part(found.correct(), found.hits()), 0.65);
+  EXPECT_GT(part(found.correct(), found.correct() + found.missed()), 0.8);
+}
+
+// Surfaces without any thickness are met by no point; as thick as a step is deep, they are.
+TEST(ScreenMarches, SurfacesAreAsThickAsAStepIsDeep) {
+  March metres = with_sky(kMetres);
+  metres.constants.thickness = 0;
+  metres.constants.step_thickness = 0;
+  EXPECT_EQ(look(kEmbree, make_screen_boxes(), metres).confusion.hits(), 0u);
+  metres.constants.step_thickness = 1;
+  for (const std::uint32_t refinements : {0u, 6u}) {
+    metres.constants.refinements = refinements;
+    const HitConfusion found = look(kEmbree, make_screen_boxes(), metres).confusion;
+    EXPECT_GT(part(found.correct(), found.correct() + found.missed()), 0.75) << refinements;
+    EXPECT_GT(part(found.correct(), found.hits()), 0.9) << refinements;
+  }
 }
 
 // Northlight's has no fallback: what is off the picture is missing, and black. [GDC 2018 talk]
@@ -165,7 +202,10 @@ TEST(ScreenMarches, WhatThePreviousFrameDidNotShowIsStale) {
 // Recall 1: the picture is the same with the mask as without it. [survey 6.2]
 TEST(ScreenMarches, TheMaskMissesNothing) {
   for (const Scene& scene : {make_screen_boxes(), make_mirror_hall()}) {
-    for (const March& march : {with_sky(kPixels), with_sky(kMetres), kLine}) {
+    March thick_steps = with_sky(kPixels);
+    thick_steps.constants.stride = 3;
+    thick_steps.constants.step_thickness = 1;
+    for (const March& march : {with_sky(kPixels), thick_steps, with_sky(kMetres), kLine}) {
       const auto plain = render(kEmbree, scene, march);
       ScreenMaskConstants mask;
       mask.screen = march.constants;
