@@ -15,6 +15,7 @@
 #include "effects/reflections/screen_space/screen_reflections.h"
 #include "effects/reflections/settings.h"
 #include "effects/reflections/stochastic/stochastic_reflections.h"
+#include "effects/reflections/tiled/tiled_reflections.h"
 #include "effects/reflections/traced/reflections.h"
 
 namespace kaamos::effects {
@@ -155,6 +156,27 @@ Effect hybrid_row() {
   return effect;
 }
 
+Effect tiled_row() {
+  Effect effect =
+      screen_row("tiled-reflections",
+                 "reflections of tiles: by an environment map, the picture or rays", "tiled");
+  effect.library = {"reflections/tiled/tiled_reflections", tiled_reflections_library};
+  effect.make = make_tiled_reflections;
+  effect.needs.lights_once = false;
+  effect.signals.push_back({.name = "tiled_classes", .channels = 2, .output = 2, .is_sum = false});
+  set_constants(effect, default_tiled_constants(), tiled_settings());
+  for (const float roughest : {0.2f, 0.4f, 0.6f, 1.0f}) {
+    TiledConstants constants = default_tiled_constants();
+    constants.roughest_traced = roughest;
+    effect.steps.push_back({fmt::format("rays up to roughness {}", roughest),
+                            EffectSettings().set_constants(constants)});
+  }
+  effect.samples_option = "tiled-samples";
+  effect.may_equal = "no surface's roughness lies between the two limits";
+  effect.misses = "what hybrid-reflections misses; what moves beside rough surfaces";
+  return effect;
+}
+
 Effect environment_row() {
   Effect effect = row("env-map", "reflections from an environment map", "env_map", false);
   effect.library = {"reflections/environment_map/environment_reflections",
@@ -217,6 +239,7 @@ std::vector<Effect> reflection_alternatives() {
       stochastic_row(),
       blurred_row(),
       hybrid_row(),
+      tiled_row(),
       environment_row(),
       planar_row(),
   };

@@ -115,6 +115,17 @@ SettingTable<HybridConstants> hybrid_settings() {
                                         "rougher surfaces are traced at once")});
 }
 
+SettingTable<TiledConstants> tiled_settings() {
+  using C = TiledConstants;
+  return join_settings(
+      settings_within(&C::screen, close_settings(screen_reflection_settings(), {"edge-fade"})),
+      {sun_at_hits<C>(),
+       number_setting("roughest-screen", &C::roughest_screen, {0, 1}, "",
+                      "rougher surfaces are traced at once"),
+       number_setting("roughest-traced", &C::roughest_traced, {0, 1}, "",
+                      "rougher surfaces show what a miss shows", "survey 6.2")});
+}
+
 SettingTable<PlanarConstants> planar_settings() {
   using C = PlanarConstants;
   SettingTable<C> out = {

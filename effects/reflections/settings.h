@@ -11,6 +11,7 @@
 #include "effects/reflections/screen_space/screen_mask.h"
 #include "effects/reflections/screen_space/screen_reflections.h"
 #include "effects/reflections/stochastic/stochastic_reflections.h"
+#include "effects/reflections/tiled/tiled_reflections.h"
 #include "effects/reflections/traced/reflections.h"
 
 namespace kaamos::effects {
@@ -23,6 +24,7 @@ SettingTable<ScreenMaskConstants> screen_mask_settings();
 SettingTable<StochasticConstants> stochastic_settings();
 SettingTable<BlurredConstants> blurred_settings();
 SettingTable<HybridConstants> hybrid_settings();
+SettingTable<TiledConstants> tiled_settings();
 SettingTable<PlanarConstants> planar_settings();
 SettingTable<EnvironmentConstants> environment_settings();
 ///@}

@@ -81,6 +81,7 @@ const std::map<std::string, Change>& lengths() {
       {"ssr-stochastic", march},
       {"ssr-blurred", march},
       {"hybrid-reflections", march},
+      {"tiled-reflections", march},
       {"planar", change<PlanarConstants>([](auto& c, float s) { c.longest *= s; })},
       {"sun-map", map},
       {"sun-per-object", map},

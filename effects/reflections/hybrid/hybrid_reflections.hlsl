@@ -2,7 +2,7 @@
 // Reflections from the picture where it leaves no doubt, and by rays through the scene everywhere
 // else. [survey 6.4]
 #include "../traced/reflection_shading.hlsli"
-#include "../screen_space/screen_light.hlsli"
+#include "picture_hit.hlsli"
 
 // Sums over samples, as those of effects/reflections/traced.
 RWTexture2D<float4> reflection : register(u0, space3);
@@ -16,8 +16,6 @@ struct HybridConstants {
 };
 ConstantBuffer<HybridConstants> constants : register(b0, space3);
 
-static const float kMostMetal = 0.5;
-
 uint SunAtHits() { return constants.sun_at_hits; }
 
 // The light of one ray over `scale`, and the ray's length.
@@ -29,12 +27,9 @@ float4 FollowRay(uint2 pixel, ReflectionPoint surface, float3 scale, uint index,
   if (!sample.exists) return float4(0, 0, 0, 0);
   hit.outcome = kNotLookedFor;
   if (surface.roughness <= constants.roughest_screen) {
-    hit = MarchReflection(surface, sample, g_ids[pixel].x, constants.screen, size);
-    // The picture has no reflections yet: a metal that is hit would be black.
-    if (hit.outcome == kHit && g_material[hit.pixel].y > kMostMetal) hit.outcome = kNotLookedFor;
-    if (hit.outcome == kHit) {
-      const float3 light = LightOfHit(hit, constants.screen, int2(size));
-      if (hit.outcome == kHit) return float4(light * sample.weight / scale, hit.distance);
+    float3 light;
+    if (LightOfPicture(pixel, surface, sample, constants.screen, size, hit, light)) {
+      return float4(light * sample.weight / scale, hit.distance);
     }
   }
   const ReflectionPayload payload =
