@@ -14,4 +14,12 @@ SettingTable<TaaConstants> taa_settings() {
           closed_setting(&C::history_valid)};
 }
 
+SettingTable<EnlargeConstants> enlarge_settings() {
+  using C = EnlargeConstants;
+  return {number_setting("edges", &C::edges, {0, 1}, "",
+                         "how far kernels are turned and stretched as edges run", "AMD 2021"),
+          word_setting("method", &C::method, {"bilinear", "along-edges"},
+                       "four pixels whatever they show, or twelve by such a kernel")};
+}
+
 }  // namespace kaamos::effects

@@ -2,6 +2,7 @@
 #include "effects/northlight/compose_stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "effects/assets/common/errors.h"
 #include "effects/engine/picture.h"
@@ -13,6 +14,13 @@ rtapi::Status ComposeStage::create() {
     if (const auto s = create_whole(); !s) return s;
   } else {
     if (const auto s = create_plain(); !s) return s;
+  }
+  if (context_.settings.enlarge > 1.0f) {
+    auto enlarger = Enlarger::create(
+        context_.device, context_.frame, context_.libraries.at("composition/enlarge/enlarge"),
+        context_.settings.enlarge, context_.settings.enlarge_constants);
+    if (!enlarger) return enlarger.error();
+    enlarger_ = std::move(*enlarger);
   }
   if (!context_.settings.taa) return {};
   const auto taa = TemporalAntialiasing::create(context_.device, context_.frame,
@@ -152,9 +160,17 @@ std::uint64_t ComposeStage::bytes() const {
 
 rtapi::Status ComposeStage::run() {
   const auto s = context_.runner.run("composite", bytes(), [&](auto& list) { record(list); });
-  if (!s || !taa_) return s;
-  return context_.runner.run("taa", taa_->bytes(),
-                             [&](auto& list) { taa_->dispatch(list, context_.frame); });
+  if (!s) return s;
+  if (taa_) {
+    const auto taa = context_.runner.run("taa", taa_->bytes(),
+                                         [&](auto& list) { taa_->dispatch(list, context_.frame); });
+    if (!taa) return taa;
+  }
+  if (!enlarger_) return {};
+  // Antialiasing writes two pictures in turns.
+  if (const auto bound = enlarger_->bind(resolved()); !bound) return bound;
+  return context_.runner.run("enlarge", enlarger_->bytes(),
+                             [&](auto& list) { enlarger_->dispatch(list, context_.frame); });
 }
 
 void ComposeStage::record_unreflected(rtapi::CommandList& list) const {

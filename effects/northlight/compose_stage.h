@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Puts a frame together: the radiance of all effects, and antialiasing over frames.
+/// Puts a frame together: the radiance of all effects, antialiasing over frames, enlarging.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "effects/composition/composite/composite.h"
+#include "effects/composition/enlarge/enlarge.h"
 #include "effects/composition/taa/taa.h"
 #include "effects/northlight/effect_stage.h"
 #include "effects/northlight/filter_stage.h"
@@ -31,13 +32,13 @@ class ComposeStage {
   ComposeStage& operator=(const ComposeStage&) = delete;
 
   /// Makes the passes, of a whole frame or of the sums as they are.
-  /// @errors those of ComposePass, CompositePass and TemporalAntialiasing.
+  /// @errors those of ComposePass, CompositePass, TemporalAntialiasing and Enlarger.
   rtapi::Status create();
   /// Histories begin anew at a cut.
   void begin_frame();
   /// Records what puts the frame together.
   void record(rtapi::CommandList& list) const;
-  /// Executes that, and antialiasing.
+  /// Executes that, antialiasing and enlarging.
   /// @errors those of the device.
   rtapi::Status run();
   /// Records the radiance without reflections, which late effects look at.
@@ -56,10 +57,8 @@ class ComposeStage {
 
   /// Null without antialiasing over frames.
   const TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
-  /// The finished picture.
-  const rtapi::Texture& result() const {
-    return taa_ ? taa_->result() : context_.frame.texture(kRadiance);
-  }
+  /// The finished picture, enlarged where FrameSettings::enlarge says so.
+  const rtapi::Texture& result() const { return enlarger_ ? enlarger_->result() : resolved(); }
 
  private:
   rtapi::Status create_whole();
@@ -67,6 +66,10 @@ class ComposeStage {
   rtapi::Result<ComposePass> create_pass(const FrameParts& parts) const;
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   std::uint64_t bytes() const;
+  // The picture of the frame's own size.
+  const rtapi::Texture& resolved() const {
+    return taa_ ? taa_->result() : context_.frame.texture(kRadiance);
+  }
 
   FrameContext& context_;
   LightStage& lights_;
@@ -78,6 +81,7 @@ class ComposeStage {
   std::map<std::vector<std::string>, ComposePass> compose_some_;  // by their signals
   rtapi::Texture black_;  // stands for indirect light that is left out
   std::optional<TemporalAntialiasing> taa_;
+  std::optional<Enlarger> enlarger_;
 };
 
 }  // namespace kaamos::effects

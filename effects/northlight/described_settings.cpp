@@ -113,12 +113,12 @@ std::vector<FrameTopic> frame_topics() {
   const FrameSettings frame;
   // Not described: what no technique has a part in.
   const auto& [width, height, seed, effects, whole_frame, denoise, volume, light_culling,
-               light_maps, contact, taa, taa_constants, moving, structures, order, primary,
-               ray_cones, curvature_to_roughness, sun_angular_radius, sun_map, max_pass_views,
-               rows] = frame;
+               light_maps, contact, taa, taa_constants, enlarge, enlarge_constants, moving,
+               structures, order, primary, ray_cones, curvature_to_roughness, sun_angular_radius,
+               sun_map, max_pass_views, rows] = frame;
   static_cast<void>(
-      std::tie(width, height, seed, effects, whole_frame, taa, moving, max_pass_views));
-  static_cast<void>(std::tie(denoise, volume, taa_constants, structures));
+      std::tie(width, height, seed, effects, whole_frame, taa, enlarge, moving, max_pass_views));
+  static_cast<void>(std::tie(denoise, volume, taa_constants, enlarge_constants, structures));
   static_cast<void>(std::tie(light_culling, light_maps, contact, order, primary, ray_cones,
                              curvature_to_roughness, sun_angular_radius, sun_map, rows));
   using F = FrameSettings;
@@ -154,6 +154,8 @@ std::vector<FrameTopic> frame_topics() {
                        settings_within(&DenoiseDesc::visibility, visibility_settings()))},
       {{"volume", "the volume of indirect light"}, settings_within(&F::volume, volume_settings())},
       {{"taa", "antialiasing over frames"}, settings_within(&F::taa_constants, taa_settings())},
+      {{"enlarge", "the kernels of a frame that is enlarged"},
+       settings_within(&F::enlarge_constants, enlarge_settings())},
       {{"structures", "acceleration structures of what moves"},
        settings_within(&F::structures, structures_settings())},
   };

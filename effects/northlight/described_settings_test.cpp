@@ -65,6 +65,8 @@ TEST(DescribedSettings, EveryNumberOfTheFiltersIsDescribed) {
   EXPECT_EQ(first_undescribed(visibility_settings(), sizeof(VisibilityConstants)),
             sizeof(VisibilityConstants));
   EXPECT_EQ(first_undescribed(taa_settings(), sizeof(TaaConstants)), sizeof(TaaConstants));
+  EXPECT_EQ(first_undescribed(enlarge_settings(), sizeof(EnlargeConstants)),
+            sizeof(EnlargeConstants));
 }
 
 TEST(DescribedSettings, EachHasANameOfItsOwnAndADefaultInItsRange) {

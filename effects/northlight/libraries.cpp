@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "effects/composition/composite/composite.h"
+#include "effects/composition/enlarge/enlarge.h"
 #include "effects/composition/taa/taa.h"
 #include "effects/indirect/indirect_diffuse/volume.h"
 #include "effects/light/direct/direct.h"
@@ -71,7 +72,9 @@ const std::vector<PartRow>& parts() {
       {{"denoise/temporal_gradients", temporal_gradients_library}, kWhole},
       {{"surfaces/ray_order/ray_order", ray_order_library},
        [](const FrameSettings& s) { return s.order != RayOrder::kPixels; }},
-      {{"composition/taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }}};
+      {{"composition/taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }},
+      {{"composition/enlarge/enlarge", enlarge_library},
+       [](const FrameSettings& s) { return s.enlarge > 1.0f; }}};
   return rows;
 }
 

@@ -146,6 +146,11 @@ rtapi::Status check_settings(const FrameSettings& settings, const std::vector<Ef
                       "a map of the sun of " + std::to_string(settings.sun_map) +
                           " texels a side; 0 to " + std::to_string(kMaxSunMap) + " are allowed");
   }
+  if (!(settings.enlarge >= 1.0f && settings.enlarge <= 4.0f)) {
+    return make_error(
+        ErrorId::kFrameRenderer,
+        "FrameSettings::enlarge is " + std::to_string(settings.enlarge) + "; choose 1 to 4");
+  }
   for (const auto& [name, ignored] : settings.effects) {
     const Effect* effect = find_effect(effects, name);
     if (effect == nullptr) {

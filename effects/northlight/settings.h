@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/composition/enlarge/enlarge.h"
 #include "effects/composition/taa/taa.h"
 #include "effects/denoise/denoise.h"
 #include "effects/geometry/structures/structures.h"
@@ -62,8 +63,10 @@ struct FrameSettings {
   LightMaps light_maps = LightMaps::kTraced;             ///< the atlas of shadow maps
   /// The combination of the strongest lights' shadow maps and contact shadows.
   ContactCombination contact = ContactCombination::kProduct;
-  bool taa = false;                     ///< antialiasing over the frames of a sequence
-  TaaConstants taa_constants;           ///< with which numbers
+  bool taa = false;            ///< antialiasing over the frames of a sequence
+  TaaConstants taa_constants;  ///< with which numbers
+  float enlarge = 1.0f;  ///< the finished radiance has so many times the width and height, 1 to 4
+  EnlargeConstants enlarge_constants;   ///< with which numbers
   bool moving = false;                  ///< frames of a sequence: structures follow what moves
   StructureOptions structures;          ///< how they do
   RayOrder order = RayOrder::kPixels;   ///< of rays; the frame stays the same

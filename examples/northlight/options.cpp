@@ -164,6 +164,11 @@ void add_sequence(CLI::App& app, Options& options) {
       ->needs(frames)
       ->capture_default_str()
       ->check(CLI::Range(0.01, 10000.0));
+  app.add_option("--enlarge", options.frame.enlarge,
+                 "the finished frame has so many times the width and height of --size, which "
+                 "layers keep; its edges stay sharp")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 4.0));
   app.add_flag("--taa", options.frame.taa, "antialiasing over the frames of a sequence")
       ->needs(frames);
 }

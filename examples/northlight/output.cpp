@@ -201,6 +201,8 @@ ExrFile exr_of(const Options& options, const Scene& scene, const FrameResult& re
   exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.frame.seed)}};
   exr.layers.push_back({"", result.radiance, false, {}});
   for (const auto& [name, image] : written_layers(result, written)) {
+    // The file has one size, that of the frame, which may be enlarged.
+    if (image->width != result.radiance.width || image->height != result.radiance.height) continue;
     exr.layers.push_back({name, *image, false, {}});
   }
   for (const ViewResult& view : result.views) {

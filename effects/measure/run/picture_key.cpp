@@ -49,10 +49,10 @@ void add_effects(Checksum& checksum, const std::map<std::string, EffectSettings>
 void add_frame(Checksum& checksum, const FrameSettings& frame) {
   // `order` and `rows` leave the picture as it is, but not its time.
   const auto& [width, height, seed, effects, whole_frame, denoise, volume, light_culling,
-               light_maps, contact, taa, taa_constants, moving, structures, order, primary,
-               ray_cones, curvature_to_roughness, sun_angular_radius, sun_map, max_pass_views,
-               rows] = frame;
-  checksum.add_each(width, height, seed, whole_frame, taa, moving, max_pass_views);
+               light_maps, contact, taa, taa_constants, enlarge, enlarge_constants, moving,
+               structures, order, primary, ray_cones, curvature_to_roughness, sun_angular_radius,
+               sun_map, max_pass_views, rows] = frame;
+  checksum.add_each(width, height, seed, whole_frame, taa, enlarge, moving, max_pass_views);
   add_effects(checksum, effects);
   add_described(checksum, frame);
   // What was read from a file may be anything.

@@ -34,6 +34,14 @@ void trace_a_fourth(Options& options, bool rotates) {
   }
 }
 
+// A frame of a quarter of the pixels, which is enlarged.
+void enlarge_by_two(Options& options, EnlargeMethod method) {
+  options.frame.width /= 2;
+  options.frame.height /= 2;
+  options.frame.enlarge = 2;
+  options.frame.enlarge_constants.method = method;
+}
+
 class FrameWays {
  public:
   FrameWays(const std::string& family, const Options& options, const Scene& scene,
@@ -178,7 +186,11 @@ const std::vector<FrameWay>& frame_ways(const std::string& family) {
       {"a pixel of four", "upscaled", "--half-resolution all",
        [](Options& options) { trace_a_fourth(options, false); }, false, true},
       {"a pixel of four", "in turns", "--half-resolution all --rotate-pixels",
-       [](Options& options) { trace_a_fourth(options, true); }, true, true}};
+       [](Options& options) { trace_a_fourth(options, true); }, true, true},
+      {"a quarter of the pixels", "enlarged along edges", "--enlarge 2",
+       [](Options& options) { enlarge_by_two(options, EnlargeMethod::kAlongEdges); }, false, true},
+      {"a quarter of the pixels", "enlarged, bilinear", "--enlarge 2 --enlarge-method bilinear",
+       [](Options& options) { enlarge_by_two(options, EnlargeMethod::kBilinear); }, false, true}};
   static const std::vector<FrameWay> antialiasing = {
       {"one point of a pixel", "as it is by default"},
       {"temporal antialiasing", "as it is by default", "--taa",
