@@ -107,6 +107,27 @@ Effect masked_row() {
   return effect;
 }
 
+Effect half_masked_row() {
+  Effect effect = masked_row();
+  effect.name = "ssr-half-masked";
+  effect.about = "screen-space reflections, for pixels about one of four that finds something";
+  effect.signals[0].name = "ssr_half_masked";
+  effect.signals[1].name = "ssr_half_masked_hits";
+  effect.samples_option = "ssr-half-masked-samples";
+  ScreenMaskConstants constants;
+  constants.half_mask = 1;
+  set_constants(effect, constants, screen_mask_settings());
+  effect.steps.clear();
+  for (const std::uint32_t dilation : {0u, 2u, 8u}) {
+    constants.dilation = dilation;
+    effect.steps.push_back(
+        step(fmt::format("marks as wide as {}", 2 * dilation + 1), 1, constants));
+  }
+  effect.may_equal = "its marks leave out only pixels whose rays find nothing, so that it is ssr";
+  effect.misses = "what ssr misses, and some of what its marks miss";
+  return effect;
+}
+
 Effect stochastic_row() {
   Effect effect = row("ssr-stochastic", "screen-space reflections, rays shared by neighbours",
                       "ssr_stochastic", true);
@@ -236,6 +257,7 @@ std::vector<Effect> reflection_alternatives() {
       march_row("ssr-line", "screen-space reflections, a few samples up to the picture's edge",
                 "ssr_line", march_of_line()),
       masked_row(),
+      half_masked_row(),
       stochastic_row(),
       blurred_row(),
       hybrid_row(),

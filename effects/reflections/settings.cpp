@@ -81,7 +81,11 @@ SettingTable<ScreenMaskConstants> screen_mask_settings() {
       {number_setting("roughest", &C::roughest, {0, 1}, "",
                       "rougher surfaces show what a miss shows"),
        switch_setting("march-blocks", &C::march_blocks,
-                      "a march over blocks of 8 x 8 pixels decides too; off: roughness alone")});
+                      "a march over blocks of 8 x 8 pixels decides too; off: roughness alone"),
+       switch_setting("half-mask", &C::half_mask,
+                      "marks around one pixel of four that meets something decide instead"),
+       count_setting("dilation", &C::dilation, {0, 64}, "pixels",
+                     "of half the resolution, that are marked to each side", "Wronski 2014")});
 }
 
 SettingTable<StochasticConstants> stochastic_settings() {

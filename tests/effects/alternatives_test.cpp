@@ -78,6 +78,7 @@ const std::map<std::string, Change>& lengths() {
       {"ssr-metres", march},
       {"ssr-line", march},
       {"ssr-masked", march},
+      {"ssr-half-masked", march},
       {"ssr-stochastic", march},
       {"ssr-blurred", march},
       {"hybrid-reflections", march},

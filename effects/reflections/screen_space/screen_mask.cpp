@@ -4,8 +4,10 @@
 #include <shaders/screen_mask.h>
 
 #include <iterator>
+#include <string>
 #include <utility>
 
+#include "effects/assets/common/errors.h"
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/picture.h"
 
@@ -14,7 +16,9 @@ namespace kaamos::effects {
 namespace {
 
 constexpr std::uint32_t kBlock = 8;  // pixels along a side
-constexpr std::uint32_t kDepthBounds = 2, kPixels = 3, kPixelCount = 4, kGroups = 5;  // u, space3
+constexpr std::uint32_t kDepthBounds = 2, kPixels = 3, kPixelCount = 4, kGroups = 5,
+                        kMarks = 6;  // u, space3
+constexpr std::uint32_t kWidestDilation = 64;
 
 rtapi::Result<rtapi::Buffer> create_words(const rtapi::Device& device, std::uint64_t count,
                                           const char* name) {
@@ -41,9 +45,14 @@ class MaskedReflections : public EffectPass {
     if (!inputs) return inputs.error();
     inputs_ = std::move(*inputs);
     const auto& library = scope.library("reflections/screen_space/screen_mask");
-    constexpr const char* kEntries[] = {"BoundDepths", "ClassifyPixels", "CountGroups",
-                                        "MarchPixels"};
-    ComputePass* const passes[] = {&bound_, &classify_, &count_, &march_};
+    if (constants.dilation > kWidestDilation) {
+      return make_error(ErrorId::kScreenReflections,
+                        "ScreenMaskConstants::dilation is " + std::to_string(constants.dilation) +
+                            "; choose at most " + std::to_string(kWidestDilation));
+    }
+    constexpr const char* kEntries[] = {"BoundDepths",    "ClearMarks",  "MarkPixels",
+                                        "ClassifyPixels", "CountGroups", "MarchPixels"};
+    ComputePass* const passes[] = {&bound_, &clear_, &mark_, &classify_, &count_, &march_};
     for (std::size_t i = 0; i < std::size(kEntries); ++i) {
       auto pass = ComputePass::create(device_, frame_, library, kEntries[i]);
       if (!pass) return pass.error();
@@ -63,7 +72,13 @@ class MaskedReflections : public EffectPass {
   void record(rtapi::CommandList& list, const EffectSettings& settings,
               const PassConstants& constants) override {
     const PassArguments arguments(views_, settings.constants);
-    bound_.dispatch(list, frame_, constants, arguments, blocks_x_, blocks_y_);
+    if (settings.get_constants<ScreenMaskConstants>().half_mask != 0) {
+      const std::uint32_t width = half(frame_.width()), height = half(frame_.height());
+      clear_.dispatch(list, frame_, constants, arguments, width, height);
+      mark_.dispatch(list, frame_, constants, arguments, width, height);
+    } else {
+      bound_.dispatch(list, frame_, constants, arguments, blocks_x_, blocks_y_);
+    }
     classify_.dispatch(list, frame_, constants, arguments, frame_.width(), frame_.height());
     count_.dispatch_groups(list, frame_, constants, arguments, 1, 1);
     const auto transition = [&](rtapi::ResourceStates from, rtapi::ResourceStates to) {
@@ -76,10 +91,12 @@ class MaskedReflections : public EffectPass {
 
   std::uint64_t bytes() const override {
     return picture_bytes(bounds_) + pixels_.size() + pixel_count_.size() + groups_.size() +
-           inputs_.bytes();
+           marks_.size() + inputs_.bytes();
   }
 
  private:
+  static std::uint32_t half(std::uint32_t pixels) { return (pixels + 1) / 2; }
+
   rtapi::Status create_buffers() {
     const auto bounds = create_picture(device_, "depths of blocks",
                                        rtapi::Format::kR32G32B32A32Float, blocks_x_, blocks_y_);
@@ -95,6 +112,11 @@ class MaskedReflections : public EffectPass {
     const auto groups = create_words(device_, 3, "groups to march for");
     if (!groups) return groups.error();
     groups_ = *groups;
+    const auto marks =
+        create_words(device_, std::uint64_t{half(frame_.width())} * half(frame_.height()), "marks");
+    if (!marks) return marks.error();
+    marks_ = *marks;
+    if (const auto s = views_.set_unordered_access(kMarks, marks_, 4); !s) return s;
     if (const auto s = views_.set_unordered_access(kDepthBounds, bounds_); !s) return s;
     if (const auto s = views_.set_unordered_access(kPixels, pixels_, 4); !s) return s;
     if (const auto s = views_.set_unordered_access(kPixelCount, pixel_count_, 4); !s) return s;
@@ -105,10 +127,10 @@ class MaskedReflections : public EffectPass {
   const Frame& frame_;
   PassViews& views_;
   std::uint32_t blocks_x_, blocks_y_;
-  ComputePass bound_, classify_, count_, march_;
+  ComputePass bound_, clear_, mark_, classify_, count_, march_;
   rtapi::CommandSignature signature_;
   rtapi::Texture bounds_;
-  rtapi::Buffer pixels_, pixel_count_, groups_, masks_;
+  rtapi::Buffer pixels_, pixel_count_, groups_, marks_;
   ScreenInputs inputs_;
 };
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Chooses the pixels that may find their reflection in the picture, by their roughness and by a
 // march over blocks of pixels that misses nothing; the others show what a miss shows. The full
-// march then runs for a list of pixels, whose length only the device knows. [Wronski 2014;
-// Giacalone 2016]
+// march then runs for a list of pixels, whose length only the device knows. Or, older, by a coarse
+// march of one pixel in four that marks what is around it, and misses some. [Wronski 2014; Giacalone
+// 2016]
 #include "screen_follow.hlsli"
 
 struct MaskConstants {
   ScreenReflectionConstants screen;
   float roughest;       // rougher surfaces are not looked for in the picture
   uint march_blocks;    // 0: roughness alone decides
+  uint half_mask;       // 1: marks of half the resolution decide instead
+  uint dilation;        // pixels of half the resolution that are marked around one, to each side
 };
 ConstantBuffer<MaskConstants> constants : register(b0, space3);
 
@@ -22,6 +25,7 @@ RWStructuredBuffer<uint> pixels : register(u3, space3);     // x + 65536 * y, in
 RWStructuredBuffer<uint> pixel_count : register(u4, space3);  // how many these are
 // The groups of threads that they take: arguments of an indirect dispatch.
 RWStructuredBuffer<uint> groups : register(u5, space3);
+RWStructuredBuffer<uint> marks : register(u6, space3);  // of 2 x 2 pixels each, by rows: 1: looked for
 
 static const uint kBlock = 8;   // pixels along a side
 static const uint kGroup = 64;  // pixels of a thread group
@@ -53,6 +57,52 @@ void BoundDepths(uint3 id : SV_DispatchThreadID) {
   }
   depth_bounds[id.xy] = most > 0.0 ? float4(least, most, is_flat ? float(first + 1) : 0.0, 0)
                                    : float4(0, 0, 0, 0);
+}
+
+uint2 HalfSize() { return (uint2(PictureSize()) + 1) / 2; }
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void ClearMarks(uint3 id : SV_DispatchThreadID) {
+  const uint2 size = HalfSize();
+  if (all(id.xy == uint2(0, 0))) pixel_count[0] = 0;
+  if (all(id.xy < size)) marks[id.y * size.x + id.x] = 0;
+}
+
+// Follows the rays of one pixel of 2 x 2 in steps twice as long up to the first thing that they get
+// behind, however far. [Wronski 2014]
+bool MeetsSomething(uint2 pixel) {
+  if (g_ids[pixel].x == 0) return false;
+  const ReflectionPoint surface = LoadReflectionPoint(pixel);
+  if (!(surface.roughness <= constants.roughest)) return false;
+  ScreenReflectionConstants coarse = constants.screen;
+  coarse.stride *= 2.0;
+  coarse.steps = (coarse.steps + 1) / 2;
+  coarse.thickness = kLongestRay;
+  coarse.strict = 0;
+  for (uint i = 0; i < pass_constants.sample_count; ++i) {
+    const ReflectionRay sample = SampleReflectionRay(
+        pixel, surface, LengthsOf(coarse), pass_constants.first_sample + i, frame.seed);
+    if (!sample.exists) continue;
+    const ScreenHit hit = MarchReflection(surface, sample, g_ids[pixel].x, coarse, PictureSize());
+    if (hit.outcome == kHit) return true;
+  }
+  return false;
+}
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void MarkPixels(uint3 id : SV_DispatchThreadID) {
+  const uint2 size = HalfSize();
+  if (any(id.xy >= size) || !MeetsSomething(2 * id.xy)) return;
+  const int reach = int(constants.dilation);
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const int2 at = int2(id.xy) + int2(x, y);
+      if (any(at < int2(0, 0)) || any(at >= int2(size))) continue;
+      InterlockedOr(marks[uint(at.y) * size.x + uint(at.x)], 1);
+    }
+  }
 }
 
 // No pixel of a flat block is hit from behind: so the plane that a ray leaves is not met again.
@@ -113,6 +163,7 @@ bool IsLookedFor(uint2 pixel, float2 size) {
   if (g_ids[pixel].x == 0) return false;
   const ReflectionPoint surface = LoadReflectionPoint(pixel);
   if (!(surface.roughness <= constants.roughest)) return false;
+  if (constants.half_mask != 0) return marks[(pixel.y / 2) * HalfSize().x + pixel.x / 2] != 0;
   if (constants.march_blocks == 0) return true;
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     const ReflectionRay sample =

@@ -225,6 +225,47 @@ TEST(ScreenMarches, TheMaskMissesNothing) {
   }
 }
 
+// Marks of half the resolution miss some of what is found, the less the wider they are, and save
+// rays. What is looked for is found as without them. [Wronski 2014]
+TEST(ScreenMarches, WiderMarksMissLess) {
+  for (const Scene& scene : {make_screen_boxes(), make_mirror_hall()}) {
+    const March march = with_sky(kPixels);
+    const auto plain = render(kEmbree, scene, march);
+    const FloatImage all = plain->read(march.signal).value();
+    const std::uint64_t hits = compare(*plain, march.signal, march.constants).confusion.hits();
+    std::uint64_t found_before = 0, left_out_before = ~std::uint64_t{0};
+    for (const std::uint32_t dilation : {0u, 2u, 8u}) {
+      ScreenMaskConstants mask;
+      mask.screen = march.constants;
+      mask.half_mask = 1;
+      mask.dilation = dilation;
+      const auto marked =
+          make_screen_renderer(kEmbree, scene, "ssr-half-masked", march.constants,
+                               [&](EffectSettings& settings) { settings.set_constants(mask); });
+      marked->render().value();
+      const HitComparison some = compare(*marked, "ssr_half_masked", march.constants);
+      const FloatImage own = marked->read("ssr_half_masked").value();
+      std::uint64_t left_out = 0;
+      for (std::uint32_t y = 0; y < own.height; ++y) {
+        for (std::uint32_t x = 0; x < own.width; ++x) {
+          if (some.hits.at(x, y, 3) == static_cast<float>(kNotLookedFor)) {
+            ++left_out;
+          } else {
+            ASSERT_EQ(own.at(x, y, 0), all.at(x, y, 0)) << x << ", " << y;
+          }
+        }
+      }
+      EXPECT_GE(some.confusion.hits(), found_before);
+      EXPECT_LE(left_out, left_out_before);
+      if (dilation > 0) {
+        EXPECT_GT(part(some.confusion.hits(), hits), 0.97) << scene.name;
+      }
+      found_before = some.confusion.hits();
+      left_out_before = left_out;
+    }
+  }
+}
+
 TEST(ScreenMarches, ExtremesStayFinite) {
   Scene scene = make_screen_boxes();
   scene.cameras.front().camera_to_world = look_at(glm::dvec3(0, 0.02, 6), glm::dvec3(0, 0.02, 0));
