@@ -80,6 +80,18 @@ Constants pcss_variance() {
   return out;
 }
 
+Effect pcss_convolution_row() {
+  Constants constants = constants_of(kFilteredPcssConvolution);
+  constants.map.size = 1024;
+  constants.map.radius = 0.5f;
+  Effect row = row_of("sun-pcss-convolution", "soft sun shadow by convolution shadow maps",
+                      "sun_pcss_convolution", constants,
+                      "contact, within the width of its step, and occluders at several depths");
+  row.steps = {step("4 terms", with_terms(constants, 4)), step("8 terms", with_terms(constants, 8)),
+               step("16 terms", with_terms(constants, 16))};
+  return row;
+}
+
 }  // namespace
 
 std::vector<Effect> filtered_shadow_rows() {
@@ -95,6 +107,7 @@ std::vector<Effect> filtered_shadow_rows() {
       convolution_row(),
       row_of("sun-pcss-vsm", "soft sun shadow by variance shadow maps", "sun_pcss_vsm",
              pcss_variance(), "occluders at several depths, whose light bleeds"),
+      pcss_convolution_row(),
   };
 }
 

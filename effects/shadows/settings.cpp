@@ -124,8 +124,9 @@ SettingTable<FilteredShadowMapConstants> filtered_shadow_map_settings(
        closed_setting(&C::level)});
   if (!is_twice && method != kFilteredExponential) table = close_settings(table, {"exponent"});
   if (!is_twice) table = close_settings(table, {"back-exponent"});
-  if (method != kFilteredConvolution) table = close_settings(table, {"terms", "damping", "offset"});
-  const bool has_moments = method != kFilteredExponential && method != kFilteredConvolution;
+  const bool has_series = method == kFilteredConvolution || method == kFilteredPcssConvolution;
+  if (!has_series) table = close_settings(table, {"terms", "damping", "offset"});
+  const bool has_moments = method != kFilteredExponential && !has_series;
   if (has_moments) return table;
   return close_settings(table, {"reduce-bleeding", "least-variance"});
 }

@@ -101,6 +101,7 @@ const std::map<std::string, Change>& lengths() {
       {"sun-evsm", map},
       {"sun-convolution", map},
       {"sun-pcss-vsm", map},
+      {"sun-pcss-convolution", map},
       {"lamp-pcf", lamp},
       {"lamp-pcss", lamp},
       {"lamp-hybrid", lamp},
@@ -223,9 +224,9 @@ TEST(Alternatives, PowersOfTwoChangeNoBit) {
 TEST(Alternatives, DistanceFromTheOriginChangesNoBit) {
   const std::string grid = "its map's texels, which keep to a grid of the world";
   Exceptions maps;
-  for (const char* row :
-       {"sun-map", "sun-per-object", "sun-pcf", "sun-pcss", "sun-backprojection", "sun-cascades",
-        "sun-hybrid", "sun-convolution", "sun-vsm", "sun-esm", "sun-evsm", "sun-pcss-vsm"}) {
+  for (const char* row : {"sun-map", "sun-per-object", "sun-pcf", "sun-pcss", "sun-backprojection",
+                          "sun-cascades", "sun-hybrid", "sun-convolution", "sun-vsm", "sun-esm",
+                          "sun-evsm", "sun-pcss-vsm", "sun-pcss-convolution"}) {
     maps[row] = grid;
   }
   maps["sun-edges: sun_edges_places"] = grid;  // what is seen is the same

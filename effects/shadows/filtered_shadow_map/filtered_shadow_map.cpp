@@ -32,7 +32,20 @@ constexpr MethodRow kMethods[kFilteredShadowMapMethodCount] = {
     {Format::kR32G32B32A32Float, "LookUpExponentialVariance"},
     {Format::kR8G8B8A8Unorm, "LookUpConvolution"},
     {Format::kR32G32Float, "LookUpPcssVariance"},
+    {Format::kR16G16B16A16Float, "LookUpPcssConvolution"},
 };
+
+bool is_pcss(const FilteredShadowMapConstants& constants) {
+  return constants.map.method == kFilteredPcssVariance ||
+         constants.map.method == kFilteredPcssConvolution;
+}
+
+// Of a map. [SliceCount in filtered_shadow_map.hlsl]
+std::uint32_t slice_count(const FilteredShadowMapConstants& constants) {
+  const std::uint32_t series = (constants.terms + 1) / 2;
+  if (constants.map.method == kFilteredPcssConvolution) return 2 * series + 1;
+  return constants.map.method == kFilteredConvolution ? series : 1;
+}
 
 rtapi::Status wrong(const std::string& what, const std::string& value, const std::string& cure) {
   return make_error(ErrorId::kFilteredShadowMap,
@@ -50,7 +63,7 @@ rtapi::Status check_filter(const FilteredShadowMapConstants& c) {
                  "0 to " + std::to_string(kFilteredShadowMapMethodCount - 1));
   }
   if (c.terms < 1 || c.terms > 16) return wrong("terms", std::to_string(c.terms), "1 to 16");
-  if (c.map.method == kFilteredPcssVariance && (c.map.size & (c.map.size - 1)) != 0) {
+  if (is_pcss(c) && (c.map.size & (c.map.size - 1)) != 0) {
     return wrong("map.size", std::to_string(c.map.size), "a power of two for PCSS");
   }
   // exp(87) and exp(2 * 42) are the largest that leave room for sums, and 1 over them is no
@@ -85,7 +98,7 @@ class FilteredShadowMapPass : public EffectPass {
     if (const auto s = create_pass(scope, kMethods[made_.map.method].look_up, look_up_); !s) {
       return s;
     }
-    if (made_.map.method == kFilteredPcssVariance) return create_pass(scope, "HalveLevel", halve_);
+    if (is_pcss(made_)) return create_pass(scope, "HalveLevel", halve_);
     if (const auto s = create_pass(scope, "FilterRows", rows_); !s) return s;
     return create_pass(scope, "FilterColumns", columns_);
   }
@@ -107,7 +120,7 @@ class FilteredShadowMapPass : public EffectPass {
     draws_.record(list, own.map);
     own.level = 0;
     record_maps(list, store_, own, constants);
-    if (made_.map.method == kFilteredPcssVariance) {
+    if (is_pcss(made_)) {
       for (own.level = 1; own.level < level_count_; ++own.level) {
         record_maps(list, halve_, own, constants);
       }
@@ -143,13 +156,11 @@ class FilteredShadowMapPass : public EffectPass {
   }
 
   rtapi::Status create_maps(const rtapi::Device& device) {
-    const bool is_pcss = made_.map.method == kFilteredPcssVariance;
-    while (is_pcss && (made_.map.size >> level_count_) > 0) ++level_count_;
-    const std::uint32_t slices =
-        made_.map.method == kFilteredConvolution ? (made_.terms + 1) / 2 : 1;
+    const bool has_levels = is_pcss(made_);
+    while (has_levels && (made_.map.size >> level_count_) > 0) ++level_count_;
     rtapi::TextureDesc desc;
     desc.Width = desc.Height = made_.map.size;
-    desc.DepthOrArraySize = static_cast<std::uint16_t>(map_count() * slices);
+    desc.DepthOrArraySize = static_cast<std::uint16_t>(map_count() * slice_count(made_));
     desc.MipLevels = static_cast<std::uint16_t>(level_count_);
     desc.Format = kMethods[made_.map.method].format;
     desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
@@ -159,7 +170,7 @@ class FilteredShadowMapPass : public EffectPass {
     for (std::uint32_t level = 0; level < level_count_; ++level) {
       if (const auto s = set_output(stored_, kLevels + level, level); !s) return s;
     }
-    if (is_pcss) return {};
+    if (has_levels) return {};
     desc.Name = "half filtered shadow maps";
     if (const auto s = create_map(device, desc, half_filtered_, kHalfFiltered); !s) return s;
     return set_output(half_filtered_, kHalfFilteredOut, 0);

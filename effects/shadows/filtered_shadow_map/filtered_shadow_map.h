@@ -21,6 +21,7 @@ enum FilteredShadowMapMethod : std::uint32_t {
   kFilteredExponentialVariance,  ///< moments of two of them [Lauritzen & McCool 2008]
   kFilteredConvolution,          ///< a Fourier series [Annen et al. 2007]
   kFilteredPcssVariance,         ///< moments at all widths, for PCSS [Yang et al. 2010]
+  kFilteredPcssConvolution,      ///< a Fourier series at all widths, for PCSS [Annen et al. 2008b]
   kFilteredShadowMapMethodCount
 };
 

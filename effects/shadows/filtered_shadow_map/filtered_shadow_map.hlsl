@@ -25,21 +25,34 @@ static const uint kExponential = 1;
 static const uint kExponentialVariance = 2;
 static const uint kFourier = 3;
 static const uint kPcssVariance = 4;
+static const uint kPcssFourier = 5;
 
 static const uint kMostLevels = 15;
 static const int kWidestFilter = 128;  // texels to each side
 
-// The stored maps, a slice for each map; a Fourier series has a slice for every two terms. The
-// second picture is between rows and columns.
+// The stored maps, a slice for each map; a Fourier series has a slice for every two terms. For PCSS
+// the series times the depth follows, and the depth. The second picture is between rows and columns.
 Texture2DArray<float4> stored : register(t5, space3);
 Texture2DArray<float4> half_filtered : register(t6, space3);
 RWTexture2DArray<float4> half_filtered_out : register(u1, space3);
 RWTexture2DArray<float4> levels[kMostLevels] : register(u2, space3);  // of what is stored
 
-uint SliceCount() { return constants.method == kFourier ? (constants.more.terms + 1) / 2 : 1; }
+uint SeriesSlices() { return (constants.more.terms + 1) / 2; }
+
+uint SliceCount() {
+  if (constants.method == kPcssFourier) return 2 * SeriesSlices() + 1;
+  return constants.method == kFourier ? SeriesSlices() : 1;
+}
 
 // Frequency of a term of the series of a step: odd multiples of half a period.
 float Frequency(uint term) { return 3.14159265 * (2.0 * float(term) + 1.0); }
+
+// sin and cos of two terms of the series.
+float4 Series(float share, uint slice) {
+  const float first = Frequency(2 * slice) * share;
+  const float second = Frequency(2 * slice + 1) * share;
+  return float4(sin(first), cos(first), sin(second), cos(second));
+}
 
 // Returns what the maps hold for a share of the range, 0 to 1, which changes by `change` per texel.
 float4 Store(float share, float2 change, uint slice) {
@@ -52,10 +65,12 @@ float4 Store(float share, float2 change, uint slice) {
     const float back = -exp(-constants.more.back_exponent * depth);
     return float4(front, front * front, back, back * back);
   }
-  if (constants.method == kFourier) {
-    const float first = Frequency(2 * slice) * share;
-    const float second = Frequency(2 * slice + 1) * share;
-    return 0.5 + 0.5 * float4(sin(first), cos(first), sin(second), cos(second));
+  if (constants.method == kFourier) return 0.5 + 0.5 * Series(share, slice);
+  if (constants.method == kPcssFourier) {
+    const uint series = SeriesSlices();
+    if (slice < series) return Series(share, slice);
+    if (slice < 2 * series) return share * Series(share, slice - series);
+    return float4(share, 0, 0, 0);
   }
   // The second moment over a texel: a slope across it is variance, too. A quarter of the squares, but
   // `depth` changes by twice as much as shares do.
@@ -149,11 +164,14 @@ void FilterColumns(uint3 id : SV_DispatchThreadID) {
 void HalveLevel(uint3 id : SV_DispatchThreadID) {
   const uint level = constants.more.level;
   if (any(id.xy >= LevelSize(level))) return;
-  float4 sum = float4(0, 0, 0, 0);
-  for (uint i = 0; i < 4; ++i) {
-    sum += levels[level - 1][uint3(2 * id.xy + uint2(i & 1, i >> 1), constants.map)];
+  const uint slices = SliceCount();
+  for (uint slice = constants.map * slices; slice < (constants.map + 1) * slices; ++slice) {
+    float4 sum = float4(0, 0, 0, 0);
+    for (uint i = 0; i < 4; ++i) {
+      sum += levels[level - 1][uint3(2 * id.xy + uint2(i & 1, i >> 1), slice)];
+    }
+    levels[level][uint3(id.xy, slice)] = 0.25 * sum;
   }
-  levels[level][uint3(id.xy, constants.map)] = 0.25 * sum;
 }
 
 float4 StoredAt(int2 texel, uint slice, uint level) {
@@ -263,15 +281,19 @@ float Convolution(Receiver receiver, Surface surface) {
   return saturate(sum / Step(offset));
 }
 
-// Moments over a disk of `radius` texels: between the two levels whose texels, interpolated, have
-// nearest to its variance along each axis.
-float2 MomentsOver(Receiver receiver, float radius) {
+// The mean of a slice over a disk of `radius` texels: between the two levels whose texels,
+// interpolated, have nearest to its variance along each axis.
+float4 MeanOver(Receiver receiver, uint slice, float radius) {
   const uint last = firstbithigh(constants.size);
   const float level = clamp(log2(max(radius, 1.0)), 0.0, float(last));
   const uint below = uint(level);
-  const float2 fine = Interpolated(receiver.at, receiver.map, below).xy;
-  const float2 coarse = Interpolated(receiver.at, receiver.map, min(below + 1, last)).xy;
+  const float4 fine = Interpolated(receiver.at, slice, below);
+  const float4 coarse = Interpolated(receiver.at, slice, min(below + 1, last));
   return lerp(fine, coarse, level - float(below));
+}
+
+float2 MomentsOver(Receiver receiver, float radius) {
+  return MeanOver(receiver, receiver.map, radius).xy;
 }
 
 // PCSS with both of its filters done beforehand. Of all in the search's disk the lit share is taken
@@ -294,8 +316,52 @@ float PcssVariance(Receiver receiver, Surface surface) {
   return ReduceBleeding(Chebyshev(MomentsOver(receiver, penumbra), depth, LeastVariance()));
 }
 
+// The mean over a disk of the series of the step, for a surface at `share`, from slice `first` on;
+// without its constant term.
+float SeriesOver(Receiver receiver, uint first, float share, float radius) {
+  float sum = 0.0;
+  for (uint i = 0; i < SeriesSlices(); ++i) {
+    const float4 mean = MeanOver(receiver, first + i, radius);
+    for (uint j = 0; j < 2 && 2 * i + j < constants.more.terms; ++j) {
+      const float2 sin_cos = j == 0 ? mean.xy : mean.zw;
+      const float angle = Frequency(2 * i + j) * share;
+      sum += TermWeight(2 * i + j) * (sin_cos.x * cos(angle) - sin_cos.y * sin(angle));
+    }
+  }
+  return sum;
+}
+
+// PCSS with both of its filters done beforehand, by a series of the step: what it says of the depths
+// that are nearer to the sun, times these depths, is filtered as it is itself, and the one over the
+// other is their mean. [Annen et al. 2008b]
+float PcssConvolution(Receiver receiver, Surface surface) {
+  if (IsOutside(receiver)) return 1.0;
+  const ShadowMap map = maps[receiver.map];
+  const float most = constants.radius;
+  const float search = min(frame.tan_sun_radius * max(receiver.depth, 0.0), most) / map.texel;
+  // A sun that is a point.
+  if (!(search > 0.0)) return IsLit(receiver, int2(floor(receiver.at)));
+  const uint series = SeriesSlices();
+  const uint first = receiver.map * SliceCount();
+  const float offset = constants.more.offset / (2.0 * float(constants.more.terms));
+  const float surface_share = ReceiverShare(receiver);
+  const float share = surface_share - offset;
+  const float whole = Step(offset);
+  const float dark = 1.0 - saturate((0.5 + SeriesOver(receiver, first, share, search)) / whole);
+  // Less of it is what rings.
+  if (dark < 0.01) return 1.0;
+  const float depth = MeanOver(receiver, first + 2 * series, search).x;
+  const float lit_depth =
+      (0.5 * depth + SeriesOver(receiver, first + series, share, search)) / whole;
+  const float blocker = clamp((depth - lit_depth) / dark, 0.0, surface_share);
+  const float gap = map.range * (surface_share - blocker);
+  const float penumbra = min(frame.tan_sun_radius * gap, most) / map.texel;
+  return saturate((0.5 + SeriesOver(receiver, first, share, penumbra)) / whole);
+}
+
 KAAMOS_SHADOW_LOOKUP(LookUpVariance, Variance)
 KAAMOS_SHADOW_LOOKUP(LookUpExponential, Exponential)
 KAAMOS_SHADOW_LOOKUP(LookUpExponentialVariance, ExponentialVariance)
 KAAMOS_SHADOW_LOOKUP(LookUpConvolution, Convolution)
 KAAMOS_SHADOW_LOOKUP(LookUpPcssVariance, PcssVariance)
+KAAMOS_SHADOW_LOOKUP(LookUpPcssConvolution, PcssConvolution)
