@@ -49,10 +49,9 @@ class ClipDepth {
   Bounds bounds_;
 };
 
-/// The draws of a scene as its instances stand in GpuScene::instances now (or drawn_instances,
-/// where there are any), in their order. Left out
-/// is what no ray of instance mask `mask` can hit: other instances, inactive ones, transforms
-/// without an inverse.
+/// The draws of a scene as its instances stand in GpuScene::instances now (or in drawn_instances,
+/// where there are any), in their order. Left out is what no ray of instance mask `mask` can hit:
+/// other instances, inactive ones, transforms without an inverse.
 std::vector<SceneDraw> scene_draws(const GpuScene& gpu, std::uint32_t mask = kMaskSolid);
 
 /// The most draws that any frame of the scene has: of instances with levels of detail the level

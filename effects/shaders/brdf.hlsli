@@ -122,6 +122,41 @@ BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
   return view;
 }
 
+// A surface that sends what it reflects to all sides alike, with the energy of its material: it
+// spreads the light that the material would mirror. For light that is too coarse for a picture in a
+// mirror.
+struct SpreadBrdf {
+  float3 diffuse;  // BrdfView's
+  float roughness;
+  float3 f0;       // Brdf's; f90 too
+  float f90;
+};
+
+SpreadBrdf MakeSpreadBrdf(Brdf brdf, float3 normal, float3 view) {
+  SpreadBrdf result;
+  result.diffuse = MakeBrdfView(brdf, normal, view).diffuse;
+  result.roughness = brdf.roughness;
+  result.f0 = brdf.f0;
+  result.f90 = brdf.f90;
+  return result;
+}
+
+// White paper (1) or nothing that reflects (0).
+SpreadBrdf MakeSpreadBrdf(float albedo) {
+  SpreadBrdf result;
+  result.diffuse = float3(albedo, albedo, albedo);
+  result.roughness = 1.0f;
+  result.f0 = float3(0.0f, 0.0f, 0.0f);
+  result.f90 = 0.0f;
+  return result;
+}
+
+// The share that is reflected of light whose direction has this cosine with the normal. By
+// reciprocity, with the cosine of the view it is the share of uniform light that is seen.
+float3 SpreadAlbedo(SpreadBrdf brdf, float cosine) {
+  return brdf.diffuse + SpecularAlbedo(brdf.f0, brdf.f90, brdf.roughness, cosine);
+}
+
 // BRDF times cosine: the radiance sent towards `view` per unit of irradiance (measured facing the
 // light) from direction `light`. The specular part is GGX's density times Smith's height-correlated
 // visibility, whose divisor 4 n_v n_l (1 + Lambda(n_v) + Lambda(n_l)) is twice `both`.

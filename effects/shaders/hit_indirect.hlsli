@@ -6,10 +6,11 @@
 #include "hit_shading.hlsli"
 #include "indirect_volume.hlsli"
 
-// For a surface that reflects the same in all directions. `jitter` here and below: see
+// For a surface that looks the same from all sides. `view`: where the ray came from. `jitter` here and below: see
 // VolumeTowards.
-float3 IndirectAtMatteHit(MatteSurface surface, float3 jitter) {
-  return surface.base_color * VolumeIrradianceAt(surface.position, jitter, surface.normal);
+float3 IndirectAtMatteHit(MatteSurface surface, float3 jitter, float3 view) {
+  return SpreadAlbedo(surface.brdf, dot(surface.normal, view)) *
+         VolumeIrradianceAt(surface.position, jitter, surface.normal);
 }
 
 // Radiance towards `view`, where the ray came from. The specular part shows the volume's light from

@@ -217,17 +217,18 @@ float3 LocalLights(Brdf brdf, BrdfView view, float3 position, float3 geometric_n
   return sum;
 }
 
-// Irradiance of all local lights at a point of a surface, with their shadow maps.
-float3 LocalIrradiance(float3 position, float3 normal) {
+// The same times pi, of a surface that spreads what it reflects.
+float3 LocalMatteLights(SpreadBrdf brdf, float3 position, float3 normal) {
   const ClusterRange range = ClusterLights(position);
   float3 sum = float3(0, 0, 0);
   for (uint i = 0; i < range.count; ++i) {
     const uint id = ClusterLight(range, i);
     const LightConstants light = lights[id];
     const LightSample s = SampleLight(light, position);
-    const float3 irradiance = s.irradiance * dot(normal, s.direction);
+    const float facing = dot(normal, s.direction);
+    const float3 irradiance = s.irradiance * facing;
     if (!(RadianceLuminance(irradiance) > 0.0)) continue;
-    sum += irradiance * ShadowMapVisibility(id, light, position, normal);
+    sum += irradiance * SpreadAlbedo(brdf, facing) * ShadowMapVisibility(id, light, position, normal);
   }
   return sum;
 }

@@ -7,6 +7,7 @@
 #define KAAMOS_HIT_SHADING_HLSLI
 
 #include "hit_lighting.hlsli"
+#include "matte_surface.hlsli"
 #include "surface_brdf.hlsli"
 #include "visibility.hlsli"
 
@@ -35,13 +36,15 @@ float3 SunAtHit(uint sun, Surface surface, Brdf brdf, BrdfView view) {
 // Direct light reflected as if the surface were matte: one bounce of diffuse light. [Northlight
 // deck: Diffuse Lighting on Hit Shader]
 float3 ShadeMatteHit(MatteSurface surface, uint sun_at_hits) {
-  float3 irradiance = LocalIrradiance(surface.position, surface.normal);
-  const float3 sun = frame.sun_irradiance * dot(surface.normal, frame.direction_to_sun);
+  float3 reflected = LocalMatteLights(surface.brdf, surface.position, surface.normal);
+  const float facing = dot(surface.normal, frame.direction_to_sun);
+  const float3 sun = frame.sun_irradiance * facing;
   if (sun_at_hits != kNoSunAtHits && RadianceLuminance(sun) > 0.0) {
-    irradiance += sun * SunVisibility(sun_at_hits, surface.position, surface.normal,
-                                      surface.position + surface.normal * surface.offset);
+    reflected += sun * SpreadAlbedo(surface.brdf, facing) *
+                 SunVisibility(sun_at_hits, surface.position, surface.normal,
+                               surface.position + surface.normal * surface.offset);
   }
-  return surface.emissive + surface.base_color * (irradiance * (1.0 / kBrdfPi));
+  return surface.emissive + reflected * (1.0 / kBrdfPi);
 }
 
 // Radiance towards `direction`, where the ray came from, without indirect light.

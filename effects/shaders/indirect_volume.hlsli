@@ -156,6 +156,24 @@ VolumeLight SampleVolumeCell(float3 position, float3 jitter) {
   return light;
 }
 
+// Light from a direction, of a mean and a slope over directions. A slope steeper than the mean would
+// make it negative on one side. Cut off there, it would have more light than the cell has, the more
+// the noisier the cell is. A power of the cosine, shifted to 0..1, keeps mean and slope; it is the
+// linear one where that just reaches 0. Its highest power is 4, so a cell that a single bright path
+// has reached is at most five times as bright as its mean.
+static const float kSteepestSlope = 2.0;  // times the mean
+
+float LightTowards(float4 light, float3 direction, float slope_scale) {
+  const float slope = length(light.yzw);
+  const float scaled = slope_scale * slope;
+  if (!(light.x > 0.0)) return 0.0;
+  if (scaled <= light.x) return light.x + slope_scale * dot(light.yzw, direction);
+  const float mean_cosine = min(scaled, kSteepestSlope * light.x) / (3.0 * light.x);
+  const float power = 2.0 * mean_cosine / (1.0 - mean_cosine);
+  const float towards = saturate(0.5 + 0.5 * dot(light.yzw, direction) / slope);
+  return light.x * (power + 1.0) * pow(towards, power);
+}
+
 // Light stored for `direction`: the mean plus `slope_scale` times the directional part, or the
 // sky's outside of the volume. `jitter`, uniform in -0.5..0.5 along each axis, picks a single cell
 // with the probability of its trilinear weight; if that cell is in a solid, all eight are read.
@@ -169,9 +187,10 @@ float3 VolumeTowards(float3 position, float3 jitter, float3 direction, float slo
   if (jitter.x < kEveryCell.x) light = SampleVolumeCell(position, jitter);
   if (light.weight == 0.0) light = SampleVolume(position);
   if (light.weight == 0.0) return SkyTowards(direction);
-  const float4 terms = float4(1.0, direction * slope_scale);
-  const float3 sum = float3(dot(light.red, terms), dot(light.green, terms), dot(light.blue, terms));
-  return max(sum / light.weight, float3(0, 0, 0));
+  const float over_weight = 1.0 / light.weight;
+  return float3(LightTowards(light.red * over_weight, direction, slope_scale),
+                LightTowards(light.green * over_weight, direction, slope_scale),
+                LightTowards(light.blue * over_weight, direction, slope_scale));
 }
 
 // Radiance that arrives at a point from a direction.

@@ -157,6 +157,29 @@ float4 SampleMaterial(MaterialConstants material, uint slot, HitTexel texel) {
                         second ? texel.second_level : texel.level);
 }
 
+// How a material reflects, but for its colour; as in Surface.
+struct Reflectance {
+  float roughness;
+  float metallic;
+  float3 dielectric_f0;
+  float dielectric_f90;
+};
+
+Reflectance LoadReflectance(MaterialConstants material, HitTexel texel) {
+  Reflectance result;
+  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, texel);
+  result.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
+  result.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);
+  // [KHR_materials_specular]
+  result.dielectric_f90 =
+      Contain(material.specular * SampleMaterial(material, kSpecularTexture, texel).a, 1.0);
+  const float3 specular_color =
+      material.specular_color * SampleMaterial(material, kSpecularColorTexture, texel).rgb;
+  result.dielectric_f0 =
+      result.dielectric_f90 * Contain(material.dielectric_f0 * specular_color, 1.0);
+  return result;
+}
+
 // `cone_width`: as in LoadHitTexel.
 Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, TriangleHit hit,
                     float cone_width) {
@@ -193,60 +216,20 @@ Surface LoadSurface(ByteAddressBuffer vertices, ByteAddressBuffer indices, Trian
     base_color *= color;
     if (surface.is_unlit) emissive *= color.rgb;
   }
-  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, texel);
+  const Reflectance reflectance = LoadReflectance(material, texel);
   surface.base_color = Contain(base_color.rgb, 1.0);
   surface.opacity = base_color.a;
   surface.emissive = Contain(emissive, kLargestRadiance);
-  surface.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
-  surface.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);
-  // [KHR_materials_specular]
-  surface.dielectric_f90 =
-      Contain(material.specular * SampleMaterial(material, kSpecularTexture, texel).a, 1.0);
-  const float3 specular_color =
-      material.specular_color * SampleMaterial(material, kSpecularColorTexture, texel).rgb;
-  surface.dielectric_f0 =
-      surface.dielectric_f90 * Contain(material.dielectric_f0 * specular_color, 1.0);
+  surface.roughness = reflectance.roughness;
+  surface.metallic = reflectance.metallic;
+  surface.dielectric_f0 = reflectance.dielectric_f0;
+  surface.dielectric_f90 = reflectance.dielectric_f90;
   return surface;
 }
 
 // The surface that a ray hit.
 Surface LoadSurface(float2 barycentrics, float cone_width) {
   return LoadSurface(vertices, indices, RayHit(barycentrics), cone_width);
-}
-
-// The surface that a diffuse ray's closest-hit shader needs: a colour that is the same from all
-// directions. Metals count as matte too, so they spread the light that they would mirror.
-struct MatteSurface {
-  float3 position;  // as in Surface
-  float offset;
-  float3 normal;
-  float3 base_color;
-  float3 emissive;
-};
-
-MatteSurface LoadMatteSurface(float2 barycentrics, float cone_width) {
-  const TriangleHit hit = RayHit(barycentrics);
-  const MaterialConstants material = materials[hit.layout.material_id];
-  const HitPoint found = LoadHitPoint(vertices, indices, hit);
-  MatteSurface surface;
-  surface.position = found.spawn.position;
-  surface.offset = found.spawn.offset;
-  surface.normal = found.side * found.spawn.normal;
-  surface.base_color = material.base_color.rgb;
-  surface.emissive = material.emissive;
-  if (HasTexture(material, kBaseColorTexture) || HasTexture(material, kEmissiveTexture)) {
-    const HitTexel texel = LoadHitTexel(vertices, hit, found, material, cone_width);
-    surface.base_color *= SampleMaterial(material, kBaseColorTexture, texel).rgb;
-    surface.emissive *= SampleMaterial(material, kEmissiveTexture, texel).rgb;
-  }
-  if (hit.layout.color_offset != 0) {
-    const float3 color = LoadColor(vertices, hit.layout, found.corners, hit.barycentrics).rgb;
-    surface.base_color *= color;
-    if ((material.flags & kMaterialUnlit) != 0) surface.emissive *= color;
-  }
-  surface.base_color = Contain(surface.base_color, 1.0);
-  surface.emissive = Contain(surface.emissive, kLargestRadiance);
-  return surface;
 }
 
 // Returns where a ray towards `direction` starts: on that side of the surface.

@@ -11,4 +11,9 @@ Brdf SurfaceBrdf(Surface surface) {
                   surface.dielectric_f90);
 }
 
+SpreadBrdf SurfaceSpreadBrdf(Surface surface, float3 view) {
+  if (surface.is_unlit) return MakeSpreadBrdf(0.0);
+  return MakeSpreadBrdf(SurfaceBrdf(surface), surface.normal, view);
+}
+
 #endif

@@ -46,9 +46,9 @@ void HitAlbedo(inout ViewPayload payload, in BuiltInTriangleIntersectionAttribut
 [shader("closesthit")]
 void HitLighting(inout ViewPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   MatteSurface surface = LoadMatteSurface(hit.barycentrics, ConeWidth());
-  surface.base_color = float3(1, 1, 1);
+  surface.brdf = MakeSpreadBrdf(1.0);
   surface.emissive = float3(0, 0, 0);
-  payload.value = ShadeMatteHit(surface, true) + IndirectAtMatteHit(surface, kEveryCell);
+  payload.value = ShadeMatteHit(surface, true) + IndirectAtMatteHit(surface, kEveryCell, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 

@@ -69,8 +69,8 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
     normal = surface.normal;
   } else {
     const MatteSurface surface = LoadMatteSurface(hit.barycentrics, RayTCurrent());
-    payload.radiance =
-        ShadeMatteHit(surface, constants.sun_at_hits) + IndirectAtMatteHit(surface, jitter);
+    payload.radiance = ShadeMatteHit(surface, constants.sun_at_hits) +
+                       IndirectAtMatteHit(surface, jitter, -WorldRayDirection());
     position = surface.position;
     normal = surface.normal;
   }

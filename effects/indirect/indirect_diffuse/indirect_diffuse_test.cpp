@@ -104,6 +104,42 @@ TEST(IndirectDiffuse, CellsInSolidsAreStoodInForByOthers) {
   EXPECT_GT(count, 50);
 }
 
+// Integrates f over 0..1 by the midpoint rule.
+template <class F>
+double integral(const F& f) {
+  constexpr int kSteps = 10000;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) sum += f((i + 0.5) / kSteps);
+  return sum / kSteps;
+}
+
+// Radiance from directions whose cosine with the slope is `cosine`, for a mean of 1: a power of the
+// shifted cosine.
+double lobe(double cosine, double power) {
+  return (power + 1) * std::pow(0.5 + 0.5 * cosine, power);
+}
+
+// A slope steeper than the mean is read as a lobe with the same mean and slope, where a linear
+// function cut off at 0 would have more light.
+TEST(IndirectDiffuse, SteepSlopesAreLobesOfTheSameMean) {
+  Scene scene = small_scene(1.0f);
+  scene.instances.resize(1);  // the plane
+  Stage stage(scene);
+  for (const double slope : {1.5, -1.5, 1.8}) {
+    IndirectVolume volume = constant_volume(stage.scene, 1.0f);
+    for (VolumeCell& cell : volume.cells) cell.slope_y = glm::vec3(static_cast<float>(slope));
+    const double steep = std::abs(slope);
+    const double power = 2 * steep / (3 - steep);
+    const auto over_sphere = [&](double shifted) { return lobe(2 * shifted - 1, power); };
+    ASSERT_NEAR(integral(over_sphere), 1, 1e-6);
+    ASSERT_NEAR(3 * integral([&](double t) { return (2 * t - 1) * over_sphere(t); }), steep, 1e-6);
+    const double sign = slope > 0 ? 1 : -1;
+    const double expected = 2 * integral([&](double c) { return c * lobe(sign * c, power); });
+    const FloatImage gathered = stage.gather(volume, mode(IndirectMode::kHitBlack, 0.1f), 256);
+    EXPECT_NEAR(mean_of(gathered, stage.ids), expected, 0.01 * expected) << slope;
+  }
+}
+
 // A plane of albedo a under a sky of 1: the radiance is 1 from above and a from below.
 TEST(IndirectVolumes, HoldWhatArrivesOverAPlane) {
   Scene scene = small_scene(1.0f);
@@ -114,6 +150,7 @@ TEST(IndirectVolumes, HoldWhatArrivesOverAPlane) {
   for (Material& material : scene.materials) {
     material.constants.base_color = glm::vec4(0.4f, 0.4f, 0.4f, 1);
     material.constants.metallic = 0;
+    material.constants.specular = 0;
   }
   Stage stage(scene);
   const IndirectVolume volume = stage.bake(0.25f, 1024);
@@ -231,11 +268,11 @@ TEST(IndirectVolumes, FilesComeBack) {
                         volume.cells.size() * sizeof(VolumeCell)),
             0);
   std::vector<std::uint8_t> bytes = read_file(path).value();
-  // Version 1 had no levels: it is refused by name.
+  // Version 2 had darker light: it is refused by name.
   std::vector<std::uint8_t> old = bytes;
-  old[8] = 1;
+  old[8] = 2;
   ASSERT_TRUE(write_file(path, old).ok());
-  EXPECT_NE(load_volume(path).error().message.find("version is 1, this program reads 2"),
+  EXPECT_NE(load_volume(path).error().message.find("version is 2, this program reads 3"),
             std::string::npos);
   // Damage is found wherever it is.
   for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{56}, bytes.size() / 2}) {

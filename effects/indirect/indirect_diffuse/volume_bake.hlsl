@@ -5,7 +5,7 @@
 #include "hit_lighting.hlsli"
 #include "indirect_volume.hlsli"
 #include "sampling.hlsli"
-#include "surface.hlsli"
+#include "surface_brdf.hlsli"
 #include "visibility.hlsli"
 
 // Sums over samples. Radiance from a unit direction d is mean + slope_x d.x + slope_y d.y + slope_z
@@ -56,8 +56,7 @@ struct PathPayload {
   float offset;  // negative: a miss
   float3 normal;
   uint back_face;
-  float3 albedo;
-  float padding;
+  SpreadBrdf brdf;
   float3 emissive;
 };
 
@@ -80,8 +79,7 @@ void PathClosestHit(inout PathPayload payload, in BuiltInTriangleIntersectionAtt
   payload.offset = surface.offset;
   payload.normal = surface.normal;
   payload.back_face = surface.back_face ? 1 : 0;
-  // Metal reflects light too; in this diffuse volume, in all directions alike.
-  payload.albedo = surface.base_color * lerp(1.0, 0.7, surface.metallic);
+  payload.brdf = SurfaceSpreadBrdf(surface, -WorldRayDirection());
   payload.emissive = surface.emissive;
 }
 
@@ -145,11 +143,14 @@ ChosenLight ChooseLight(float3 position, float3 normal, float u) {
   return chosen;
 }
 
-// Irradiance of a lamp, which is a sphere that shines alike all over, by a ray within the cone that
-// it fills: the mean over the cone is irradiance * cosine to the centre where nothing hides it.
-float3 LampAt(float3 origin, float3 normal, ChosenLight light, float2 u) {
+// What is reflected, times pi, of a lamp, which is a sphere that shines alike all over, by a ray
+// within the cone that it fills: the mean over the cone is irradiance * cosine to the centre where
+// nothing hides it.
+float3 LampAt(PathPayload hit, float3 origin, ChosenLight light, float2 u) {
+  const float3 normal = hit.normal;
   if (light.distance <= light.radius) {
-    return light.irradiance * max(dot(normal, light.direction), 0.0);
+    const float above = max(dot(normal, light.direction), 0.0);
+    return light.irradiance * (above * SpreadAlbedo(hit.brdf, above));
   }
   const float sine = light.radius / light.distance;
   const float cosine = sqrt(1.0 - sine * sine);
@@ -164,11 +165,11 @@ float3 LampAt(float3 origin, float3 normal, ChosenLight light, float2 u) {
   const float aside = light.distance * r;
   const float reach =
       light.distance * z - sqrt(max(0.0, light.radius * light.radius - aside * aside));
-  return light.irradiance *
+  return light.irradiance * SpreadAlbedo(hit.brdf, facing) *
          (facing * 2.0 / (1.0 + cosine) * BakeVisibility(origin, direction, reach));
 }
 
-// Irradiance / pi of the sun and the local lights on a surface, with shadow rays.
+// Light of the sun and the local lights that a surface reflects, with shadow rays.
 float3 DirectAt(PathPayload hit, uint key) {
   const float3 origin = hit.position + hit.normal * hit.offset;
   float3 sum = float3(0, 0, 0);
@@ -177,14 +178,15 @@ float3 DirectAt(PathPayload hit, uint key) {
         SampleSun(Random2(HashCombine(key, 1)), frame.direction_to_sun, frame.tan_sun_radius);
     const float facing = dot(hit.normal, to_sun);
     if (facing > 0.0) {
-      sum += frame.sun_irradiance * (facing * BakeVisibility(origin, to_sun, kSunDistance));
+      sum += frame.sun_irradiance * SpreadAlbedo(hit.brdf, facing) *
+             (facing * BakeVisibility(origin, to_sun, kSunDistance));
     }
   }
   if ((constants.lights & kBakeLocal) != 0) {
     const ChosenLight light =
         ChooseLight(hit.position, hit.normal, UnitFloat(PcgHash(HashCombine(key, 2))));
     if (any(light.irradiance > 0.0)) {
-      sum += LampAt(origin, hit.normal, light, Random2(HashCombine(key, 3)));
+      sum += LampAt(hit, origin, light, Random2(HashCombine(key, 3)));
     }
   }
   return sum / kBrdfPi;
@@ -197,10 +199,10 @@ PathPayload TracePath(float3 origin, float3 direction) {
   ray.Direction = direction;
   ray.TMax = 1e30;
   PathPayload payload;
-  payload.position = payload.normal = payload.albedo = payload.emissive = float3(0, 0, 0);
+  payload.position = payload.normal = payload.emissive = float3(0, 0, 0);
+  payload.brdf = MakeSpreadBrdf(0.0);
   payload.offset = -1.0;
   payload.back_face = 0;
-  payload.padding = 0.0;
   TraceRay(scene, RAY_FLAG_NONE, kMaskBaked, kRayTypeSurface, kRayTypeCount,
            kRayTypeSurface, ray, payload);
   return payload;
@@ -219,10 +221,12 @@ float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_fac
     }
     if (bounce == 0) back_face = hit.back_face != 0;
     const uint bounce_key = HashCombine(key, bounce + 1);
-    float3 reflected = hit.albedo * DirectAt(hit, bounce_key);
+    float3 reflected = DirectAt(hit, bounce_key);
     if ((constants.lights & kBakeEmissive) != 0) reflected += hit.emissive;
     radiance += throughput * reflected;
-    throughput *= hit.albedo;
+    const float3 next =
+        ToWorld(SampleCosineHemisphere(Random2(HashCombine(bounce_key, 5))), hit.normal);
+    throughput *= SpreadAlbedo(hit.brdf, dot(hit.normal, next));
     // Russian roulette: paths that go on make up for those that end. Not at the first hit, where it
     // would add more noise than it saves time.
     if (bounce > 0) {
@@ -231,8 +235,7 @@ float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_fac
       throughput /= goes_on;
     }
     origin = hit.position + hit.normal * hit.offset;
-    direction =
-        ToWorld(SampleCosineHemisphere(Random2(HashCombine(bounce_key, 5))), hit.normal);
+    direction = next;
   }
   return radiance;
 }

@@ -41,7 +41,7 @@ RayPassDesc bake_pass(const rtapi::ShaderLibrary& library) {
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeSurface] = {"PathAnyHit", "PathClosestHit"};
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 60;
+  desc.payload_bytes = 76;
   return desc;
 }
 

@@ -333,7 +333,7 @@ TEST(VolumeFailures, NarrowLightRings) {
   std::printf("ringing: %d of %d negative, %.4f to %.4f\n", negative, all, least, brightest);
   EXPECT_GT(negative, 100);
   EXPECT_LT(least, -0.1 * brightest);
-  // Shaders clamp the negative values.
+  // Shaders read such a cell as a lobe that is nowhere negative.
   for (const IndirectMode way : {IndirectMode::kDirect, IndirectMode::kHitBlack}) {
     const FloatImage image = stage.gather(volume, mode(way), 64);
     for (const float value : image.values) ASSERT_GE(value, 0.0f);

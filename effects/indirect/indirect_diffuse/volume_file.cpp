@@ -12,7 +12,7 @@ namespace kaamos::effects {
 namespace {
 
 constexpr char kMagic[8] = {'K', 'A', 'A', 'M', 'O', 'S', 'G', 'I'};
-constexpr std::uint32_t kVersion = 2;  // 1 had no levels
+constexpr std::uint32_t kVersion = 3;  // 1 had no levels, 2 no light that materials mirror
 
 struct Header {
   char magic[8];
