@@ -36,6 +36,8 @@ rtapi::Status read_level(rtapi::DeviceDesc& desc) {
     const auto model = rtapi::ParseShaderModel(text);
     if (!model) return model.error();
     desc.ShaderModel = *model;
+    const bool any_tier = std::getenv("KAAMOS_RAYTRACING_TIER") == nullptr;
+    if (any_tier && *model < rtapi::ShaderModel::k6_9) desc.Tier = rtapi::RaytracingTier::kTier1_1;
   }
   return {};
 }

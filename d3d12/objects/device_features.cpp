@@ -42,12 +42,16 @@ HRESULT options(const Query& query, const Fill& fill) {
 constexpr D3D_FEATURE_LEVEL kHighestLevel = D3D_FEATURE_LEVEL_12_1;
 constexpr UINT kAddressBits = 40;  // of a buffer; BufferDesc::SizeInBytes
 
-// 6.9 requires hit objects, which Vulkan does not have here.
 D3D_SHADER_MODEL highest_model(const rtapi::Device& device) {
+  return static_cast<D3D_SHADER_MODEL>(device.GetDesc().ShaderModel);
+}
+
+// 1.2 requires opacity micromaps, which Vulkan does not have here.
+D3D12_RAYTRACING_TIER highest_tier(const rtapi::Device& device) {
   const auto& desc = device.GetDesc();
   const auto highest =
-      desc.Backend == "vulkan" ? rtapi::ShaderModel::k6_8 : rtapi::kHighestShaderModel;
-  return static_cast<D3D_SHADER_MODEL>(std::min(desc.ShaderModel, highest));
+      desc.Backend == "vulkan" ? rtapi::RaytracingTier::kTier1_1 : rtapi::kHighestRaytracingTier;
+  return static_cast<D3D12_RAYTRACING_TIER>(std::min(desc.Tier, highest));
 }
 
 // The options behind D3D12_FEATURE_D3D12_OPTIONS15. E_INVALIDARG if there is no such feature.
@@ -195,7 +199,7 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_D3D12_OPTIONS5:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS5>(query, [this](auto& out) {
         out.RenderPassesTier = D3D12_RENDER_PASS_TIER_0;
-        out.RaytracingTier = static_cast<D3D12_RAYTRACING_TIER>(device_.GetDesc().Tier);
+        out.RaytracingTier = highest_tier(device_);
       });
     case D3D12_FEATURE_D3D12_OPTIONS6:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS6>(query, [](auto&) {});

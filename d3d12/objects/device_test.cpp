@@ -203,7 +203,7 @@ TEST_F(DeviceCalls, CopyDescriptorsSplitsRanges) {
 TEST_F(DeviceCalls, FeaturesAreWhatRtapiHas) {
   D3D12_FEATURE_DATA_D3D12_OPTIONS5 five = {};
   ASSERT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS5, &five, sizeof(five)), S_OK);
-  EXPECT_EQ(five.RaytracingTier, D3D12_RAYTRACING_TIER_1_1);
+  EXPECT_EQ(five.RaytracingTier, static_cast<D3D12_RAYTRACING_TIER>(12));  // not in the headers
   D3D12_FEATURE_DATA_D3D12_OPTIONS7 seven = {};
   ASSERT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS7, &seven, sizeof(seven)),
             S_OK);

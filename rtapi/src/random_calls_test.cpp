@@ -249,7 +249,7 @@ TEST_F(RandomCallsTest, CommandLists) {
           break;
         case 5: {
           RaytracingGeometryDesc g;
-          g.Type = Enum<RaytracingGeometryType>(2);
+          g.Type = Enum<RaytracingGeometryType>(3);
           g.Triangles = {Coin() ? 0 : Address(),
                          Enum<Format>(60),
                          Format::kR32G32B32Float,
@@ -257,11 +257,26 @@ TEST_F(RandomCallsTest, CommandLists) {
                          Number32(),
                          Coin() ? 0 : Address(),
                          {Address(), Number()}};
+          const RaytracingGeometryTrianglesDesc triangles = g.Triangles;
+          const RaytracingGeometryOmmLinkageDesc linkage = {
+              {Address(), Number()}, Enum<Format>(100), Number32(), Address()};
+          if (g.Type == RaytracingGeometryType::kOmmTriangles) {
+            g.OmmTriangles = {Below(8) ? &triangles : nullptr, Below(8) ? &linkage : nullptr};
+          }
+          const RaytracingOpacityMicromapHistogramEntry entry = {
+              Number32(), static_cast<uint32_t>(Below(14)),
+              Enum<RaytracingOpacityMicromapFormat>(3)};
+          const RaytracingOpacityMicromapArrayDesc array = {
+              static_cast<uint32_t>(Below(2)), &entry, Address(), {Address(), Number()}};
           BuildRaytracingAccelerationStructureDesc d;
-          d.Inputs.Type = Enum<RaytracingAccelerationStructureType>(2);
-          d.Inputs.Flags = Enum<RaytracingAccelerationStructureBuildFlags>(64);
+          d.Inputs.Type = Enum<RaytracingAccelerationStructureType>(3);
+          d.Inputs.Flags = Enum<RaytracingAccelerationStructureBuildFlags>(256);
           d.Inputs.NumDescs = static_cast<uint32_t>(Below(2));
-          d.Inputs.pGeometryDescs = &g;
+          if (d.Inputs.Type == RaytracingAccelerationStructureType::kOpacityMicromapArray) {
+            d.Inputs.pOpacityMicromapArrayDesc = &array;
+          } else {
+            d.Inputs.pGeometryDescs = &g;
+          }
           d.DestAccelerationStructureData = Address();
           d.SourceAccelerationStructureData = Coin() ? 0 : Address();
           d.ScratchAccelerationStructureData = Address();

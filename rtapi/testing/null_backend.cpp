@@ -96,13 +96,14 @@ class NullBackend : public runtime::BackendDevice {
   uint64_t timestamp_frequency() const override { return 1000; }
 
   RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      RaytracingAccelerationStructureType, RaytracingAccelerationStructureBuildFlags flags,
-      std::span<const RaytracingGeometryDesc> geometries, uint32_t instances) const override {
+      const runtime::BuildCommand& inputs) const override {
     const bool update =
-        HasAny(flags, RaytracingAccelerationStructureBuildFlags::kAllowUpdate |
-                          RaytracingAccelerationStructureBuildFlags::kPerformUpdate);
-    return {512 + 256 * (geometries.size() + instances), 256, update ? 256u : 0u};
+        HasAny(inputs.flags, RaytracingAccelerationStructureBuildFlags::kAllowUpdate |
+                                 RaytracingAccelerationStructureBuildFlags::kPerformUpdate);
+    return {512 + 256 * (inputs.geometries.size() + inputs.instance_count), 256,
+            update ? 256u : 0u};
   }
+  bool has_micromaps() const override { return true; }
 
   Status execute(std::span<const runtime::Command> commands) override {
     for (const runtime::Command& command : commands) {

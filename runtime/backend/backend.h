@@ -110,12 +110,12 @@ class BackendDevice {
   virtual rtapi::Result<std::shared_ptr<BackendQueryHeap>> create_query_heap(uint32_t count) = 0;
   virtual uint64_t timestamp_frequency() const = 0;  // ticks per second
 
-  // Acceleration structures. `geometries` is empty for a top level, `instance_count` is 0 for a
-  // bottom level. GPU memory is not read. Sizes are multiples of 256 and grow with every count.
+  // Acceleration structures, from the inputs of a build. GPU memory is not read. Sizes are
+  // multiples of 256 and grow with every count.
   virtual rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      rtapi::RaytracingAccelerationStructureType type,
-      rtapi::RaytracingAccelerationStructureBuildFlags flags,
-      std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const = 0;
+      const BuildCommand& inputs) const = 0;
+  // Returns whether builds and rays take opacity micromaps.
+  virtual bool has_micromaps() const { return false; }
 
   // Runs the commands in order and returns when all are done. Called by one thread at a time. An
   // error removes the device; harmless faults in the contents of GPU memory go to Context::message

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -88,6 +89,13 @@ struct ExecuteIndirectCommand {
   std::shared_ptr<const DrawState> draw_state = nullptr;            // for graphics pipelines
 };
 
+// The inputs of an opacity micromap array.
+struct MicromapInputs {
+  std::vector<rtapi::RaytracingOpacityMicromapHistogramEntry> histogram;
+  uint64_t input_buffer = 0;
+  rtapi::GpuVirtualAddressAndStride descs = {};
+};
+
 struct BuildCommand {
   uint64_t dest = 0;
   uint64_t source = 0;  // 0 unless flags contain kPerformUpdate
@@ -96,8 +104,12 @@ struct BuildCommand {
       rtapi::RaytracingAccelerationStructureType::kTopLevel;
   rtapi::RaytracingAccelerationStructureBuildFlags flags =
       rtapi::RaytracingAccelerationStructureBuildFlags::kNone;
-  std::vector<rtapi::RaytracingGeometryDesc> geometries;  // bottom level; all of one type
-  uint32_t instance_count = 0;                            // top level
+  // Bottom level; all of one type, kTriangles also where micromaps are linked to them.
+  std::vector<rtapi::RaytracingGeometryDesc> geometries;
+  // The linkage of each geometry, if it has one; empty if none has.
+  std::vector<std::optional<rtapi::RaytracingGeometryOmmLinkageDesc>> linkages;
+  MicromapInputs micromaps;     // micromap array
+  uint32_t instance_count = 0;  // top level
   rtapi::ElementsLayout instance_layout = rtapi::ElementsLayout::kArray;
   uint64_t instance_descs = 0;
   std::vector<rtapi::RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos;

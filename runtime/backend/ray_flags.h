@@ -6,6 +6,9 @@
 #include <cstdint>
 
 #include <rtapi/raytracing.h>
+#include <rtapi/state_object.h>
+
+#include "kaamos/shader/micromaps.h"
 
 namespace kaamos::runtime {
 
@@ -31,6 +34,16 @@ inline constexpr uint32_t kRayCullNonOpaque = bits_of(rtapi::RayFlags::kCullNonO
 inline constexpr uint32_t kRaySkipTriangles = bits_of(rtapi::RayFlags::kSkipTriangles);
 inline constexpr uint32_t kRaySkipProceduralPrimitives =
     bits_of(rtapi::RayFlags::kSkipProceduralPrimitives);
-inline constexpr uint32_t kAllRayFlags = 0x3FF;
+inline constexpr uint32_t kRayForceOmm2State = bits_of(rtapi::RayFlags::kForceOmm2State);
+inline constexpr uint32_t kAllRayFlags = 0x7FF;
+
+// What a pipeline's flags add to those of its rays.
+inline uint32_t ray_flags_of(rtapi::RaytracingPipelineFlags flags) {
+  using Flags = rtapi::RaytracingPipelineFlags;
+  const auto skips =
+      static_cast<uint32_t>(flags & (Flags::kSkipTriangles | Flags::kSkipProceduralPrimitives));
+  const bool micromaps = rtapi::HasAny(flags, Flags::kAllowOpacityMicromaps);
+  return skips | (micromaps ? shader::kRayQueryAllowsMicromaps : 0);
+}
 
 }  // namespace kaamos::runtime

@@ -333,8 +333,7 @@ void Layer::check(const runtime::BuildCommand& command) {
   check_instances(inputs(), instances_);
   check_update_contents(inputs(), command, contents_);
   const bool update = HasAny(command.flags, runtime::BuildFlags::kPerformUpdate);
-  const auto sizes = runtime::estimate_sizes(command.type, command.flags, command.geometries,
-                                             command.instance_count);
+  const auto sizes = runtime::estimate_sizes(command);
   const uint64_t scratch =
       update ? sizes.UpdateScratchDataSizeInBytes : sizes.ScratchDataSizeInBytes;
   const uint64_t in_place = bytes_at(command.source);
@@ -354,6 +353,17 @@ void Layer::check(const runtime::BuildCommand& command) {
     }
   }
   if (command.instance_count != 0) input(command.instance_descs, "the build's instance records");
+  if (command.type == rtapi::RaytracingAccelerationStructureType::kOpacityMicromapArray) {
+    input(command.micromaps.input_buffer, "the build's micromap states");
+    input(command.micromaps.descs.StartAddress, "the build's micromap descs");
+  }
+  for (const auto& linkage : command.linkages) {
+    if (!linkage) continue;
+    input(linkage->OpacityMicromapIndexBuffer.StartAddress, "the build's micromap indices");
+    if (const uint64_t bytes = bytes_at(linkage->OpacityMicromapArray)) {
+      hazards_.read_structure(linkage->OpacityMicromapArray, bytes, "the build's micromap array");
+    }
+  }
   hazards_.use(command.scratch, ResourceStates::kUnorderedAccess, "the build's scratch memory");
   for (const auto& info : command.postbuild_infos) {
     hazards_.use(info.DestBuffer, ResourceStates::kUnorderedAccess, "the postbuild info");
@@ -431,9 +441,7 @@ void Layer::check(const runtime::ClearUavCommand& command) {
 }
 
 void Layer::note(const runtime::BuildCommand& command) {
-  const uint64_t size = runtime::estimate_sizes(command.type, command.flags, command.geometries,
-                                                command.instance_count)
-                            .ResultDataMaxSizeInBytes;
+  const uint64_t size = runtime::estimate_sizes(command).ResultDataMaxSizeInBytes;
   structures_.built(command, size, std::move(contents_), instances_);
 }
 

@@ -83,6 +83,7 @@ void Structures::built(const runtime::BuildCommand& command, uint64_t size_bytes
   for (uint32_t i = 0; i < command.geometries.size(); ++i) {
     structure.geometries.push_back(runtime::shape_of(command.geometries[i], i));
   }
+  link(command, structure);
   structure.instances.reserve(instances.size());
   for (const rtapi::RaytracingInstanceDesc& desc : instances) {
     TrackedInstance instance;
@@ -96,6 +97,26 @@ void Structures::built(const runtime::BuildCommand& command, uint64_t size_bytes
     structure.instances.push_back(instance);
   }
   place(std::move(structure));
+}
+
+void Structures::link(const runtime::BuildCommand& command, TrackedStructure& structure) const {
+  for (uint32_t i = 0; i < command.linkages.size(); ++i) {
+    if (!command.linkages[i]) continue;
+    structure.geometries[i].linked = true;
+    TrackedLinkage linkage;
+    linkage.array = command.linkages[i]->OpacityMicromapArray;
+    StructureState state;
+    const TrackedStructure* array = find(linkage.array, state);
+    if (array != nullptr && state == StructureState::kAlive) linkage.version = array->version;
+    structure.linkages.push_back(linkage);
+  }
+  // Without the flag an update keeps the linkages of its source.
+  if (!HasAny(command.flags, BuildFlags::kPerformUpdate) ||
+      HasAny(command.flags, BuildFlags::kAllowOmmLinkageUpdate)) {
+    return;
+  }
+  const auto source = structures_.find(command.source);
+  if (source != structures_.end()) structure.linkages = source->second.linkages;
 }
 
 void Structures::copied(const runtime::CopyAccelerationStructureCommand& command,

@@ -34,6 +34,12 @@ struct TrackedInstance {
   uint32_t flags = 0;
 };
 
+// The micromap array of a geometry.
+struct TrackedLinkage {
+  uint64_t array = 0;    // 0: none is needed
+  uint64_t version = 0;  // of the array when it was linked; 0: there was none
+};
+
 struct TrackedStructure {
   uint64_t address = 0;
   uint64_t size_bytes = 0;
@@ -44,7 +50,8 @@ struct TrackedStructure {
   std::vector<runtime::GeometryShape> geometries;
   std::vector<GeometryContents> contents;  // one per geometry
   std::vector<TrackedInstance> instances;
-  std::array<uint8_t, 16> header = {};  // what its first bytes were
+  std::vector<TrackedLinkage> linkages;  // of geometries with micromaps, in order
+  std::array<uint8_t, 16> header = {};   // what its first bytes were
 };
 
 enum class StructureState : uint8_t {
@@ -80,6 +87,7 @@ class Structures {
 
  private:
   void place(TrackedStructure structure);
+  void link(const runtime::BuildCommand& command, TrackedStructure& structure) const;
   // Ends every structure that has bytes there; `by` is the structure that replaces it, 0: other
   // bytes.
   void end_in(uint64_t address, uint64_t size_bytes, uint64_t by);

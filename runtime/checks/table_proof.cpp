@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/backend/ray_flags.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
 #include "runtime/checks/record_advice.h"
@@ -57,6 +58,10 @@ bool reaches(const TraceCall& call, const TrackedInstance& instance,
   const bool procedural = geometry.type == rtapi::RaytracingGeometryType::kProceduralPrimitiveAabbs;
   if (geometry.primitives == 0) return false;
   if (procedural ? flags & kSkipProcedurals : flags & kSkipTriangles) return false;
+  // Any part of it may be opaque or not.
+  if (geometry.linked && (instance.flags & 12) == 0) {
+    return (flags & (kForceOpaque | kSkipClosestHit)) != (kForceOpaque | kSkipClosestHit);
+  }
   bool opaque = geometry.opaque;
   if (instance.flags & 4) opaque = true;
   if (instance.flags & 8) opaque = false;
@@ -163,11 +168,13 @@ class Proof {
   void follow_ray(const LinkedShader& shader, const TraceCall& call, const Arguments& arguments);
   void reach_from(const runtime::ReachedFrom& from);
   void reach_hits(uint64_t scene, Reason reason);
+  void check_permission(const TrackedInstance& instance, uint32_t geometry);
 
   const ProofInputs& inputs_;
   const runtime::DispatchRaysCommand& command_;
   const runtime::LinkedPipeline& linked_;
   ProofResults results_;
+  bool permission_told_ = false;
   Table tables_[4];
   std::vector<std::pair<const LinkedShader*, Arguments>> pending_;
   std::set<std::pair<const LinkedShader*, const uint8_t*>> entered_;
@@ -374,6 +381,21 @@ void Proof::follow_ray(const LinkedShader& shader, const TraceCall& call,
   for (const uint64_t scene : scenes) reach_hits(scene, reason);
 }
 
+// A pipeline must allow the micromaps that its rays meet. [DXR: D3D12_RAYTRACING_PIPELINE_FLAGS]
+void Proof::check_permission(const TrackedInstance& instance, uint32_t geometry) {
+  constexpr uint32_t kDisabled = 0x20;
+  if ((instance.flags & kDisabled) != 0 || permission_told_ ||
+      rtapi::HasAny(linked_.flags, rtapi::RaytracingPipelineFlags::kAllowOpacityMicromaps)) {
+    return;
+  }
+  permission_told_ = true;
+  report(Id::kMicromapsNotAllowed,
+         "rays reach geometry " + std::to_string(geometry) + " of the bottom level at " +
+             address_name(inputs_.addresses, instance.bottom_level) +
+             ", which has opacity micromaps, but the pipeline does not have the flag "
+             "kAllowOpacityMicromaps. They are ignored.");
+}
+
 // Follows a ray of `reason` to every hit record that it can reach in a top level.
 void Proof::reach_hits(uint64_t scene, Reason reason) {
   const TraceCall& call = *reason.call;
@@ -389,7 +411,8 @@ void Proof::reach_hits(uint64_t scene, Reason reason) {
     reason.contribution = instance.contribution;
     for (uint32_t g = 0; g < level->geometries.size(); ++g) {
       const runtime::GeometryShape& shape = level->geometries[g];
-      if (!reaches(call, instance, shape, static_cast<uint32_t>(linked_.flags))) continue;
+      if (!reaches(call, instance, shape, runtime::ray_flags_of(linked_.flags))) continue;
+      if (shape.linked) check_permission(instance, g);
       reason.geometry = g;
       reason.procedural = shape.type == rtapi::RaytracingGeometryType::kProceduralPrimitiveAabbs;
       reach(RecordKind::kHitGroup,
@@ -438,6 +461,42 @@ ProofResults prove_reached(const ProofInputs& inputs, const runtime::DispatchRay
   return Proof(inputs, command).run(calls);
 }
 
+// Checks the micromaps of one bottom level. `place` names the top level.
+static bool check_micromaps(const ProofInputs& inputs, const TrackedInstance& instance,
+                            const TrackedStructure& level, uint32_t index,
+                            const std::string& place) {
+  const std::string of = place + ", whose instance " + std::to_string(index) +
+                         " refers to the bottom level at " +
+                         address_name(inputs.addresses, instance.bottom_level);
+  constexpr uint32_t kDisabled = 0x20;
+  bool good = true;
+  if ((instance.flags & kDisabled) != 0 && !level.linkages.empty() &&
+      !rtapi::HasAny(level.flags, runtime::BuildFlags::kAllowDisableOmms)) {
+    good = false;
+    inputs.reporter.report(Id::kMicromapsDisabled,
+                           of + " with kDisableOmms, but it was built without kAllowDisableOmms. "
+                                "Its micromaps are ignored.");
+  }
+  for (const TrackedLinkage& linkage : level.linkages) {
+    if (linkage.version == 0) continue;
+    StructureState state;
+    const TrackedStructure* array = inputs.structures.find(linkage.array, state);
+    if (array != nullptr && state == StructureState::kAlive && array->version == linkage.version) {
+      continue;
+    }
+    inputs.reporter.report(
+        Id::kMicromapsReplaced,
+        of + ", which is linked to the micromap array at " +
+            address_name(inputs.addresses, linkage.array) + ": " +
+            (state == StructureState::kAlive
+                 ? "another one has been built there"
+                 : "an acceleration structure " + inputs.structures.history(linkage.array, state)) +
+            ". Rays see what was linked. Link the bottom level anew, by a build or an update.");
+    return false;
+  }
+  return good;
+}
+
 bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user) {
   const auto report = [&](Id id, const std::string& text) {
     inputs.reporter.report(id, text);
@@ -478,6 +537,7 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
     if (instance.version == 0) continue;
     const TrackedStructure* level = all.find(instance.bottom_level, state);
     if (level != nullptr && state == StructureState::kAlive && level->version == instance.version) {
+      good = check_micromaps(inputs, instance, *level, i, place) && good;
       continue;
     }
     const std::string of = place + ", whose instance " + std::to_string(i) +

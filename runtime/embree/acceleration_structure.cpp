@@ -30,7 +30,8 @@ rtapi::Status build_bottom_level(Device& device, const runtime::BuildCommand& co
                                  const AccelerationStructure* source,
                                  AccelerationStructure& structure) {
   if (source == nullptr) {
-    auto level = BottomLevel::build(device.build_context(), command.geometries, command.flags);
+    auto level = BottomLevel::build(device.build_context(), command.geometries, command.flags,
+                                    structure.linkages);
     if (!level) return level.error();
     structure.bottom_level = *level;
     runtime::warn_out_of_range(device.structure_environment(), command.dest,
@@ -38,13 +39,16 @@ rtapi::Status build_bottom_level(Device& device, const runtime::BuildCommand& co
     return {};
   }
   const auto level = std::static_pointer_cast<BottomLevel>(source->bottom_level);
-  if (auto s = level->check_update(command.geometries, command.flags); !s) return s;
+  std::vector<bool> linked;
+  for (const auto& linkage : command.linkages) linked.push_back(linkage.has_value());
+  if (auto s = level->check_update(command.geometries, command.flags, linked); !s) return s;
   const bool in_place = command.source == command.dest;
   if (in_place && !device.memory().is_shared(level.get())) {
     structure.bottom_level = level;
-    return level->update(device.build_context(), command.geometries);
+    return level->update(device.build_context(), command.geometries, structure.linkages);
   }
-  auto updated = level->updated_copy(device.build_context(), command.geometries);
+  auto updated =
+      level->updated_copy(device.build_context(), command.geometries, structure.linkages);
   if (!updated) return updated.error();
   structure.bottom_level = *updated;
   return {};
@@ -68,7 +72,8 @@ runtime::RebuildLevel rebuild_level(Device& device) {
                                    std::span<const runtime::GeometryShape> shapes,
                                    AccelerationStructure& result) {
     return measured(device, result, [&]() -> rtapi::Status {
-      auto level = BottomLevel::build(device.build_context(), geometries, result.flags, shapes);
+      auto level = BottomLevel::build(device.build_context(), geometries, result.flags,
+                                      result.linkages, shapes);
       if (!level) return level.error();
       result.bottom_level = *level;
       return {};

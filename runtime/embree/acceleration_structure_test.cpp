@@ -444,10 +444,11 @@ TEST(As41, SizesGrowWithEveryCount) {
     desc.Triangles.VertexCount = vertices;
     desc.Triangles.IndexCount = indices;
     desc.Triangles.IndexFormat = indices != 0 ? rtapi::Format::kR32Uint : rtapi::Format::kUnknown;
-    const std::vector<rtapi::RaytracingGeometryDesc> descs(geometries, desc);
-    return h.device()
-        .prebuild_info(rtapi::RaytracingAccelerationStructureType::kBottomLevel, flags, descs, 0)
-        .ResultDataMaxSizeInBytes;
+    runtime::BuildCommand inputs;
+    inputs.type = rtapi::RaytracingAccelerationStructureType::kBottomLevel;
+    inputs.flags = flags;
+    inputs.geometries.assign(geometries, desc);
+    return h.device().prebuild_info(inputs).ResultDataMaxSizeInBytes;
   };
   for (const Flags flags : {Flags::kNone, Flags::kAllowUpdate, Flags::kMinimizeMemory}) {
     EXPECT_LE(size(100, 300, 1, flags), size(200, 300, 1, flags));

@@ -37,7 +37,14 @@ struct TriangleFilter {
     const float normal[3] = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
     const uint32_t hit_kind = triangle_hit_kind(*state.instance, normal, &ray.dir_x);
     if (is_culled(hit_kind)) return false;
-    const bool opaque = is_opaque(state, geometry.opaque);
+    bool opaque = false;
+    if (geometry.linkage == nullptr) {
+      opaque = is_opaque(state, geometry.opaque);
+    } else {
+      const auto found = micromap_opacity(state, geometry, hit.primID, hit.u, hit.v);
+      if (found == runtime::Opacity::kTransparent) return false;
+      opaque = found == runtime::Opacity::kOpaque;
+    }
     if (state.search != nullptr) {
       return state.search->take_triangle(state, geometry, ray, hit, opaque,
                                          hit_kind == kHitKindTriangleFrontFace);

@@ -71,6 +71,7 @@ RTCBuildQuality scene_quality(BuildFlags flags) {
 }
 
 uint32_t class_of(const GeometryInfo& info) {
+  if (info.linkage != nullptr) return kTriangleMicromap;
   if (info.type == RaytracingGeometryType::kTriangles) {
     return info.opaque ? kTriangleOpaque : kTriangleNonOpaque;
   }
@@ -88,9 +89,12 @@ void bounds_of_box(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = {lower[0], lower[1], lower[2], 0, upper[0], upper[1], upper[2], 0};
 }
 
-std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint32_t index) {
+std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint32_t index,
+                                       Linkages linkages) {
   auto info = std::make_unique<GeometryInfo>();
   static_cast<runtime::GeometryShape&>(*info) = runtime::shape_of(desc, index);
+  if (index < linkages.size()) info->linkage = linkages[index];
+  info->linked = info->linkage != nullptr;
   return info;
 }
 
@@ -112,8 +116,12 @@ bool in_embree_range(const float* values, uint64_t count) {
 }  // namespace
 
 // Any-hit shaders see each triangle that a ray hits, so where they may run, shared edges count.
-bool BuildContext::is_exact(std::span<const RaytracingGeometryDesc> geometries) const {
+bool BuildContext::is_exact(std::span<const RaytracingGeometryDesc> geometries,
+                            Linkages linkages) const {
   if (exact != Exact::kNonOpaque) return exact == Exact::kAll;
+  const bool linked = std::any_of(linkages.begin(), linkages.end(),
+                                  [](const auto& linkage) { return linkage != nullptr; });
+  if (linked) return true;
   return std::any_of(geometries.begin(), geometries.end(), [](const RaytracingGeometryDesc& desc) {
     return desc.Type == RaytracingGeometryType::kTriangles &&
            !HasAny(desc.Flags, rtapi::RaytracingGeometryFlags::kOpaque);
@@ -126,12 +134,12 @@ BottomLevel::~BottomLevel() {
 
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
     const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries,
-    BuildFlags flags, std::span<const runtime::GeometryShape> shapes) {
+    BuildFlags flags, Linkages linkages, std::span<const runtime::GeometryShape> shapes) {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags;
-  level->exact_ = context.is_exact(geometries);
+  level->exact_ = context.is_exact(geometries, linkages);
   if (auto s = level->create_scene(context); !s) return s.error();
-  if (auto s = level->add_geometries(context, geometries, nullptr); !s) return s.error();
+  if (auto s = level->add_geometries(context, geometries, linkages, nullptr); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
   for (size_t i = 0; i < shapes.size(); ++i) {
     static_cast<runtime::GeometryShape&>(*level->geometries_[i]) = shapes[i];
@@ -140,12 +148,13 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
 }
 
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::updated_copy(
-    const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries) const {
+    const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries,
+    Linkages linkages) const {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags_;
   level->exact_ = exact_;
   if (auto s = level->create_scene(context); !s) return s.error();
-  if (auto s = level->add_geometries(context, geometries, this); !s) return s.error();
+  if (auto s = level->add_geometries(context, geometries, linkages, this); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
   return level;
 }
@@ -160,11 +169,11 @@ rtapi::Status BottomLevel::create_scene(const BuildContext& context) {
 
 rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
                                           std::span<const RaytracingGeometryDesc> geometries,
-                                          const BottomLevel* indices_of) {
+                                          Linkages linkages, const BottomLevel* indices_of) {
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     const RaytracingGeometryDesc& desc = geometries[i];
     if (auto s = runtime::check_primitive_count(desc, i); !s) return s;
-    auto info = describe(desc, i);
+    auto info = describe(desc, i, linkages);
     if (desc.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
       procedural_ = true;
       if (auto s = add_boxes(context, desc.AABBs, std::move(info)); !s) return s;
@@ -212,7 +221,7 @@ rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
   rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
   rtcSetGeometryMask(geometry, class_of(*user));
   rtcSetGeometryUserData(geometry, user);
-  if (!user->opaque) {
+  if (!user->opaque || user->linkage != nullptr) {
     rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
     rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
   }
@@ -341,8 +350,8 @@ runtime::Bounds BottomLevel::object_bounds() const {
 }
 
 rtapi::Status BottomLevel::check_update(std::span<const RaytracingGeometryDesc> geometries,
-                                        BuildFlags flags) const {
-  return runtime::check_update(geometry_shapes(), flags_, geometries, flags);
+                                        BuildFlags flags, const std::vector<bool>& linked) const {
+  return runtime::check_update(geometry_shapes(), flags_, geometries, flags, linked);
 }
 
 std::vector<runtime::GeometryShape> BottomLevel::geometry_shapes() const {
@@ -356,6 +365,7 @@ runtime::GeometryContents BottomLevel::geometry_contents(uint32_t geometry) cons
   const GeometryInfo& info = *geometries_[geometry];
   runtime::GeometryContents contents;
   contents.boxes = info.boxes;
+  contents.linkage = info.linkage.get();
   if (info.type != RaytracingGeometryType::kTriangles || info.primitives == 0 ||
       info.vertices == 0) {
     return contents;
@@ -385,6 +395,7 @@ std::shared_ptr<const BottomLevel> BottomLevel::exact_twin(const BuildContext& c
   for (uint32_t i = 0; i < geometries_.size(); ++i) {
     GeometryInfo& info = *twin->geometries_.emplace_back(std::make_unique<GeometryInfo>());
     static_cast<runtime::GeometryShape&>(info) = *geometries_[i];
+    info.linkage = geometries_[i]->linkage;
     const runtime::GeometryContents contents = geometry_contents(i);
     if (contents.indices.empty()) continue;
     info.exact = std::make_unique<ExactTriangles>();
@@ -398,11 +409,13 @@ std::shared_ptr<const BottomLevel> BottomLevel::exact_twin(const BuildContext& c
 }
 
 rtapi::Status BottomLevel::update(const BuildContext& context,
-                                  std::span<const RaytracingGeometryDesc> geometries) {
+                                  std::span<const RaytracingGeometryDesc> geometries,
+                                  Linkages linkages) {
   twin_ = nullptr;
   rtcGetDeviceError(context.device);
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     GeometryInfo& info = *geometries_[i];
+    if (i < linkages.size()) info.linkage = linkages[i];
     if (info.primitives == 0 || (!procedural_ && info.vertices == 0)) continue;
     if (info.exact != nullptr) {
       // Packed again, because triangles may become degenerate or stop being so.

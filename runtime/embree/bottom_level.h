@@ -21,13 +21,16 @@ namespace kaamos::embree {
 
 using runtime::BuildFlags;
 
+// By geometry, null for those without micromaps; empty if none has any.
+using Linkages = std::span<const std::shared_ptr<runtime::MicromapLinkage>>;
+
 struct BuildContext {
   RTCDevice device = nullptr;
   bool robust = true;  // RTC_SCENE_FLAG_ROBUST: only with it is DXR's open t interval exact
   // The bottom levels whose triangles are tested by our own code: exact.h.
   enum class Exact : uint8_t { kNone, kNonOpaque, kAll } exact = Exact::kNone;
   PackFilter pack_filter = nullptr;  // for exact
-  bool is_exact(std::span<const rtapi::RaytracingGeometryDesc> geometries) const;
+  bool is_exact(std::span<const rtapi::RaytracingGeometryDesc> geometries, Linkages linkages) const;
 };
 
 // The user pointer that Embree's callbacks get for a geometry.
@@ -36,6 +39,7 @@ struct GeometryInfo : runtime::GeometryShape {
   std::vector<PaddedBox> padded;             // the same as rays meet them
   bool tested_by_embree = false;             // each box, before its callback
   std::unique_ptr<ExactTriangles> exact;     // triangles in exact precision: own copy
+  std::shared_ptr<const runtime::MicromapLinkage> linkage;  // null: no micromaps
 };
 
 class BottomLevel final : public runtime::BottomLevelBase {
@@ -44,21 +48,23 @@ class BottomLevel final : public runtime::BottomLevelBase {
   // are what updates are checked against. Errors: KA0792: Embree ran out of memory or refused.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      BuildFlags flags, std::span<const runtime::GeometryShape> shapes = {});
+      BuildFlags flags, Linkages linkages, std::span<const runtime::GeometryShape> shapes = {});
   ~BottomLevel() override;
   BottomLevel(const BottomLevel&) = delete;
   BottomLevel& operator=(const BottomLevel&) = delete;
 
   // As runtime::check_update.
   rtapi::Status check_update(std::span<const rtapi::RaytracingGeometryDesc> geometries,
-                             BuildFlags flags) const;
-  // Reads new vertices and boxes into this structure, then refits it.
+                             BuildFlags flags, const std::vector<bool>& linked) const;
+  // Reads new vertices and boxes into this structure, takes the linkages, then refits it.
   rtapi::Status update(const BuildContext& context,
-                       std::span<const rtapi::RaytracingGeometryDesc> geometries);
+                       std::span<const rtapi::RaytracingGeometryDesc> geometries,
+                       Linkages linkages);
   // Returns an updated copy and leaves this one unchanged. Indices come from the copy made when
   // this was built. [DXR: Acceleration structure update constraints]
   rtapi::Result<std::shared_ptr<BottomLevel>> updated_copy(
-      const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries) const;
+      const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries,
+      Linkages linkages) const;
 
   RTCScene scene() const { return scene_; }
   bool procedural() const { return procedural_; }
@@ -89,7 +95,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
                           std::unique_ptr<GeometryInfo> info);
   rtapi::Status add_geometries(const BuildContext& context,
                                std::span<const rtapi::RaytracingGeometryDesc> geometries,
-                               const BottomLevel* indices_of);
+                               Linkages linkages, const BottomLevel* indices_of);
   rtapi::Status commit(const BuildContext& context);
   bool tests_each_box() const;
   rtapi::Status pack_exact_triangles(const BuildContext& context);

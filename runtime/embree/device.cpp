@@ -220,9 +220,8 @@ rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Device::create_query_h
 }
 
 rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
-    rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
-    std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const {
-  return runtime::estimate_sizes(type, flags, geometries, instance_count);
+    const runtime::BuildCommand& inputs) const {
+  return runtime::estimate_sizes(inputs);
 }
 
 void Device::add_counters(const Counters& counters) {

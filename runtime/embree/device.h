@@ -49,9 +49,8 @@ class Device final : public runtime::BackendDevice {
       uint32_t count) override;
   uint64_t timestamp_frequency() const override { return Timestamps::kFrequency; }
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
-      std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      uint32_t instance_count) const override;
+      const runtime::BuildCommand& inputs) const override;
+  bool has_micromaps() const override { return true; }
   rtapi::Status execute(std::span<const runtime::Command> commands) override;
   std::shared_ptr<const runtime::AccelerationStructure> find_structure(
       uint64_t address) const override {
@@ -70,7 +69,9 @@ class Device final : public runtime::BackendDevice {
   BuildContext build_context() const { return {embree_, robust_, exact_, pack_filter_}; }
   // Bytes that Embree currently holds for this device.
   int64_t embree_bytes() const { return embree_bytes_.load(); }
-  runtime::StructureEnvironment structure_environment() { return {context_, *memory_, "Embree"}; }
+  runtime::StructureEnvironment structure_environment() {
+    return {context_, *memory_, "Embree", true};
+  }
   DispatchEnvironment dispatch_environment() {
     return {&arena_, memory_.get(), &context_, wave_lanes_};
   }

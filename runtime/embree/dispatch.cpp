@@ -281,7 +281,7 @@ CountedOutcome dispatch_rays(const DispatchEnvironment& environment,
                                      &dispatch.callable_problems);
   dispatch.max_recursion_depth = pipeline.linked().max_recursion_depth;
   dispatch.abi.max_recursion_depth = dispatch.max_recursion_depth;
-  dispatch.pipeline_flags = static_cast<uint32_t>(pipeline.linked().flags);
+  dispatch.pipeline_flags = runtime::ray_flags_of(pipeline.linked().flags);
   if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;
   dispatch.label = label.c_str();
 

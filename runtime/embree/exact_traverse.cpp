@@ -77,6 +77,25 @@ struct PackOffer {
     return true;
   }
 
+  // For a triangle that is linked to micromaps. An opaque one counts as accepted by an any-hit
+  // shader, so that of triangles at the same t the same one is hit as without micromaps.
+  [[gnu::noinline]] bool accept_linked(float t, uint32_t hit_kind) {
+    const auto found =
+        micromap_opacity(state, geometry, primitive, barycentrics[0], barycentrics[1]);
+    if (found == runtime::Opacity::kTransparent) return false;
+    const bool opaque = found == runtime::Opacity::kOpaque;
+    if (state.search != nullptr) return take_for_query(t, hit_kind, opaque);
+    if (t == state.committed_t) return false;
+    if (opaque) return commit(t, hit_kind, false, false), true;
+    const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
+    if (!record.target->any_hit.runs()) return commit(t, hit_kind, false, false), true;
+    const Candidate candidate = {t, hit_kind, geometry.index, primitive, barycentrics};
+    const auto result = run_any_hit(state, record, candidate);
+    if (result == shader::AnyHitResult::kIgnore) return false;
+    commit(t, hit_kind, false, result == shader::AnyHitResult::kAcceptAndEndSearch);
+    return true;
+  }
+
   bool accept_any() {
     uint32_t open = state.exact->filter(state.exact->object, pack);
     bool accepted = false;
@@ -113,6 +132,7 @@ struct PackOffer {
     barycentrics[1] = static_cast<float>(hit.v);
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
 
+    if (geometry.linkage != nullptr) return accept_linked(t, hit_kind);
     bool opaque = is_opaque(state, geometry.opaque);
     if (state.search != nullptr) return take_for_query(t, hit_kind, opaque);
     ShaderRecord record;

@@ -98,8 +98,8 @@ void search(Worker& worker, RayQuery& query) {
   state.worker = &worker;
   state.values.ray = query.ray;
   const bool first = !query.searched;
-  begin_search(state, query.ray_flags, query.inclusion_mask, &scene, query.ray.t_min,
-               query.ray.t_max);
+  begin_search(state, query.ray_flags | (query.inclusion_mask & kRayAllowsMicromaps),
+               query.inclusion_mask, &scene, query.ray.t_min, query.ray.t_max);
   QuerySearch search = {
       query, first, first && (query.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0,
       {},    false, {}};
@@ -210,7 +210,9 @@ void begin_query(shader::Invocation& caller, RayQuery& query,
   }
   query.ray = ray;
   query.ray_flags = arguments.ray_flags & kAllRayFlags;
-  query.inclusion_mask = arguments.instance_inclusion_mask;
+  // The mask has 8 bits; the permission of micromaps is one of the others.
+  query.inclusion_mask =
+      arguments.instance_inclusion_mask | (arguments.ray_flags & kRayAllowsMicromaps);
   query.has_candidate = false;
   query.candidate = {};
   query.committed = {};

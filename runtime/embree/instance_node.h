@@ -24,10 +24,19 @@ enum GeometryClass : uint32_t {
   kTriangleNonOpaque = 2,
   kProceduralOpaque = 4,
   kProceduralNonOpaque = 8,
-  kAllClasses = 15,
+  kTriangleMicromap = 16,  // linked to micromaps: what opacity culls is decided by triangle
+  kAllClasses = 31,
 };
 
-inline constexpr uint32_t kTracedInstanceFlags = 15;  // all but those for opacity micromaps
+// The parts of an instance's flags that a node has; the opacity is the rest.
+inline constexpr uint32_t kFacingInstanceFlags =
+    kInstanceTriangleCullDisable | kInstanceTriangleFrontCounterclockwise;
+inline constexpr uint32_t kMicromapInstanceFlagsShift = 4;
+
+enum NodeMicromapFlags : uint32_t {
+  kNodeForceTwoStates = kInstanceForceOmm2State >> kMicromapInstanceFlagsShift,
+  kNodeDisableMicromaps = kInstanceDisableOmms >> kMicromapInstanceFlagsShift,
+};
 
 struct alignas(64) InstanceNode {
   float world_to_object_columns[4][4];  // fourth lanes are 0: there a ray has t and time
@@ -35,7 +44,8 @@ struct alignas(64) InstanceNode {
   uint32_t contribution : 24;           // InstanceContributionToHitGroupIndex
   uint32_t mask : 8;                    // InstanceMask; 0 also for inactive instances
   uint32_t id : 24;                     // InstanceID
-  uint32_t flags : 4;                   // kTracedInstanceFlags of InstanceFlags
+  uint32_t flags : 2;                   // kFacingInstanceFlags of InstanceFlags
+  uint32_t micromap_flags : 2;          // NodeMicromapFlags
   OpacityOverride opacity : 2;          // from the flags
   bool procedural : 1;
   bool exact : 1;  // its bottom level is exact

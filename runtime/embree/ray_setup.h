@@ -20,7 +20,7 @@ struct ClassTable {
   constexpr ClassTable() : classes{} {
     for (uint32_t flags = 0; flags < 16; ++flags) {
       uint32_t skipped = 0;
-      if ((flags & 4) != 0) skipped |= kTriangleOpaque | kTriangleNonOpaque;
+      if ((flags & 4) != 0) skipped |= kTriangleOpaque | kTriangleNonOpaque | kTriangleMicromap;
       if ((flags & 8) != 0) skipped |= kProceduralOpaque | kProceduralNonOpaque;
       const uint32_t all = kAllClasses & ~skipped;
       const bool cull_opaque = (flags & 1) != 0;
@@ -64,7 +64,7 @@ inline const TopLevel* find_top_level(Worker& worker, uint64_t address) {
 }
 
 // Sets what the rays of several lanes have in common. `flags` include the pipeline's, except for a
-// RayQuery, which has none.
+// RayQuery, which has kRayAllowsMicromaps of its own.
 inline void begin_searches(RayState& state, uint32_t flags, uint32_t inclusion_mask,
                            const TopLevel* top_level) {
   shim::init(state.query);

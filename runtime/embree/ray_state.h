@@ -25,10 +25,14 @@ using runtime::kRayCullFrontFacingTriangles;
 using runtime::kRayCullNonOpaque;
 using runtime::kRayCullOpaque;
 using runtime::kRayForceNonOpaque;
+using runtime::kRayForceOmm2State;
 using runtime::kRayForceOpaque;
 using runtime::kRaySkipClosestHitShader;
 using runtime::kRaySkipProceduralPrimitives;
 using runtime::kRaySkipTriangles;
+
+// Beside a ray's flags: pipeline or RayQuery allow opacity micromaps.
+inline constexpr uint32_t kRayAllowsMicromaps = shader::kRayQueryAllowsMicromaps;
 
 inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;
@@ -49,7 +53,7 @@ struct RayState {
   // before each shader runs.
   alignas(16) shader::RaySystemValues values;
 
-  uint32_t ray_flags;       // including the pipeline's flags
+  uint32_t ray_flags;       // including the pipeline's flags, and kRayAllowsMicromaps
   uint32_t inclusion_mask;  // 8 bits
   const uint8_t* classes;   // GeometryClass bits to visit, by the instance's OpacityOverride
   OpacityOverride opacity;  // from the ray's flags
@@ -121,6 +125,32 @@ inline bool is_opaque(const RayState& state, bool geometry_opaque) {
   if (opacity == OpacityOverride::kNone) opacity = state.instance->opacity;
   if (opacity == OpacityOverride::kNone) return geometry_opaque;
   return opacity == OpacityOverride::kOpaque;
+}
+
+// The same for a triangle that is linked to micromaps, at these barycentrics. Embree's masks do not
+// know its opacity, so that what the ray culls by opacity is transparent here.
+// [DXR: Opacity micromaps]
+inline runtime::Opacity micromap_opacity(const RayState& state, const GeometryInfo& geometry,
+                                         uint32_t primitive, float u, float v) {
+  using runtime::Opacity;
+  const InstanceNode& instance = *state.instance;
+  auto found = runtime::MicromapState::kOfGeometry;
+  if ((state.ray_flags & kRayAllowsMicromaps) != 0 &&
+      (instance.micromap_flags & kNodeDisableMicromaps) == 0) {
+    found = geometry.linkage->state_at(primitive, u, v);
+  }
+  const bool two_states = (instance.micromap_flags & kNodeForceTwoStates) != 0 ||
+                          (state.ray_flags & kRayForceOmm2State) != 0;
+  Opacity opacity = runtime::opacity_of(found, two_states, geometry.opaque);
+  if (opacity == Opacity::kTransparent) return opacity;
+  const auto overridden = [](OpacityOverride by, Opacity otherwise) {
+    if (by == OpacityOverride::kNone) return otherwise;
+    return by == OpacityOverride::kOpaque ? Opacity::kOpaque : Opacity::kNonOpaque;
+  };
+  opacity = overridden(instance.opacity, opacity);
+  const uint32_t culled_by = opacity == Opacity::kOpaque ? kRayCullOpaque : kRayCullNonOpaque;
+  if ((state.ray_flags & culled_by) != 0) return Opacity::kTransparent;
+  return overridden(state.opacity, opacity);
 }
 
 inline ShaderRecord hit_record(const RayState& state, const InstanceNode& instance,

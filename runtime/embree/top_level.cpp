@@ -24,6 +24,13 @@ void bounds_of_instance(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = bounds[arguments->primID];
 }
 
+uint32_t flags_of(const InstanceNode& node) {
+  uint32_t flags = node.flags | node.micromap_flags << kMicromapInstanceFlagsShift;
+  if (node.opacity == OpacityOverride::kOpaque) flags |= kInstanceForceOpaque;
+  if (node.opacity == OpacityOverride::kNonOpaque) flags |= kInstanceForceNonOpaque;
+  return flags;
+}
+
 OpacityOverride opacity_of(uint32_t flags) {
   if ((flags & kInstanceForceOpaque) != 0) return OpacityOverride::kOpaque;
   if ((flags & kInstanceForceNonOpaque) != 0) return OpacityOverride::kNonOpaque;
@@ -43,7 +50,8 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   RTCBounds& box = bounds.emplace_back(kNoBounds);
   node = {};
   std::memcpy(node.object_to_world, desc.Transform, sizeof(node.object_to_world));
-  node.flags = desc.Flags & kTracedInstanceFlags;
+  node.flags = desc.Flags & kFacingInstanceFlags;
+  node.micromap_flags = (desc.Flags >> kMicromapInstanceFlagsShift) & 3;
   node.opacity = opacity_of(desc.Flags);
   node.contribution = desc.InstanceContributionToHitGroupIndex;
   node.id = desc.InstanceID;
@@ -153,7 +161,7 @@ std::vector<runtime::Instance> TopLevel::instances() const {
     instance.desc.InstanceID = node.id;
     instance.desc.InstanceMask = node.mask;
     instance.desc.InstanceContributionToHitGroupIndex = node.contribution;
-    instance.desc.Flags = node.flags;
+    instance.desc.Flags = flags_of(node);
     if (node.scene == nullptr) continue;
     instance.bottom_level = by_scene[node.scene];
     std::memcpy(instance.world_to_object, world_to_object_[i].rows, sizeof(WorldToObject));

@@ -230,7 +230,7 @@ void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayAr
   state.arguments = &arguments;
   state.caller = &caller;
   state.values.ray_flags = arguments.ray_flags & kAllRayFlags;
-  begin_searches(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
+  begin_searches(state, state.values.ray_flags | worker.dispatch->pipeline_flags,
                  arguments.instance_inclusion_mask, &top_level);
   trace_each(
       caller, arguments, payloads, rays, lanes,
@@ -283,7 +283,7 @@ template <typename End>
   if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
     top_level = &top_level->for_non_opaque();
   }
-  begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
+  begin_search(state, state.values.ray_flags | worker.dispatch->pipeline_flags,
                arguments.instance_inclusion_mask, top_level, t_min, t_max);
   if (top_level->has_exact()) [[unlikely]] {
     return search_exactly(worker, caller, arguments, state, world, end);

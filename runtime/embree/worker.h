@@ -78,8 +78,8 @@ struct RunningDispatch {
   RecordProblems miss_problems;
   RecordProblems callable_problems;
   RecordProblems ray_generation_problems;
-  uint32_t max_recursion_depth = 0;  // MaxTraceRecursionDepth
-  uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
+  uint32_t max_recursion_depth = 0;   // MaxTraceRecursionDepth
+  uint32_t pipeline_flags = 0;        // ray flags of every TraceRay [runtime::ray_flags_of]
   uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]
   const Memory* memory = nullptr;
   // The resources that the shaders of a ray tracing pipeline have bound, by Shader::number.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kaamos/shader/ray_query.h"
+#include "runtime/backend/ray_flags.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
 #include "runtime/structures/instances.h"
@@ -47,7 +48,7 @@ void Replay::begin_query(Frame& caller, RayQuery& query, const shader::RayQueryA
   Query& state = queries_.emplace_back();
   state.scene = scenes_.find(arguments.acceleration_structure);
   query.ray = ray;
-  query.ray_flags = arguments.ray_flags & 0x3FFu;
+  query.ray_flags = arguments.ray_flags & runtime::kAllRayFlags;
   query.inclusion_mask = arguments.instance_inclusion_mask;
   query.has_candidate = false;
   query.candidate = {};
@@ -55,7 +56,7 @@ void Replay::begin_query(Frame& caller, RayQuery& query, const shader::RayQueryA
   query.committed.t = ray.t_max;
   query.scene = &state;
   query.ended = state.scene == nullptr || !is_valid(ray);
-  state.search.flags = query.ray_flags;
+  state.search.flags = query.ray_flags | (arguments.ray_flags & shader::kRayQueryAllowsMicromaps);
   state.search.inclusion_mask = arguments.instance_inclusion_mask & 0xFFu;
   state.search.t_min = ray.t_min > 0 ? ray.t_min : 0.0f;
   state.search.t_max = ray.t_max;

@@ -73,11 +73,11 @@ void Replay::trace_ray(Frame& caller, const shader::TraceRayArguments& arguments
   Trace trace;
   trace.arguments = &arguments;
   trace.ray = ray;
-  trace.reported_flags = arguments.ray_flags & 0x3FFu;
+  trace.reported_flags = arguments.ray_flags & runtime::kAllRayFlags;
   trace.caller = &caller;
   trace.payload = payload;
   trace.scene = scenes_.find(arguments.acceleration_structure);
-  trace.search.flags = arguments.ray_flags | static_cast<uint32_t>(command_.linked->flags);
+  trace.search.flags = trace.reported_flags | runtime::ray_flags_of(command_.linked->flags);
   trace.search.inclusion_mask = arguments.instance_inclusion_mask & 0xFFu;
   trace.search.t_min = ray.t_min > 0 ? ray.t_min : 0.0f;
   trace.search.t_max = ray.t_max;
@@ -92,7 +92,7 @@ void Replay::trace_ray(Frame& caller, const shader::TraceRayArguments& arguments
                             arguments.payload_bytes);
     call->Depth = caller.depth + 1;
     call->Scene = describe(arguments.acceleration_structure);
-    call->Flags = static_cast<RayFlags>(trace.search.flags);
+    call->Flags = static_cast<RayFlags>(trace.search.flags & runtime::kAllRayFlags);
     call->InstanceInclusionMask = trace.search.inclusion_mask;
     call->RayContributionToHitGroupIndex = arguments.ray_contribution_to_hit_group_index & 15u;
     call->MultiplierForGeometryContributionToHitGroupIndex =

@@ -160,6 +160,10 @@ void BottomLevel::test_triangle(const Ray& ray, const Geometry& geometry, uint32
   candidate.clockwise = determinant > 0;
   candidate.barycentrics[0] = static_cast<float>(u);
   candidate.barycentrics[1] = static_cast<float>(v);
+  if (const runtime::MicromapLinkage* linkage = geometry.contents.linkage) {
+    candidate.micromap =
+        linkage->state_at(primitive, candidate.barycentrics[0], candidate.barycentrics[1]);
+  }
   out.push_back(candidate);
 }
 

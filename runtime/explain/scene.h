@@ -24,6 +24,7 @@ struct Candidate {
   uint32_t primitive = 0;
   bool procedural = false;
   bool geometry_opaque = false;
+  runtime::MicromapState micromap = runtime::MicromapState::kOfGeometry;
   bool clockwise = false;  // triangles only, as seen from the origin in object space
   float barycentrics[2] = {0, 0};
 };

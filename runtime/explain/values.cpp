@@ -125,7 +125,8 @@ std::string ray_flags_text(uint32_t flags) {
                                     "CULL_OPAQUE",
                                     "CULL_NON_OPAQUE",
                                     "SKIP_TRIANGLES",
-                                    "SKIP_PROCEDURAL_PRIMITIVES"};
+                                    "SKIP_PROCEDURAL_PRIMITIVES",
+                                    "FORCE_OMM_2_STATE"};
   if (flags == 0) return "NONE";
   std::string text;
   for (uint32_t bit = 0; bit < 32; ++bit) {

@@ -50,7 +50,8 @@ TEST(DecodeValues, NothingIsReadPastTheBytesThatAreThere) {
 TEST(RayFlagsText, NamesEachFlagAndShowsUndefinedBits) {
   EXPECT_EQ(ray_flags_text(0), "NONE");
   EXPECT_EQ(ray_flags_text(0x201), "FORCE_OPAQUE | SKIP_PROCEDURAL_PRIMITIVES");
-  EXPECT_EQ(ray_flags_text(0x400), "0x400");
+  EXPECT_EQ(ray_flags_text(0x400), "FORCE_OMM_2_STATE");
+  EXPECT_EQ(ray_flags_text(0x800), "0x800");
 }
 
 }  // namespace

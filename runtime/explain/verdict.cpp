@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/explain/verdict.h"
-#include "runtime/backend/ray_flags.h"
 
 #include <cstdio>
 
+#include "runtime/backend/ray_flags.h"
 #include "runtime/explain/values.h"
 #include "runtime/structures/instances.h"
 
@@ -37,13 +37,34 @@ bool is_outside(const Search& search, const Candidate& candidate) {
 
 }  // namespace
 
+namespace {
+
+// The opacity before instance and ray override it.
+Opacity own_opacity(const Candidate& candidate, const Instance& instance, uint32_t ray_flags) {
+  const bool in_force = candidate.micromap != runtime::MicromapState::kOfGeometry &&
+                        (ray_flags & shader::kRayQueryAllowsMicromaps) != 0 &&
+                        (instance.desc.Flags & runtime::kInstanceDisableOmms) == 0;
+  if (!in_force) return {candidate.geometry_opaque, false, OpacitySource::kGeometry};
+  const bool two_states = has(ray_flags, RayFlags::kForceOmm2State) ||
+                          (instance.desc.Flags & runtime::kInstanceForceOmm2State) != 0;
+  const auto opacity =
+      runtime::opacity_of(candidate.micromap, two_states, candidate.geometry_opaque);
+  return {opacity == runtime::Opacity::kOpaque, opacity == runtime::Opacity::kTransparent,
+          OpacitySource::kMicromap};
+}
+
+}  // namespace
+
 Opacity opacity_of(const Candidate& candidate, const Instance& instance, uint32_t ray_flags) {
-  if (has(ray_flags, RayFlags::kForceOpaque)) return {true, OpacitySource::kRay};
-  if (has(ray_flags, RayFlags::kForceNonOpaque)) return {false, OpacitySource::kRay};
+  const Opacity own = own_opacity(candidate, instance, ray_flags);
+  if (own.transparent) return own;
+  if (has(ray_flags, RayFlags::kForceOpaque)) return {true, false, OpacitySource::kRay};
+  if (has(ray_flags, RayFlags::kForceNonOpaque)) return {false, false, OpacitySource::kRay};
   const uint32_t flags = instance.desc.Flags;
-  if ((flags & runtime::kInstanceForceOpaque) != 0) return {true, OpacitySource::kInstance};
-  if ((flags & runtime::kInstanceForceNonOpaque) != 0) return {false, OpacitySource::kInstance};
-  return {candidate.geometry_opaque, OpacitySource::kGeometry};
+  if ((flags & runtime::kInstanceForceOpaque) != 0) return {true, false, OpacitySource::kInstance};
+  if ((flags & runtime::kInstanceForceNonOpaque) != 0)
+    return {false, false, OpacitySource::kInstance};
+  return own;
 }
 
 bool is_front_face(const Candidate& candidate, const Instance& instance) {
@@ -59,8 +80,9 @@ std::optional<CandidateOutcome> refusal(const Search& search, const Candidate& c
     return CandidateOutcome::kSkipped;
   }
   if (is_culled_by_face(search, candidate, instance)) return CandidateOutcome::kCulledByFace;
-  const bool opaque = opacity_of(candidate, instance, search.flags).opaque;
-  if (has(search.flags, opaque ? RayFlags::kCullOpaque : RayFlags::kCullNonOpaque)) {
+  const Opacity opacity = opacity_of(candidate, instance, search.flags);
+  if (opacity.transparent) return CandidateOutcome::kTransparent;
+  if (has(search.flags, opacity.opaque ? RayFlags::kCullOpaque : RayFlags::kCullNonOpaque)) {
     return CandidateOutcome::kCulledByOpacity;
   }
   if (is_outside(search, candidate)) return CandidateOutcome::kOutsideRange;
@@ -89,6 +111,8 @@ std::string refusal_text(CandidateOutcome outcome, const Search& search, const C
       const Opacity opacity = opacity_of(candidate, instance, search.flags);
       return opacity_text(opacity) + (opacity.opaque ? ", CULL_OPAQUE" : ", CULL_NON_OPAQUE");
     }
+    case CandidateOutcome::kTransparent:
+      return "transparent by its opacity micromap";
     case CandidateOutcome::kOutsideRange:
       if (static_cast<float>(candidate.t) > search.t_min) {
         return "not in front of TMax " + number_text(search.t_max);
@@ -108,6 +132,8 @@ std::string opacity_text(const Opacity& opacity) {
   switch (opacity.source) {
     case OpacitySource::kGeometry:
       return what + " by the geometry's flags";
+    case OpacitySource::kMicromap:
+      return what + " by its opacity micromap";
     case OpacitySource::kInstance:
       return what + " by the instance's flags";
     case OpacitySource::kRay:

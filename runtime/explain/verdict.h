@@ -15,7 +15,7 @@ namespace kaamos::explain {
 
 // The state of one ray at one moment, which decides about its candidates.
 struct Search {
-  uint32_t flags = 0;  // including the pipeline's
+  uint32_t flags = 0;  // including the pipeline's, and shader::kRayQueryAllowsMicromaps
   uint32_t inclusion_mask = 0;
   float t_min = 0;
   float t_max = 0;
@@ -24,12 +24,13 @@ struct Search {
   bool ended = false;
 };
 
-enum class OpacitySource { kGeometry, kInstance, kRay };
+enum class OpacitySource { kGeometry, kMicromap, kInstance, kRay };
 struct Opacity {
   bool opaque = false;
+  bool transparent = false;  // by a micromap: nothing brings it back
   OpacitySource source = OpacitySource::kGeometry;
 };
-// The ray's flags override the instance's, and those the geometry's.
+// The ray's flags override the instance's, and those the micromap's or else the geometry's.
 Opacity opacity_of(const Candidate& candidate, const Instance& instance, uint32_t ray_flags);
 bool is_front_face(const Candidate& candidate, const Instance& instance);
 

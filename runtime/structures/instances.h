@@ -24,6 +24,8 @@ enum InstanceFlags : uint32_t {
   kInstanceTriangleFrontCounterclockwise = 2,
   kInstanceForceOpaque = 4,
   kInstanceForceNonOpaque = 8,
+  kInstanceForceOmm2State = 16,
+  kInstanceDisableOmms = 32,
 };
 
 struct Instance {

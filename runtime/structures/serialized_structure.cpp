@@ -17,6 +17,12 @@ using rtapi::RaytracingGeometryType;
 constexpr uint32_t kOpaque = 1;
 constexpr uint32_t kNoDuplicateAnyHit = 2;
 constexpr uint32_t kTransformed = 4;
+constexpr uint32_t kLinked = 8;
+
+// Where the header counts blocks instead of bottom levels: its upper half.
+// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER1]
+constexpr uint64_t kBlocks = uint64_t{0xFFFFFFFF} << 32;
+using Block = rtapi::SerializedRaytracingAccelerationStructureBlock;
 
 struct PayloadHeader {
   uint64_t checksum;
@@ -32,7 +38,15 @@ struct GeometryRecord {
   uint32_t vertices;
   uint32_t primitives;
 };
-static_assert(sizeof(PayloadHeader) == 24 && sizeof(GeometryRecord) == 24);
+struct MicromapRecord {
+  uint32_t level;
+  uint32_t format;
+};
+static_assert(sizeof(PayloadHeader) == 24 && sizeof(GeometryRecord) == 24 &&
+              sizeof(MicromapRecord) == 8);
+
+constexpr uint64_t kLinkedDescBytes = sizeof(rtapi::RaytracingGeometryTrianglesDesc) +
+                                      sizeof(rtapi::RaytracingGeometryOmmLinkageDesc);
 
 uint64_t padded(uint64_t bytes) {
   return (bytes + 7) / 8 * 8;
@@ -43,8 +57,10 @@ struct ArrayCounts {
   uint64_t floats = 0;
   uint64_t indices = 0;
   uint64_t boxes = 0;
+  uint64_t links = 0;
   uint64_t bytes() const {
-    return padded(floats * 4) + padded(indices * 4) + boxes * sizeof(rtapi::RaytracingAabb);
+    return padded(floats * 4) + padded(indices * 4) + boxes * sizeof(rtapi::RaytracingAabb) +
+           padded(links * 4);
   }
 };
 ArrayCounts counts_of(const GeometryShape& shape) {
@@ -57,6 +73,7 @@ ArrayCounts counts_of(const GeometryShape& shape) {
       counts.indices = 3 * uint64_t{shape.primitives};
     }
   }
+  if (shape.linked) counts.links = shape.primitives;
   return counts;
 }
 
@@ -76,10 +93,13 @@ class Writer {
   void put_array(std::span<const T> values) {
     put(values.data(), values.size_bytes());
   }
-  void put_contents(const GeometryContents& contents, const ArrayCounts& counts) {
+  // `linkage` may be null where nothing is linked.
+  void put_contents(const GeometryContents& contents, const ArrayCounts& counts,
+                    const MicromapLinkage* linkage) {
     put_array(contents.xyz.first(counts.floats));
     put_array(contents.indices.first(counts.indices));
     put_array(contents.boxes.first(counts.boxes));
+    if (linkage != nullptr) put_array(std::span<const int32_t>(linkage->indices));
   }
 
  private:
@@ -111,7 +131,7 @@ GeometryRecord record_of(const GeometryShape& shape) {
   record.index_format = static_cast<uint32_t>(shape.index_format);
   record.flags = (shape.opaque ? kOpaque : 0) |
                  (shape.no_duplicate_any_hit ? kNoDuplicateAnyHit : 0) |
-                 (shape.transformed ? kTransformed : 0);
+                 (shape.transformed ? kTransformed : 0) | (shape.linked ? kLinked : 0);
   record.vertices = shape.vertices;
   record.primitives = shape.primitives;
   return record;
@@ -149,6 +169,29 @@ rtapi::RaytracingGeometryDesc desc_of(const GeometryShape& shape, uint64_t addre
 }
 
 // Parses the bytes; every read is checked against their end.
+Type type_of(const AccelerationStructure& structure) {
+  if (structure.micromaps != nullptr) return Type::kOpacityMicromapArray;
+  return structure.bottom_level != nullptr ? Type::kBottomLevel : Type::kTopLevel;
+}
+
+const MicromapLinkage* linkage_of(const AccelerationStructure& structure, uint32_t geometry) {
+  return structure.linkages.empty() ? nullptr : structure.linkages[geometry].get();
+}
+
+// The addresses after the header: of the bottom levels, or of linked geometries' micromap arrays.
+std::vector<uint64_t> pointers_of(const AccelerationStructure& structure) {
+  std::vector<uint64_t> pointers;
+  if (structure.instances != nullptr) {
+    for (const auto& instance : *structure.instances) {
+      pointers.push_back(instance.AccelerationStructure);
+    }
+  }
+  for (const auto& linkage : structure.linkages) {
+    if (linkage != nullptr) pointers.push_back(linkage->address);
+  }
+  return pointers;
+}
+
 class Parser {
  public:
   explicit Parser(std::span<const uint8_t> bytes) : bytes_(bytes) {}
@@ -169,12 +212,15 @@ class Parser {
   rtapi::Status read_payload_header();
   rtapi::Status read_instances();
   rtapi::Status read_geometry(uint32_t index);
+  rtapi::Status read_micromaps();
 
   std::span<const uint8_t> bytes_;
   uint64_t at_ = 0;
   Header header_;
   PayloadHeader payload_ = {};
   std::vector<uint64_t> pointers_;
+  bool has_block_ = false;
+  uint64_t linked_ = 0;  // geometries so far
   SerializedStructure result_;
 };
 
@@ -198,9 +244,18 @@ rtapi::Status Parser::read_header() {
     return error("it is truncated: its header says " + std::to_string(size) +
                  " bytes, but its buffer ends after " + std::to_string(bytes_.size()));
   }
-  const uint64_t count = header_.NumBottomLevelAccelerationStructurePointersAfterHeader;
-  if (size % 8 != 0 || size < sizeof(Header) + sizeof(PayloadHeader) ||
-      count > (size - sizeof(Header) - sizeof(PayloadHeader)) / 8) {
+  uint64_t count = header_.NumBottomLevelAccelerationStructurePointersAfterHeader;
+  uint64_t begin = sizeof(Header);
+  if ((count & kBlocks) == kBlocks && size <= bytes_.size() &&
+      size >= sizeof(Header) + sizeof(Block) && count == (kBlocks | 1)) {
+    Block block;
+    get(block);
+    begin += sizeof(block);
+    has_block_ = block.Type == rtapi::SerializedBlockType::kOpacityMicromaps;
+    count = has_block_ ? block.NumBlockPointersAfterHeader : UINT64_MAX;
+  }
+  if (size % 8 != 0 || size < begin + sizeof(PayloadHeader) ||
+      count > (size - begin - sizeof(PayloadHeader)) / 8) {
     return error("its header is damaged: " + std::to_string(size) + " bytes with " +
                  std::to_string(count) + " addresses of bottom levels");
   }
@@ -220,15 +275,20 @@ rtapi::Status Parser::read_payload_header() {
         "was changed");
   }
   const bool top = payload_.type == static_cast<uint32_t>(Type::kTopLevel);
-  const uint64_t most = top ? rtapi::kRaytracingMaxInstancesPerTopLevelAccelerationStructure
-                            : rtapi::kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure;
-  const uint64_t each = top ? sizeof(rtapi::RaytracingInstanceDesc) : sizeof(GeometryRecord);
+  const bool array = payload_.type == static_cast<uint32_t>(Type::kOpacityMicromapArray);
+  const uint64_t most = array ? rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure
+                        : top ? rtapi::kRaytracingMaxInstancesPerTopLevelAccelerationStructure
+                              : rtapi::kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure;
+  const uint64_t each = array ? sizeof(MicromapRecord)
+                        : top ? sizeof(rtapi::RaytracingInstanceDesc)
+                              : sizeof(GeometryRecord);
   const auto flags = static_cast<BuildFlags>(payload_.flags);
   const bool exclusive = rtapi::HasAny(flags, BuildFlags::kPreferFastTrace) &&
                          rtapi::HasAny(flags, BuildFlags::kPreferFastBuild);
-  if (payload_.type > static_cast<uint32_t>(Type::kBottomLevel) || payload_.count > most ||
-      payload_.count > (bytes_.size() - at_) / each || (payload_.flags & ~0x1Fu) != 0 ||
-      exclusive || (!top && !pointers_.empty())) {
+  const bool pointers_fit = has_block_ ? !top && !array : top || pointers_.empty();
+  if (payload_.type > static_cast<uint32_t>(Type::kOpacityMicromapArray) || payload_.count > most ||
+      payload_.count > (bytes_.size() - at_) / each || (payload_.flags & ~0xDFu) != 0 ||
+      exclusive || !pointers_fit) {
     return error("its contents are damaged: type " + std::to_string(payload_.type) + " of " +
                  std::to_string(payload_.count) + " with build flags " +
                  std::to_string(payload_.flags));
@@ -259,6 +319,25 @@ rtapi::Status Parser::read_instances() {
   return {};
 }
 
+rtapi::Status Parser::read_micromaps() {
+  auto array = std::make_shared<MicromapArray>();
+  for (uint64_t i = 0; i < payload_.count; ++i) {
+    MicromapRecord record;
+    const auto has = [&](uint64_t bytes) { return bytes <= bytes_.size() - at_; };
+    const bool sound = get(record) && record.level <= kMaxSubdivisionLevel && record.format >= 1 &&
+                       record.format <= 2;
+    const auto format = static_cast<MicromapFormat>(sound ? record.format : 1);
+    const uint64_t bytes = sound ? micromap_bytes(record.level, format) : 0;
+    if (!sound || !has(padded(bytes))) {
+      return error("micromap " + std::to_string(i) + " is damaged");
+    }
+    array->add(record.level, format, bytes_.subspan(at_, bytes));
+    at_ += padded(bytes);
+  }
+  result_.micromaps = std::move(array);
+  return {};
+}
+
 rtapi::Status Parser::read_geometry(uint32_t index) {
   GeometryRecord record;
   const std::string where = "geometry " + std::to_string(index);
@@ -271,6 +350,7 @@ rtapi::Status Parser::read_geometry(uint32_t index) {
   shape.opaque = (record.flags & kOpaque) != 0;
   shape.no_duplicate_any_hit = (record.flags & kNoDuplicateAnyHit) != 0;
   shape.transformed = (record.flags & kTransformed) != 0;
+  shape.linked = (record.flags & kLinked) != 0;
   shape.vertices = record.vertices;
   shape.primitives = record.primitives;
   const bool boxes = shape.type == RaytracingGeometryType::kProceduralPrimitiveAabbs;
@@ -278,7 +358,8 @@ rtapi::Status Parser::read_geometry(uint32_t index) {
                        shape.index_format == rtapi::Format::kR32Uint;
   const bool plain = shape.index_format == rtapi::Format::kUnknown;
   bool sound =
-      record.type <= 1 && record.flags < 8 && (indexed || plain) &&
+      record.type <= 1 && record.flags < 16 && (indexed || plain) &&
+      (!shape.linked || (!boxes && linked_ < pointers_.size())) &&
       (index == 0 || record.type == static_cast<uint32_t>(result_.shapes[0].type)) &&
       record.primitives <= rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure;
   if (boxes) {
@@ -293,6 +374,20 @@ rtapi::Status Parser::read_geometry(uint32_t index) {
                  " bytes, but there are only " + std::to_string(bytes_.size() - at_));
   }
   result_.geometries.push_back(desc_of(shape, reinterpret_cast<uint64_t>(bytes_.data() + at_)));
+  if (shape.linked) {
+    const uint64_t links = uint64_t{shape.primitives} * sizeof(int32_t);
+    auto linkage = std::make_shared<MicromapLinkage>();
+    linkage->address = pointers_[linked_++];
+    linkage->indices.resize(shape.primitives);
+    if (links != 0) {
+      std::memcpy(linkage->indices.data(), &bytes_[at_ + bytes - padded(links)], links);
+    }
+    for (const int32_t i : linkage->indices) {
+      if (i < static_cast<int32_t>(SpecialIndex::kClusterSkip)) return error(where + " is damaged");
+    }
+    result_.linkages.resize(payload_.count);
+    result_.linkages[index] = std::move(linkage);
+  }
   result_.shapes.push_back(shape);
   at_ += bytes;
   return {};
@@ -303,6 +398,8 @@ rtapi::Result<SerializedStructure> Parser::run() {
   if (auto s = read_payload_header(); !s) return s.error();
   if (result_.type == Type::kTopLevel) {
     if (auto s = read_instances(); !s) return s.error();
+  } else if (result_.type == Type::kOpacityMicromapArray) {
+    if (auto s = read_micromaps(); !s) return s.error();
   } else {
     for (uint32_t i = 0; i < payload_.count; ++i) {
       if (auto s = read_geometry(i); !s) return s.error();
@@ -320,6 +417,17 @@ rtapi::Result<SerializedStructure> Parser::run() {
 SerializedSize serialized_size(const AccelerationStructure& structure) {
   SerializedSize size;
   size.bytes = sizeof(Header) + sizeof(PayloadHeader);
+  if (structure.micromaps != nullptr) {
+    const MicromapArray& array = *structure.micromaps;
+    for (uint32_t i = 0; i < array.size(); ++i) {
+      size.bytes += sizeof(MicromapRecord) + padded(array.bits(i).size());
+    }
+    return size;
+  }
+  if (!structure.linkages.empty()) {
+    size.pointers = 1;
+    size.bytes += sizeof(Block) + pointers_of(structure).size() * 8;
+  }
   if (structure.bottom_level == nullptr) {
     size.pointers = structure.instances->size();
     size.bytes += size.pointers * (8 + sizeof(rtapi::RaytracingInstanceDesc));
@@ -332,30 +440,31 @@ SerializedSize serialized_size(const AccelerationStructure& structure) {
 }
 
 void serialize(const AccelerationStructure& structure, std::span<uint8_t> out) {
-  const bool top = structure.bottom_level == nullptr;
-  std::vector<uint64_t> pointers;
+  const Type type = type_of(structure);
+  const std::vector<uint64_t> pointers = pointers_of(structure);
+  const bool has_block = !structure.linkages.empty();
   std::vector<GeometryShape> shapes;
-  if (top) {
-    for (const auto& instance : *structure.instances) {
-      pointers.push_back(instance.AccelerationStructure);
-    }
-  } else {
-    shapes = structure.bottom_level->geometry_shapes();
-  }
+  if (type == Type::kBottomLevel) shapes = structure.bottom_level->geometry_shapes();
   Header header;
   header.DriverMatchingIdentifier = serialized_identifier();
   header.SerializedSizeInBytesIncludingHeader = out.size();
   header.DeserializedSizeInBytes = structure.size_bytes;
-  header.NumBottomLevelAccelerationStructurePointersAfterHeader = pointers.size();
+  header.NumBottomLevelAccelerationStructurePointersAfterHeader =
+      has_block ? kBlocks | 1 : pointers.size();
   PayloadHeader payload = {};
-  payload.type = static_cast<uint32_t>(top ? Type::kTopLevel : Type::kBottomLevel);
+  payload.type = static_cast<uint32_t>(type);
   payload.flags = static_cast<uint32_t>(structure.flags);
-  payload.count = top ? structure.instances->size() : shapes.size();
+  payload.count = type == Type::kTopLevel      ? structure.instances->size()
+                  : type == Type::kBottomLevel ? shapes.size()
+                                               : structure.micromaps->size();
   Writer writer(out);
   writer.put(header);
+  if (has_block) {
+    writer.put(Block{rtapi::SerializedBlockType::kOpacityMicromaps, pointers.size()});
+  }
   writer.put_array(std::span<const uint64_t>(pointers));
   writer.put(payload);
-  if (top) {
+  if (type == Type::kTopLevel) {
     uint64_t place = 0;
     for (rtapi::RaytracingInstanceDesc instance : *structure.instances) {
       instance.AccelerationStructure = ++place;
@@ -364,7 +473,13 @@ void serialize(const AccelerationStructure& structure, std::span<uint8_t> out) {
   }
   for (const GeometryShape& shape : shapes) {
     writer.put(record_of(shape));
-    writer.put_contents(structure.bottom_level->geometry_contents(shape.index), counts_of(shape));
+    writer.put_contents(structure.bottom_level->geometry_contents(shape.index), counts_of(shape),
+                        linkage_of(structure, shape.index));
+  }
+  for (uint32_t i = 0; type == Type::kOpacityMicromapArray && i < payload.count; ++i) {
+    const MicromapArray& array = *structure.micromaps;
+    writer.put(MicromapRecord{array.level(i), static_cast<uint32_t>(array.format(i))});
+    writer.put_array(array.bits(i));
   }
   seal_serialized(out);
 }
@@ -378,48 +493,130 @@ void seal_serialized(std::span<uint8_t> bytes) {
   if (bytes.size() < sizeof(header) + sizeof(PayloadHeader)) return;
   std::memcpy(&header, bytes.data(), sizeof(header));
   const uint64_t size = header.SerializedSizeInBytesIncludingHeader;
-  const uint64_t count = header.NumBottomLevelAccelerationStructurePointersAfterHeader;
-  if (size > bytes.size() || size < sizeof(header) + sizeof(PayloadHeader) ||
-      count > (size - sizeof(header) - sizeof(PayloadHeader)) / 8) {
+  uint64_t count = header.NumBottomLevelAccelerationStructurePointersAfterHeader;
+  uint64_t begin = sizeof(header);
+  if (count == (kBlocks | 1)) {
+    Block block;
+    if (bytes.size() < begin + sizeof(block)) return;
+    std::memcpy(&block, &bytes[begin], sizeof(block));
+    begin += sizeof(block);
+    count = block.NumBlockPointersAfterHeader;
+  }
+  if (size > bytes.size() || size < begin + sizeof(PayloadHeader) ||
+      count > (size - begin - sizeof(PayloadHeader)) / 8) {
     return;
   }
-  const uint64_t payload = sizeof(header) + count * 8;
+  const uint64_t payload = begin + count * 8;
   const uint64_t checksum = checksum_of(bytes.first(size), header, payload);
   std::memcpy(&bytes[payload], &checksum, sizeof(checksum));
 }
 
 uint64_t decoded_size(const AccelerationStructure& structure) {
   uint64_t bytes = sizeof(rtapi::BuildRaytracingAccelerationStructureToolsVisualizationHeader);
+  if (structure.micromaps != nullptr) {
+    const MicromapArray& array = *structure.micromaps;
+    bytes += sizeof(rtapi::RaytracingOpacityMicromapArrayDesc);
+    bytes += padded(array.size() * sizeof(rtapi::RaytracingOpacityMicromapHistogramEntry));
+    bytes += array.size() * sizeof(rtapi::RaytracingOpacityMicromapDesc);
+    for (uint32_t i = 0; i < array.size(); ++i) bytes += array.bits(i).size();
+    return padded(bytes);
+  }
   if (structure.bottom_level == nullptr) {
     return bytes + structure.instances->size() * sizeof(rtapi::RaytracingInstanceDesc);
   }
   for (const GeometryShape& shape : structure.bottom_level->geometry_shapes()) {
     bytes += sizeof(rtapi::RaytracingGeometryDesc) + counts_of(shape).bytes();
+    if (shape.linked) bytes += kLinkedDescBytes;
   }
   return bytes;
 }
+
+namespace {
+
+// A histogram with an entry for each micromap, which says the same as a shorter one.
+void decode_micromaps(const MicromapArray& array, uint64_t address, Writer& writer) {
+  std::vector<rtapi::RaytracingOpacityMicromapHistogramEntry> histogram;
+  std::vector<rtapi::RaytracingOpacityMicromapDesc> descs;
+  std::vector<uint8_t> bits;
+  for (uint32_t i = 0; i < array.size(); ++i) {
+    const auto format = static_cast<uint16_t>(array.format(i));
+    const auto level = array.level(i);
+    histogram.push_back({1, level, static_cast<rtapi::RaytracingOpacityMicromapFormat>(format)});
+    descs.push_back({static_cast<uint32_t>(bits.size()), static_cast<uint16_t>(level), format});
+    bits.insert(bits.end(), array.bits(i).begin(), array.bits(i).end());
+  }
+  rtapi::RaytracingOpacityMicromapArrayDesc desc;
+  desc.NumOmmHistogramEntries = array.size();
+  address += sizeof(desc);
+  desc.pOmmHistogram =
+      reinterpret_cast<const rtapi::RaytracingOpacityMicromapHistogramEntry*>(address);
+  address += padded(histogram.size() * sizeof(histogram[0]));
+  desc.PerOmmDescs = {address, sizeof(descs[0])};
+  desc.InputBuffer = address + descs.size() * sizeof(descs[0]);
+  writer.put(desc);
+  writer.put_array(std::span<const rtapi::RaytracingOpacityMicromapHistogramEntry>(histogram));
+  writer.put_array(std::span<const rtapi::RaytracingOpacityMicromapDesc>(descs));
+  writer.put_array(std::span<const uint8_t>(bits));
+}
+
+// The two descs of a linked geometry. `arrays` is where its arrays go.
+void decode_linkage(const GeometryShape& shape, const MicromapLinkage& linkage, uint64_t arrays,
+                    Writer& writer) {
+  writer.put(desc_of(shape, arrays).Triangles);
+  rtapi::RaytracingGeometryOmmLinkageDesc desc;
+  desc.OpacityMicromapIndexFormat = rtapi::Format::kR32Uint;
+  const ArrayCounts counts = counts_of(shape);
+  desc.OpacityMicromapIndexBuffer = {arrays + counts.bytes() - padded(counts.links * 4), 4};
+  desc.OpacityMicromapArray = linkage.address;
+  writer.put(desc);
+}
+
+}  // namespace
 
 void decode_for_tools(const AccelerationStructure& structure, uint64_t address,
                       std::span<uint8_t> out) {
   Writer writer(out);
   rtapi::BuildRaytracingAccelerationStructureToolsVisualizationHeader header;
-  if (structure.bottom_level == nullptr) {
+  header.Type = type_of(structure);
+  if (header.Type == Type::kOpacityMicromapArray) {
+    header.NumDescs = 1;
+    writer.put(header);
+    return decode_micromaps(*structure.micromaps, address + sizeof(header), writer);
+  }
+  if (header.Type == Type::kTopLevel) {
     header.NumDescs = static_cast<uint32_t>(structure.instances->size());
     writer.put(header);
     writer.put_array(std::span<const rtapi::RaytracingInstanceDesc>(*structure.instances));
     return;
   }
   const auto shapes = structure.bottom_level->geometry_shapes();
-  header.Type = Type::kBottomLevel;
   header.NumDescs = static_cast<uint32_t>(shapes.size());
   writer.put(header);
-  address += sizeof(header) + shapes.size() * sizeof(rtapi::RaytracingGeometryDesc);
+  uint64_t linked =
+      address + sizeof(header) + shapes.size() * sizeof(rtapi::RaytracingGeometryDesc);
+  address = linked;
+  for (const GeometryShape& shape : shapes) address += shape.linked ? kLinkedDescBytes : 0;
+  const uint64_t arrays = address;
   for (const GeometryShape& shape : shapes) {
-    writer.put(desc_of(shape, address));
+    rtapi::RaytracingGeometryDesc desc = desc_of(shape, address);
+    if (shape.linked) {
+      desc.Type = RaytracingGeometryType::kOmmTriangles;
+      desc.OmmTriangles = {reinterpret_cast<const rtapi::RaytracingGeometryTrianglesDesc*>(linked),
+                           reinterpret_cast<const rtapi::RaytracingGeometryOmmLinkageDesc*>(
+                               linked + sizeof(rtapi::RaytracingGeometryTrianglesDesc))};
+      linked += kLinkedDescBytes;
+    }
+    writer.put(desc);
+    address += counts_of(shape).bytes();
+  }
+  address = arrays;
+  for (const GeometryShape& shape : shapes) {
+    if (shape.linked) decode_linkage(shape, *linkage_of(structure, shape.index), address, writer);
     address += counts_of(shape).bytes();
   }
   for (const GeometryShape& shape : shapes) {
-    writer.put_contents(structure.bottom_level->geometry_contents(shape.index), counts_of(shape));
+    writer.put_contents(structure.bottom_level->geometry_contents(shape.index), counts_of(shape),
+                        linkage_of(structure, shape.index));
   }
 }
 

@@ -22,8 +22,10 @@
 namespace kaamos::runtime {
 
 struct SerializedSize {
-  uint64_t bytes = 0;     // including header and addresses
-  uint64_t pointers = 0;  // one for each instance of a top level, null or not; 0 for a bottom level
+  uint64_t bytes = 0;  // including header and addresses
+  // One for each instance of a top level, null or not; 1 block for a bottom level with micromaps,
+  // whose list has an address for each geometry that has some; otherwise 0.
+  uint64_t pointers = 0;
 };
 SerializedSize serialized_size(const AccelerationStructure& structure);
 // `out` has serialized_size() bytes.
@@ -41,6 +43,9 @@ struct SerializedStructure {
   // given bytes; and the shapes that the geometries were first built with, for updates.
   std::vector<rtapi::RaytracingGeometryDesc> geometries;
   std::vector<GeometryShape> shapes;
+  // With the addresses of the list after the header; empty if no geometry is linked.
+  std::vector<std::shared_ptr<MicromapLinkage>> linkages;
+  std::shared_ptr<const MicromapArray> micromaps;  // micromap array
 };
 
 // `bytes` begin with the header, may be longer than the structure, are aligned to 8, and must

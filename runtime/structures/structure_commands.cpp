@@ -9,6 +9,7 @@
 #include "runtime/backend/dispatch_checks.h"
 #include "runtime/errors/text.h"
 #include "runtime/structures/build_inputs.h"
+#include "runtime/structures/micromap_inputs.h"
 #include "runtime/structures/serialized_structure.h"
 
 namespace kaamos::runtime {
@@ -36,7 +37,7 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
     const StructureEnvironment& environment, const BuildCommand& command) {
   const AddressMap& addresses = *environment.context.addresses;
   auto source = environment.structures.find(command.source);
-  if (source == nullptr ||
+  if (source == nullptr || source->micromaps != nullptr ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
     return make_error(Id::kUpdate, "there is no acceleration structure of this type " +
                                        at_address(addresses, command.source) + ".");
@@ -137,17 +138,22 @@ void StructureEnvironment::warn(Id id, const std::string& text) const {
   context.message(make_message(id, text));
 }
 
-rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(
-    Type type, BuildFlags flags, std::span<const rtapi::RaytracingGeometryDesc> geometries,
-    uint32_t instance_count) {
+rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(const BuildCommand& inputs) {
   uint64_t bytes = kHeaderBytes;
-  if (type == Type::kTopLevel) {
+  if (inputs.type == Type::kTopLevel) {
     // Two cache lines, the inverse transform, and Embree's 110 bytes in a tree of user geometry.
-    bytes += uint64_t{instance_count} * 320;
+    bytes += uint64_t{inputs.instance_count} * 320;
   }
-  for (const auto& geometry : geometries) {
+  for (const auto& entry : inputs.micromaps.histogram) {
+    const uint64_t each =
+        micromap_bytes(entry.SubdivisionLevel, static_cast<MicromapFormat>(entry.Format));
+    bytes += entry.Count * (each + MicromapArray::kBytesEach);
+  }
+  for (size_t i = 0; i < inputs.geometries.size(); ++i) {
+    const auto& geometry = inputs.geometries[i];
     const uint64_t primitives = primitive_count(geometry);
-    bytes += 1024 + primitives * triangle_bytes(flags);
+    bytes += 1024 + primitives * triangle_bytes(inputs.flags);
+    if (!inputs.linkages.empty() && inputs.linkages[i]) bytes += primitives * sizeof(int32_t);
     if (geometry.Type == rtapi::RaytracingGeometryType::kTriangles) {
       bytes += primitives * 12 + uint64_t{geometry.Triangles.VertexCount} * 12;
     } else {
@@ -157,7 +163,8 @@ rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(
   rtapi::RaytracingAccelerationStructurePrebuildInfo info;
   info.ResultDataMaxSizeInBytes = round_up(bytes);
   info.ScratchDataSizeInBytes = kHeaderBytes;
-  info.UpdateScratchDataSizeInBytes = HasAny(flags, BuildFlags::kAllowUpdate) ? kHeaderBytes : 0;
+  info.UpdateScratchDataSizeInBytes =
+      HasAny(inputs.flags, BuildFlags::kAllowUpdate) ? kHeaderBytes : 0;
   return info;
 }
 
@@ -173,6 +180,8 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
     if (!found) return found.error();
     source = *found;
   }
+  auto linkages = read_linkages(environment, command);
+  if (!linkages) return linkages.error();
   AccelerationStructure structure;
   structure.address = command.dest;
   structure.host = addresses.host(command.dest);
@@ -181,10 +190,7 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   // An update uses as much memory as its source, compacted or not. [DXR: BUILD_FLAGS
   // PERFORM_UPDATE]
   structure.size_bytes =
-      source != nullptr
-          ? source->size_bytes
-          : estimate_sizes(command.type, command.flags, command.geometries, command.instance_count)
-                .ResultDataMaxSizeInBytes;
+      source != nullptr ? source->size_bytes : estimate_sizes(command).ResultDataMaxSizeInBytes;
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
   if (source != nullptr && command.dest != source->address &&
       overlap(command.dest, source->address, source->size_bytes)) {
@@ -194,7 +200,22 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
                                        " bytes each and overlap. Update in place, or into other "
                                        "memory.");
   }
-  if (auto s = guarded(build_level, source.get(), structure); !s) return s;
+  if (command.type == Type::kOpacityMicromapArray) {
+    const auto read = [&](const AccelerationStructure*, AccelerationStructure& result) {
+      auto micromaps = read_micromaps(environment, command);
+      if (!micromaps) return rtapi::Status(micromaps.error());
+      result.micromaps = *micromaps;
+      result.compacted_bytes = result.micromaps->held_bytes();
+      return rtapi::Status();
+    };
+    if (auto s = guarded(read, nullptr, structure); !s) return s;
+  } else {
+    // Without the flag the linkages of the build stay. [DXR: ALLOW_OMM_LINKAGE_UPDATE]
+    const bool keeps =
+        source != nullptr && !HasAny(source->flags, BuildFlags::kAllowOmmLinkageUpdate);
+    structure.linkages = keeps ? source->linkages : *std::move(linkages);
+    if (auto s = guarded(build_level, source.get(), structure); !s) return s;
+  }
   structure.compacted_bytes = source != nullptr
                                   ? source->compacted_bytes
                                   : compacted_size(structure.size_bytes, structure.compacted_bytes);
@@ -242,7 +263,7 @@ rtapi::Status check_primitive_count(const rtapi::RaytracingGeometryDesc& desc, u
 
 rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags built_flags,
                            std::span<const rtapi::RaytracingGeometryDesc> geometries,
-                           BuildFlags flags) {
+                           BuildFlags flags, const std::vector<bool>& linked) {
   constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
   if (!HasAny(built_flags, BuildFlags::kAllowUpdate)) {
     return make_error(Id::kUpdate, "the bottom level was built without ALLOW_UPDATE.");
@@ -261,7 +282,8 @@ rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags buil
   }
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     const GeometryShape& was = built[i];
-    const GeometryShape is = shape_of(geometries[i], i);
+    GeometryShape is = shape_of(geometries[i], i);
+    is.linked = i < linked.size() && linked[i];
     if (is.type != was.type) return update_error(i, "its type");
     if (is.primitives != was.primitives || is.vertices != was.vertices) {
       return update_error(i, "its count (" + std::to_string(is.primitives) + " primitives and " +
@@ -275,6 +297,7 @@ rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags buil
     if (is.opaque != was.opaque || is.no_duplicate_any_hit != was.no_duplicate_any_hit) {
       return update_error(i, "one of its flags");
     }
+    if (is.linked != was.linked) return update_error(i, "its type (with or without micromaps)");
     if (is.transformed != was.transformed) return update_error(i, "Transform3x4 (null or not)");
   }
   return {};

@@ -24,19 +24,18 @@ namespace kaamos::runtime {
 struct StructureEnvironment {
   const Context& context;
   StructureMap& structures;
-  const char* backend_name;  // for messages
+  const char* backend_name;    // for messages
+  bool has_micromaps = false;  // BackendDevice::has_micromaps
   void warn(Id id, const std::string& text) const;
 };
 
 // Upper bounds from counts and flags alone, growing with every count. Backends keep the structures
 // themselves: pages of the result buffer beyond the first are never touched.
-rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(
-    rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
-    std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count);
+rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(const BuildCommand& inputs);
 
-// Builds the level. `source` is the structure to update, or null. Sets result.bottom_level or
-// top_level, and compacted_bytes to the memory that it takes, which is then clamped to the
-// structure's size.
+// Builds the level. `source` is the structure to update, or null; result.linkages are those of the
+// new structure. Sets result.bottom_level or top_level, and compacted_bytes to the memory that it
+// takes, which is then clamped to the structure's size.
 using BuildLevel = std::function<rtapi::Status(const AccelerationStructure* source,
                                                AccelerationStructure& result)>;
 
@@ -61,10 +60,11 @@ rtapi::Status check_primitive_count(const rtapi::RaytracingGeometryDesc& desc, u
 
 // Checks that an update of a bottom level with these inputs keeps to DXR's rules: the same
 // geometries, counts, formats and flags, and a null transform only where it was null. KA0793 says
-// which rule is broken. [DXR: Bottom-level acceleration structure updates]
+// which rule is broken. `linked`: which geometries have micromaps; empty: none. [DXR: Bottom-level
+// acceleration structure updates]
 rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags built_flags,
                            std::span<const rtapi::RaytracingGeometryDesc> geometries,
-                           BuildFlags flags);
+                           BuildFlags flags, const std::vector<bool>& linked = {});
 // Warns with KA0798.
 void warn_out_of_range(const StructureEnvironment& environment, uint64_t address,
                        uint64_t triangles);

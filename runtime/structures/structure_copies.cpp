@@ -57,6 +57,12 @@ rtapi::Status build_top_level(const StructureEnvironment& environment, const Reb
 }
 
 rtapi::Status place(const StructureEnvironment& environment, AccelerationStructure result) {
+  if (result.micromaps == nullptr &&
+      result.address % rtapi::kRaytracingAccelerationStructureByteAlignment != 0) {
+    return make_error(Id::kStructureSource,
+                      "the copy " + at_address(*environment.context.addresses, result.address) +
+                          " is no micromap array; its address must be a multiple of 256.");
+  }
   if (auto s = check_destination(*environment.context.addresses, result.address, result.size_bytes);
       !s) {
     return s;
@@ -83,6 +89,11 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
   if (size != 0) std::memcpy(bytes.data(), addresses.host(command.source), size);
   auto parsed = parse_serialized(bytes);
   if (!parsed) return parsed.error();
+  const bool micromaps = parsed->micromaps != nullptr || !parsed->linkages.empty();
+  if (micromaps && !environment.has_micromaps) {
+    return make_error(Id::kSerializedData, std::string("it has opacity micromaps, which backend ") +
+                                               environment.backend_name + " has not.");
+  }
 
   AccelerationStructure result;
   result.address = command.dest;
@@ -90,7 +101,11 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
   result.flags = parsed->flags;
   result.size_bytes = parsed->size_bytes;
   if (auto s = check_destination(addresses, command.dest, result.size_bytes); !s) return s;
-  if (parsed->type == Type::kBottomLevel) {
+  if (parsed->type == Type::kOpacityMicromapArray) {
+    result.micromaps = parsed->micromaps;
+    result.compacted_bytes = result.micromaps->held_bytes();
+  } else if (parsed->type == Type::kBottomLevel) {
+    result.linkages = std::move(parsed->linkages);
     if (auto s = rebuild.bottom_level(parsed->geometries, parsed->shapes, result); !s) return s;
   } else {
     for (uint32_t i = 0; i < parsed->instances.size(); ++i) {

@@ -50,8 +50,27 @@ void StructureMap::place(AccelerationStructure structure) {
   std::memcpy(structure.host, &header, sizeof(header));
   if (structure.bottom_level) ++owners_[structure.bottom_level.get()];
   if (structure.missing_bottom_levels != 0) ++incomplete_;
+  link_locked(structure);
   structures_[address] = {header.id,
                           std::make_shared<const AccelerationStructure>(std::move(structure))};
+}
+
+void StructureMap::link_locked(const AccelerationStructure& placed) {
+  for (const auto& linkage : placed.linkages) {
+    if (linkage == nullptr || linkage->array != nullptr || linkage->address == 0) continue;
+    const auto it = structures_.find(linkage->address);
+    if (it != structures_.end() && has_header(*it->second.structure, it->second.id)) {
+      linkage->array = it->second.structure->micromaps;
+    }
+  }
+  if (placed.micromaps == nullptr) return;
+  for (const auto& [address, other] : structures_) {
+    for (const auto& linkage : other.structure->linkages) {
+      if (linkage != nullptr && linkage->array == nullptr && linkage->address == placed.address) {
+        linkage->array = placed.micromaps;
+      }
+    }
+  }
 }
 
 void StructureMap::evict(uint64_t address, uint64_t size_bytes) {

@@ -16,6 +16,8 @@
 
 #include <rtapi/raytracing.h>
 
+#include "runtime/structures/opacity_micromap.h"
+
 namespace kaamos::runtime {
 
 using BuildFlags = rtapi::RaytracingAccelerationStructureBuildFlags;
@@ -34,6 +36,7 @@ struct GeometryShape {
   bool opaque = false;
   bool no_duplicate_any_hit = false;
   bool transformed = false;  // Transform3x4 is not null
+  bool linked = false;       // has opacity micromaps
   uint32_t vertices = 0;
   uint32_t primitives = 0;
 };
@@ -45,6 +48,7 @@ struct GeometryContents {
   std::span<const float> xyz;         // transformed; empty if no triangle can be hit
   std::span<const uint32_t> indices;  // of every triangle; empty: 0, 1, 2, ...
   std::span<const rtapi::RaytracingAabb> boxes;
+  const MicromapLinkage* linkage = nullptr;
 };
 
 // The facts that every backend knows about its bottom levels.
@@ -61,7 +65,7 @@ struct TopLevelBase {
   virtual ~TopLevelBase() = default;
 };
 
-// The structure at an address. Exactly one of the two levels is set.
+// The structure at an address. Exactly one of the two levels and the micromaps is set.
 struct AccelerationStructure {
   uint64_t address = 0;
   uint8_t* host = nullptr;       // the same address for the host
@@ -70,6 +74,9 @@ struct AccelerationStructure {
   BuildFlags flags = BuildFlags::kNone;
   std::shared_ptr<BottomLevelBase> bottom_level;
   std::shared_ptr<const TopLevelBase> top_level;
+  std::shared_ptr<const MicromapArray> micromaps;
+  // Bottom levels: by geometry, null for those without; empty if none has one.
+  std::vector<std::shared_ptr<MicromapLinkage>> linkages;
   uint32_t instance_count = 0;  // top levels: NumDescs
   // Top levels: the records as the build read them. Trees keep neither the addresses nor inactive
   // instances, which serialization and tools must return. 64 bytes an instance, shared by clones.
@@ -81,7 +88,8 @@ struct AccelerationStructure {
 
 class StructureMap {
  public:
-  // Ends whatever is in the structure's range, and writes its header there.
+  // Ends whatever is in the structure's range, and writes its header there. Linkages and micromap
+  // arrays find each other here, whichever comes first; one that has an array keeps it.
   void place(AccelerationStructure structure);
   // Ends every structure with bytes in the range.
   void evict(uint64_t address, uint64_t size_bytes);
@@ -101,6 +109,7 @@ class StructureMap {
     std::shared_ptr<const AccelerationStructure> structure;
   };
   void evict_locked(uint64_t address, uint64_t size_bytes);
+  void link_locked(const AccelerationStructure& placed);
 
   mutable std::shared_mutex mutex_;
   std::map<uint64_t, Placed> structures_;

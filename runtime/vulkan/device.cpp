@@ -119,10 +119,8 @@ rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Device::create_query_h
 }
 
 rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
-    rtapi::RaytracingAccelerationStructureType type,
-    rtapi::RaytracingAccelerationStructureBuildFlags flags,
-    std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const {
-  return structures_->prebuild_info(type, flags, geometries, instance_count);
+    const runtime::BuildCommand& inputs) const {
+  return structures_->prebuild_info(inputs);
 }
 
 rtapi::RaytracingStatistics Device::statistics() const {

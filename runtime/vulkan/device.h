@@ -46,10 +46,7 @@ class Device final : public runtime::BackendDevice {
       uint32_t count) override;
   uint64_t timestamp_frequency() const override { return vulkan::timestamp_frequency(*gpu_); }
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      rtapi::RaytracingAccelerationStructureType type,
-      rtapi::RaytracingAccelerationStructureBuildFlags flags,
-      std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      uint32_t instance_count) const override;
+      const runtime::BuildCommand& inputs) const override;
   rtapi::Status execute(std::span<const runtime::Command> commands) override;
   std::shared_ptr<const runtime::AccelerationStructure> find_structure(
       uint64_t address) const override {

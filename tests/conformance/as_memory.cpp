@@ -40,8 +40,8 @@ void addresses_are_aligned(Context& t) {
           t, [&](CommandList& list) { list.CopyRaytracingAccelerationStructure(to, from, mode); });
     };
     t.accepted(std::string(what) + ", both aligned", copied(dest, source));
-    t.refused(std::string(what) + ", dest", copied(dest + 128, source), "KA0711");
-    t.refused(std::string(what) + ", source", copied(dest, source + 128), "KA0711");
+    t.refused(std::string(what) + ", dest", copied(dest + 64, source), "KA0711");
+    t.refused(std::string(what) + ", source", copied(dest, source + 64), "KA0711");
   };
   check_copy("clone", place, structure, CopyMode::kClone);
   check_copy("compact", place, structure, CopyMode::kCompact);
@@ -52,7 +52,7 @@ void addresses_are_aligned(Context& t) {
   t.refused("source of postbuild info",
             record(t,
                    [&](CommandList& list) {
-                     const GpuVirtualAddress source = structure + 128;
+                     const GpuVirtualAddress source = structure + 64;
                      list.EmitRaytracingAccelerationStructurePostbuildInfo(
                          {bytes.GetGPUVirtualAddress(), InfoType::kCurrentSize}, {&source, 1});
                    }),

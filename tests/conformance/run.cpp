@@ -108,6 +108,8 @@ std::vector<Section> all_sections() {
           {"rq", rq_tests()},
           {"ser", ser_tests()},
           {"ser_compile", ser_compile_tests()},
+          {"omm", omm_tests()},
+          {"omm_build", omm_build_tests()},
           {"so", so_tests()},
           {"so_collection", so_collection_tests()},
           {"so_object", so_object_tests()},
@@ -163,6 +165,7 @@ bool refused_by_tier(const std::string& failures, rtapi::RaytracingTier tier) {
   using rtapi::RaytracingTier;
   const auto has = [&](const char* id) { return failures.find(id) != std::string::npos; };
   if (tier < RaytracingTier::kTier1_0 && has("KA0545")) return true;
+  if (tier < RaytracingTier::kTier1_2 && has("KA0546")) return true;
   return tier < RaytracingTier::kTier1_1 && (has("KA0520") || has("KA0541") || has("KA0542") ||
                                              has("needs tier 1.1, but this device"));
 }

@@ -136,7 +136,8 @@ void tiers(Context& t) {
   for (const auto& [tier, model] : {std::pair(RaytracingTier::kNotSupported, ShaderModel::k6_0),
                                     std::pair(RaytracingTier::kTier1_0, ShaderModel::k6_3),
                                     std::pair(RaytracingTier::kTier1_1, ShaderModel::k6_5),
-                                    std::pair(RaytracingTier::kTier1_1, kHighestShaderModel)}) {
+                                    std::pair(RaytracingTier::kTier1_1, kHighestShaderModel),
+                                    std::pair(RaytracingTier::kTier1_2, kHighestShaderModel)}) {
     DeviceDesc desc = t.target().device_desc();
     desc.Tier = tier;
     desc.ShaderModel = model;
@@ -146,6 +147,9 @@ void tiers(Context& t) {
             static_cast<uint32_t>(model));
   }
   DeviceDesc low = t.target().device_desc();
+  low.Tier = RaytracingTier::kTier1_2;
+  low.ShaderModel = ShaderModel::k6_8;
+  t.refused("tier 1.2 without shader model 6.9", CreateDevice(low), "KA0914");
   low.Tier = RaytracingTier::kTier1_1;
   low.ShaderModel = ShaderModel::k6_4;
   t.refused("tier 1.1 without shader model 6.5", CreateDevice(low), "KA0914");
@@ -196,7 +200,7 @@ std::vector<RuleTest> ser_compile_tests() {
           {"SER-08", attributes_are_small_structs},
           {"SER-09", both_spellings_of_attributes},
           {"SER-39", barrier_rules},
-          {"TIER-01", tiers},
+          {"TIER-01, TIER-02", tiers},
           {"TIER-08", lower_tiers_refuse},
           {"TIER-09", prebuild_looks_for_null_alone}};
 }

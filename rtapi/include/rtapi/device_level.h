@@ -19,12 +19,12 @@ enum class RaytracingTier : uint32_t {
   /// RayQuery, the two skip flags of rays and pipelines, AddToStateObject, GeometryIndex, indirect
   /// DispatchRays and seven vertex formats.
   kTier1_1 = 11,
-  kTier1_2 = 12,  ///< opacity micromaps, HitObject and MaybeReorderThread; not offered yet
+  kTier1_2 = 12,  ///< opacity micromaps, HitObject and MaybeReorderThread
   kTier2_0 = 20,  ///< clusters, partitioned top levels, indirect builds; not offered yet
 };
 
 /// The highest tier that this version has, on every backend.
-inline constexpr RaytracingTier kHighestRaytracingTier = RaytracingTier::kTier1_1;
+inline constexpr RaytracingTier kHighestRaytracingTier = RaytracingTier::kTier1_2;
 
 /// The highest shader model whose libraries a device takes; DeviceDesc::ShaderModel chooses.
 /// [D3D12: D3D_SHADER_MODEL]

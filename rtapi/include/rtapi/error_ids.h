@@ -91,6 +91,9 @@ inline constexpr ErrorId kUploadOverwritten{488};  ///< upload buffer overwritte
 inline constexpr ErrorId kTargetRead{489};  ///< target read by the draw that writes it
 inline constexpr ErrorId kNothingVisible{490};  ///< draw that cannot be seen
 inline constexpr ErrorId kVertexStride{491};  ///< stride 0 for several vertices
+inline constexpr ErrorId kMicromapsNotAllowed{493};  ///< opacity micromaps without permission
+inline constexpr ErrorId kMicromapsDisabled{494};  ///< DISABLE_OMMS of a bottom level that does not allow it
+inline constexpr ErrorId kMicromapsReplaced{495};  ///< opacity micromap array is not what was linked
 }  // namespace checked
 
 /// Section "API" of rtapi/ERRORS.md.
@@ -141,6 +144,8 @@ inline constexpr ErrorId kShaderTier{542};  ///< shader needs tier 1.1
 inline constexpr ErrorId kCallGraphSignatures{543};  ///< functions of a call graph have different root signatures
 inline constexpr ErrorId kLibraryShaderModel{544};  ///< shader needs a higher shader model
 inline constexpr ErrorId kNoRaytracing{545};  ///< device without ray tracing
+inline constexpr ErrorId kMicromapTier{546};  ///< opacity micromaps need tier 1.2
+inline constexpr ErrorId kNoMicromaps{547};  ///< backend has no opacity micromaps
 inline constexpr ErrorId kAttributesUnread{553};  ///< attributes declared of another size and not read
 inline constexpr ErrorId kFunctionUnresolved{560};  ///< function without a body
 inline constexpr ErrorId kFunctionDiffers{561};  ///< function declared with another signature
@@ -213,6 +218,8 @@ inline constexpr ErrorId kDrawRectangles{742};  ///< invalid viewports, rectangl
 inline constexpr ErrorId kClearTarget{743};  ///< target cannot be cleared like this
 inline constexpr ErrorId kQueryHeap{744};  ///< invalid query heap
 inline constexpr ErrorId kQuery{745};  ///< invalid query
+inline constexpr ErrorId kMicromapArray{746};  ///< invalid opacity micromap array
+inline constexpr ErrorId kMicromapLinkage{747};  ///< invalid opacity micromap linkage
 inline constexpr ErrorId kListNotOpen{800};  ///< command list is not open
 inline constexpr ErrorId kBarrier{802};  ///< invalid resource barrier
 inline constexpr ErrorId kAccelerationStructureTransition{803};  ///< transition of an acceleration structure buffer
@@ -272,6 +279,7 @@ inline constexpr ErrorId kResultTooSmall{795};  ///< result does not fit its buf
 inline constexpr ErrorId kStructureSource{796};  ///< source of a build or copy cannot be used
 inline constexpr ErrorId kInstanceInactive{797};  ///< instance can never be hit
 inline constexpr ErrorId kIndexOutOfRange{798};  ///< index past VertexCount
+inline constexpr ErrorId kMicromapUnusable{799};  ///< opacity micromap that cannot be used
 inline constexpr ErrorId kMultisampled{844};  ///< a shader uses a multisampled texture
 inline constexpr ErrorId kRayOutOfRange{888};  ///< rays beyond the range of the traversal
 inline constexpr ErrorId kRecursionLimit{890};  ///< TraceRay past the recursion limit

@@ -83,6 +83,7 @@ enum class CandidateOutcome : uint32_t {
   kOutsideRange,        ///< not in the interval of TMin and TMax
   kBehindCommittedHit,  ///< a nearer hit was committed
   kAfterEndOfSearch,    ///< the search had ended
+  kTransparent,         ///< in a transparent part of an opacity micromap
 };
 
 /// A primitive that a ray met, or whose box it met.

@@ -26,6 +26,7 @@ enum class RayFlags : uint32_t {
   kCullNonOpaque = 0x80,
   kSkipTriangles = 0x100,
   kSkipProceduralPrimitives = 0x200,
+  kForceOmm2State = 0x400,  ///< unknown states of opacity micromaps become known ones; tier 1.2
 };
 template <>
 inline constexpr bool kIsFlags<RayFlags> = true;
@@ -35,9 +36,13 @@ inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
 /// HitKind() of a triangle met at its back face. [DXR: HitKind]
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;
 
-/// The kind of primitives of a geometry; all geometries of a bottom level are of one type (KA0702).
-/// [DXR: D3D12_RAYTRACING_GEOMETRY_TYPE]
-enum class RaytracingGeometryType : uint32_t { kTriangles = 0, kProceduralPrimitiveAabbs = 1 };
+/// The kind of primitives of a geometry. The geometries of a bottom level are all triangles, with
+/// or without micromaps, or all AABBs (KA0702). [DXR: D3D12_RAYTRACING_GEOMETRY_TYPE]
+enum class RaytracingGeometryType : uint32_t {
+  kTriangles = 0,
+  kProceduralPrimitiveAabbs = 1,
+  kOmmTriangles = 2,  ///< triangles with opacity micromaps; needs tier 1.2 (KA0546)
+};
 
 /// Flags that control what any-hit shaders see of a geometry's primitives.
 /// [DXR: D3D12_RAYTRACING_GEOMETRY_FLAGS]
@@ -57,6 +62,8 @@ enum class RaytracingInstanceFlags : uint32_t {
   kTriangleFrontCounterclockwise = 0x2,  ///< else fronts are clockwise, seen from the ray's origin
   kForceOpaque = 0x4,                    ///< replaces the geometries' opacity; not with the next
   kForceNonOpaque = 0x8,                 ///< replaces the geometries' opacity; KA0474 with both
+  kForceOmm2State = 0x10,  ///< unknown states of opacity micromaps become known ones; tier 1.2
+  kDisableOmms = 0x20,     ///< as if not linked; needs kAllowDisableOmms of the bottom level
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingInstanceFlags> = true;
@@ -106,14 +113,90 @@ struct RaytracingGeometryAabbsDesc {
   GpuVirtualAddressAndStride AABBs;  ///< multiples of 8 (KA0708); stride 0: one box for all
 };
 
+/// The kind of values that an opacity micromap holds.
+/// [DXR: D3D12_RAYTRACING_OPACITY_MICROMAP_FORMAT]
+enum class RaytracingOpacityMicromapFormat : uint32_t {
+  kOc1_2State = 1,  ///< a bit for each micro-triangle, the lowest first
+  kOc1_4State = 2,  ///< two bits for each micro-triangle, the lowest first
+};
+
+/// What a micro-triangle is. Any-hit shaders decide about unknown ones only; where two states are
+/// forced, these become transparent or opaque. [DXR: D3D12_RAYTRACING_OPACITY_MICROMAP_STATE]
+enum class RaytracingOpacityMicromapState : uint32_t {
+  kTransparent = 0,
+  kOpaque = 1,
+  kUnknownTransparent = 2,
+  kUnknownOpaque = 3,
+};
+
+/// Indices that stand for a triangle of one state, instead of a micromap of the array. 8- and
+/// 16-bit indices have their low bits. [DXR: D3D12_RAYTRACING_OPACITY_MICROMAP_SPECIAL_INDEX]
+enum class RaytracingOpacityMicromapSpecialIndex : int32_t {
+  kFullyTransparent = -1,
+  kFullyOpaque = -2,
+  kFullyUnknownTransparent = -3,
+  kFullyUnknownOpaque = -4,
+  kClusterSkipOmm = -5,  ///< the geometry's own opacity; for clusters
+};
+
+/// How many micromaps of a level and a format an array has.
+/// [DXR: D3D12_RAYTRACING_OPACITY_MICROMAP_HISTOGRAM_ENTRY]
+struct RaytracingOpacityMicromapHistogramEntry {
+  uint32_t Count = 0;             ///< how many there are
+  uint32_t SubdivisionLevel = 0;  ///< 0 to 12: 4^level micro-triangles
+  /// The format of them all.
+  RaytracingOpacityMicromapFormat Format = RaytracingOpacityMicromapFormat::kOc1_2State;
+};
+
+/// One micromap of an array, as it lies in GPU memory.
+/// [DXR: D3D12_RAYTRACING_OPACITY_MICROMAP_DESC]
+struct RaytracingOpacityMicromapDesc {
+  uint32_t ByteOffset = 0;        ///< of its states in InputBuffer; any number
+  uint16_t SubdivisionLevel = 0;  ///< 0 to 12
+  uint16_t Format = 0;            ///< RaytracingOpacityMicromapFormat
+};
+
+/// The inputs of an opacity micromap array, in host memory; copied when the call is made. What the
+/// two addresses name is read when the build executes. Invalid: KA0746.
+/// [DXR: D3D12_RAYTRACING_OPACITY_MICROMAP_ARRAY_DESC]
+struct RaytracingOpacityMicromapArrayDesc {
+  uint32_t NumOmmHistogramEntries = 0;  ///< of the histogram
+  /// The counts add up to the number of micromaps.
+  const RaytracingOpacityMicromapHistogramEntry* pOmmHistogram = nullptr;
+  GpuVirtualAddress InputBuffer = 0;  ///< the states of all micromaps: a multiple of 128
+  /// A RaytracingOpacityMicromapDesc for each micromap; multiples of 4, stride 0: one for all.
+  GpuVirtualAddressAndStride PerOmmDescs = {};
+};
+
+/// Which micromap each triangle of a geometry has. Invalid: KA0747.
+/// [DXR: D3D12_RAYTRACING_GEOMETRY_OMM_LINKAGE_DESC]
+struct RaytracingGeometryOmmLinkageDesc {
+  /// An index for each triangle, read when the build executes: a special one, or one that is added
+  /// to the base. Address and stride are multiples of its size.
+  GpuVirtualAddressAndStride OpacityMicromapIndexBuffer = {};
+  /// kR8Uint, kR16Uint or kR32Uint; kUnknown: no buffer, triangle k has micromap base + k.
+  Format OpacityMicromapIndexFormat = Format::kUnknown;
+  uint32_t OpacityMicromapBaseLocation = 0;  ///< the base
+  /// The address of an array, which rays read; 0 if all indices are special ones.
+  GpuVirtualAddress OpacityMicromapArray = 0;
+};
+
+/// Triangles with opacity micromaps, in host memory; copied when the call is made.
+/// [DXR: D3D12_RAYTRACING_GEOMETRY_OMM_TRIANGLES_DESC]
+struct RaytracingGeometryOmmTrianglesDesc {
+  const RaytracingGeometryTrianglesDesc* pTriangles;    ///< not null (KA0747)
+  const RaytracingGeometryOmmLinkageDesc* pOmmLinkage;  ///< not null (KA0747)
+};
+
 /// One geometry of a bottom level, in host memory. Its index in the inputs is GeometryIndex.
 /// [DXR: D3D12_RAYTRACING_GEOMETRY_DESC]
 struct RaytracingGeometryDesc {
-  RaytracingGeometryType Type = RaytracingGeometryType::kTriangles;  ///< which of the two counts
+  RaytracingGeometryType Type = RaytracingGeometryType::kTriangles;  ///< which member counts
   RaytracingGeometryFlags Flags = RaytracingGeometryFlags::kNone;    ///< for every primitive of it
   union {
-    RaytracingGeometryTrianglesDesc Triangles = {};  ///< kTriangles
-    RaytracingGeometryAabbsDesc AABBs;               ///< kProceduralPrimitiveAabbs
+    RaytracingGeometryTrianglesDesc Triangles = {};   ///< kTriangles
+    RaytracingGeometryAabbsDesc AABBs;                ///< kProceduralPrimitiveAabbs
+    RaytracingGeometryOmmTrianglesDesc OmmTriangles;  ///< kOmmTriangles
   };
 };
 
@@ -133,11 +216,16 @@ struct RaytracingInstanceDesc {
   GpuVirtualAddress AccelerationStructure = 0;
 };
 
-/// The level of an acceleration structure. [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE]
-enum class RaytracingAccelerationStructureType : uint32_t { kTopLevel = 0, kBottomLevel = 1 };
+/// The kind of an acceleration structure. [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE]
+enum class RaytracingAccelerationStructureType : uint32_t {
+  kTopLevel = 0,
+  kBottomLevel = 1,
+  kOpacityMicromapArray = 2,  ///< what bottom levels are linked to; needs tier 1.2 (KA0546)
+};
 
-/// Flags that say how a structure is built and what may be done with it later. All combinations are
-/// legal, but for kPreferFastTrace with kPreferFastBuild (KA0701).
+/// Flags that say how a structure is built and what may be done with it later. kPreferFastTrace and
+/// kPreferFastBuild exclude each other (KA0701); micromap arrays take these two and
+/// kAllowCompaction only (KA0746).
 /// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_BUILD_FLAGS]
 enum class RaytracingAccelerationStructureBuildFlags : uint32_t {
   kNone = 0,
@@ -147,6 +235,9 @@ enum class RaytracingAccelerationStructureBuildFlags : uint32_t {
   kPreferFastBuild = 0x8,  ///< a worse tree, faster to build
   kMinimizeMemory = 0x10,  ///< a smaller tree
   kPerformUpdate = 0x20,   ///< refit SourceAccelerationStructureData instead of building anew
+  kAllowOmmLinkageUpdate = 0x40,  ///< updates may change linkages; with kAllowUpdate (KA0747)
+  kAllowOmmUpdate = 0x40,         ///< the same, as d3d12.h calls it
+  kAllowDisableOmms = 0x80,       ///< instances may have kDisableOmms
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingAccelerationStructureBuildFlags> = true;
@@ -162,7 +253,8 @@ struct BuildRaytracingAccelerationStructureInputs {
   /// In an update all but kAllowUpdate and kPerformUpdate equal those of the source.
   RaytracingAccelerationStructureBuildFlags Flags =
       RaytracingAccelerationStructureBuildFlags::kNone;
-  uint32_t NumDescs = 0;  ///< instances or geometries: up to 2^24; 0 is legal
+  /// Instances or geometries: up to 2^24; 0 is legal. 1 for a micromap array.
+  uint32_t NumDescs = 0;
   ElementsLayout DescsLayout = ElementsLayout::kArray;  ///< of the member of the union
   union {
     /// Top level, GPU memory that is read when the build executes. kArray: NumDescs instance descs,
@@ -173,6 +265,8 @@ struct BuildRaytracingAccelerationStructureInputs {
     /// Bottom level, kArrayOfPointers: NumDescs pointers in host memory, none of them null; the
     /// descs are copied when the call is made.
     const RaytracingGeometryDesc* const* ppGeometryDescs;
+    /// Micromap array, kArray: in host memory, copied when the call is made.
+    const RaytracingOpacityMicromapArrayDesc* pOpacityMicromapArrayDesc;
   };
 };
 
@@ -233,7 +327,7 @@ struct RaytracingAccelerationStructurePostbuildInfoToolsVisualizationDesc {
 struct RaytracingAccelerationStructurePostbuildInfoSerializationDesc {
   uint64_t SerializedSizeInBytes = 0;  ///< what kSerialize writes, header and pointers included
   /// One for each instance, also where several name one bottom level or one names none; of a bottom
-  /// level 0.
+  /// level 0, or 1 if it is linked to micromap arrays: the number of blocks. Of an array 0.
   uint64_t NumBottomLevelAccelerationStructurePointers = 0;
 };
 /// The 8 bytes that kCurrentSize writes.
@@ -298,11 +392,43 @@ struct SerializedRaytracingAccelerationStructureHeader {
   uint64_t NumBottomLevelAccelerationStructurePointersAfterHeader = 0;  ///< bottom levels: 0
 };
 
+/// What follows the header of a serialized structure.
+/// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER_POSTAMBLE_TYPE]
+enum class SerializedHeaderPostambleType : uint32_t {
+  kNone = 0,                 ///< nothing
+  kBottomLevelPointers = 0,  ///< addresses of bottom levels
+  kBlocks = 0xFFFFFFFF,      ///< SerializedRaytracingAccelerationStructureBlock
+};
+
+/// The same header as newer structures have it: a bottom level that is linked to micromap arrays
+/// has one block, with the addresses of the arrays. They are replaced by those of the copies before
+/// kDeserialize; those that are 0 stay so.
+/// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER1]
+struct SerializedRaytracingAccelerationStructureHeader1 {
+  SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};  ///< who can read it
+  uint64_t SerializedSizeInBytesIncludingHeader = 0;  ///< header, blocks and data
+  uint64_t DeserializedSizeInBytes = 0;               ///< what kDeserialize takes
+  uint32_t NumBlocks = 0;                             ///< or bottom levels, by the next member
+  /// What follows the header.
+  SerializedHeaderPostambleType HeaderPostambleType = SerializedHeaderPostambleType::kNone;
+};
+
+/// The kind of structures whose addresses a block lists.
+/// [DXR: D3D12_SERIALIZED_BLOCK_TYPE]
+enum class SerializedBlockType : uint32_t { kOpacityMicromaps = 0 };
+
+/// A block after the header, followed by 8-byte addresses.
+/// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_BLOCK]
+struct SerializedRaytracingAccelerationStructureBlock {
+  SerializedBlockType Type = SerializedBlockType::kOpacityMicromaps;  ///< what they are of
+  uint64_t NumBlockPointersAfterHeader = 0;                           ///< how many addresses follow
+};
+
 /// The header of what kVisualizationDecodeForTools writes. It is followed by NumDescs instance or
 /// geometry descs without a gap, in the order of the inputs, and what their addresses name.
 /// [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER]
 struct BuildRaytracingAccelerationStructureToolsVisualizationHeader {
-  /// Tells which of the two kinds of descs follow.
+  /// Tells which kind of descs follow.
   RaytracingAccelerationStructureType Type = RaytracingAccelerationStructureType::kTopLevel;
   uint32_t NumDescs = 0;  ///< how many of them
 };
@@ -330,6 +456,13 @@ struct DispatchRaysDesc {
 
 static_assert(sizeof(RaytracingInstanceDesc) == 64 && sizeof(RaytracingGeometryDesc) == 56 &&
               sizeof(DispatchRaysDesc) == 104 &&
-              sizeof(SerializedRaytracingAccelerationStructureHeader) == 56);
+              sizeof(SerializedRaytracingAccelerationStructureHeader) == 56 &&
+              sizeof(SerializedRaytracingAccelerationStructureHeader1) == 56 &&
+              sizeof(SerializedRaytracingAccelerationStructureBlock) == 16);
+static_assert(sizeof(RaytracingOpacityMicromapHistogramEntry) == 12 &&
+              sizeof(RaytracingOpacityMicromapDesc) == 8 &&
+              sizeof(RaytracingOpacityMicromapArrayDesc) == 40 &&
+              sizeof(RaytracingGeometryOmmLinkageDesc) == 32 &&
+              sizeof(RaytracingGeometryOmmTrianglesDesc) == 16);
 
 }  // namespace rtapi

@@ -64,13 +64,15 @@ inline constexpr bool kIsFlags<StateObjectFlags> = true;
 /// record (checked mode: KA0434). [DXR: D3D12_HIT_GROUP_TYPE]
 enum class HitGroupType : uint32_t { kTriangles = 0, kProceduralPrimitive = 1 };
 
-/// Ray flags that are added to those of every TraceRay of a pipeline; at most one of the two
-/// (KA0539). RayFlags() does not show them, and RayQuery does not have them.
+/// Ray flags that are added to those of every TraceRay of a pipeline, at most one of the two
+/// (KA0539): RayFlags() does not show them, and RayQuery does not have them. And what its rays may
+/// meet.
 /// [DXR: D3D12_RAYTRACING_PIPELINE_FLAGS]
 enum class RaytracingPipelineFlags : uint32_t {
   kNone = 0,
   kSkipTriangles = 0x100,
   kSkipProceduralPrimitives = 0x200,
+  kAllowOpacityMicromaps = 0x400,  ///< rays use opacity micromaps; tier 1.2 (KA0539)
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingPipelineFlags> = true;

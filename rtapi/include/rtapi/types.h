@@ -34,6 +34,12 @@ inline constexpr uint32_t kRaytracingInstanceDescsByteAlignment = 16;
 inline constexpr uint32_t kRaytracingTransform3x4ByteAlignment = 16;
 /// Alignment of the address and the stride of AABBs, in bytes. [DXR: Constants]
 inline constexpr uint32_t kRaytracingAabbByteAlignment = 8;
+/// Alignment of opacity micromap arrays and of their input buffers.
+/// [D3D12: D3D12_RAYTRACING_OPACITY_MICROMAP_ARRAY_BYTE_ALIGNMENT]
+inline constexpr uint32_t kRaytracingOpacityMicromapArrayByteAlignment = 128;
+/// The highest level of an opacity micromap: 4^12 micro-triangles.
+/// [D3D12: D3D12_RAYTRACING_OPACITY_MICROMAP_OC1_MAX_SUBDIVISION_LEVEL]
+inline constexpr uint32_t kRaytracingOpacityMicromapMaxSubdivisionLevel = 12;
 /// Largest value of RaytracingShaderConfig::MaxAttributeSizeInBytes. [DXR: Constants]
 inline constexpr uint32_t kRaytracingMaxAttributeSizeInBytes = 32;
 /// Largest recursion depth that a pipeline can declare. [DXR: Ray recursion limit]

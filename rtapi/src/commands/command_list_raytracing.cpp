@@ -10,10 +10,24 @@ using namespace detail;
 
 namespace {
 
-void use_inputs(CommandListImpl& list, const char* call,
-                const std::vector<RaytracingGeometryDesc>& geometries) {
-  for (size_t i = 0; i < geometries.size(); ++i) {
-    const RaytracingGeometryDesc& geometry = geometries[i];
+// A structure of any kind: what is there is known when the command executes, and micromap arrays
+// need less alignment.
+Status check_any_structure(const DeviceImpl& device, GpuVirtualAddress address,
+                           std::string_view what) {
+  const bool micromaps =
+      device.desc.Tier >= RaytracingTier::kTier1_2 && device.backend->has_micromaps();
+  return check_structure_address(device, address, what,
+                                 micromaps ? kRaytracingOpacityMicromapArrayByteAlignment
+                                           : kRaytracingAccelerationStructureByteAlignment);
+}
+
+void use_inputs(CommandListImpl& list, const char* call, const runtime::BuildCommand& command) {
+  if (!command.micromaps.histogram.empty()) {
+    list.use(call, command.micromaps.input_buffer, "micromap input buffer");
+    list.use(call, command.micromaps.descs.StartAddress, "micromap descs");
+  }
+  for (size_t i = 0; i < command.geometries.size(); ++i) {
+    const RaytracingGeometryDesc& geometry = command.geometries[i];
     const auto use = [&](uint64_t count, GpuVirtualAddress address, const char* what) {
       if (count != 0) list.use(call, address, concat("geometry ", i, " ", what));
     };
@@ -25,6 +39,10 @@ void use_inputs(CommandListImpl& list, const char* call,
     use(t.VertexCount, t.VertexBuffer.StartAddress, "vertices");
     use(t.IndexCount, t.IndexBuffer, "indices");
     use(1, t.Transform3x4, "Transform3x4");
+    if (command.linkages.empty() || !command.linkages[i]) continue;
+    const auto& linkage = *command.linkages[i];
+    use(1, linkage.OpacityMicromapIndexBuffer.StartAddress, "micromap indices");
+    use(1, linkage.OpacityMicromapArray, "micromap array");
   }
 }
 
@@ -37,9 +55,8 @@ void CommandList::BuildRaytracingAccelerationStructure(
   if (!impl_ || !impl_->check_open(kCall)) return;
   const DeviceImpl& device = *impl_->device;
   if (Status s = check_build_inputs(device, desc.Inputs); !s.ok()) return impl_->fail(s.error());
-  runtime::BuildCommand command;
-  command.geometries = copy_geometry_descs(desc.Inputs);
-  if (Status s = check_build_addresses(device, desc, command.geometries); !s.ok()) {
+  runtime::BuildCommand command = describe_build(desc.Inputs);
+  if (Status s = check_build_addresses(device, desc, command); !s.ok()) {
     return impl_->fail(s.error());
   }
   uint32_t seen = 0;
@@ -53,22 +70,14 @@ void CommandList::BuildRaytracingAccelerationStructure(
     }
     seen |= bit;
   }
-  const bool top = desc.Inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
   command.dest = desc.DestAccelerationStructureData;
   command.source = desc.SourceAccelerationStructureData;
   command.scratch = desc.ScratchAccelerationStructureData;
-  command.type = desc.Inputs.Type;
-  command.flags = desc.Inputs.Flags;
-  if (top) {
-    command.instance_count = desc.Inputs.NumDescs;
-    command.instance_layout = desc.Inputs.DescsLayout;
-    command.instance_descs = desc.Inputs.InstanceDescs;
-  }
   command.postbuild_infos.assign(postbuild_infos.begin(), postbuild_infos.end());
   impl_->use(kCall, command.dest, "dest");
   impl_->use(kCall, command.source, "source");
   impl_->use(kCall, command.scratch, "scratch");
-  use_inputs(*impl_, kCall, command.geometries);
+  use_inputs(*impl_, kCall, command);
   if (command.instance_count != 0) impl_->use(kCall, command.instance_descs, "instance descs");
   for (const auto& info : postbuild_infos) impl_->use(kCall, info.DestBuffer, "postbuild info");
   impl_->record(std::move(command));
@@ -84,7 +93,7 @@ void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
     return impl_->fail(s.error());
   }
   for (size_t i = 0; i < sources.size(); ++i) {
-    if (Status s = check_structure_address(device, sources[i], concat("source ", i)); !s.ok()) {
+    if (Status s = check_any_structure(device, sources[i], concat("source ", i)); !s.ok()) {
       return impl_->fail(s.error());
     }
   }
@@ -109,10 +118,10 @@ void CommandList::CopyRaytracingAccelerationStructure(
                  ? check_structure_bytes(device, source,
                                          sizeof(SerializedRaytracingAccelerationStructureHeader),
                                          false, "source")
-                 : check_structure_address(device, source, "source");
+                 : check_any_structure(device, source, "source");
   if (s.ok()) {
     s = writes_bytes ? check_structure_bytes(device, dest, 8, true, "dest")
-                     : check_structure_address(device, dest, "dest");
+                     : check_any_structure(device, dest, "dest");
   }
   if (!s.ok()) return impl_->fail(s.error());
   if (source == dest) {

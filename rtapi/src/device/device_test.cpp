@@ -70,6 +70,7 @@ TEST(DeviceTest, TierAndShaderModelFitEachOther) {
     EXPECT_TRUE(create(RaytracingTier::kNotSupported, level).ok());
     EXPECT_EQ(create(RaytracingTier::kTier1_0, level).ok(), model >= 0x63) << model;
     EXPECT_EQ(create(RaytracingTier::kTier1_1, level).ok(), model >= 0x65) << model;
+    EXPECT_EQ(create(RaytracingTier::kTier1_2, level).ok(), model >= 0x69) << model;
   }
   EXPECT_ERROR(create(RaytracingTier::kTier1_1, ShaderModel::k6_4), "KA0914",
                "Tier 1.1 needs ShaderModel 6.5 or higher, but it is 6.4");

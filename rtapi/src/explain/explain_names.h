@@ -52,6 +52,8 @@ inline const char* outcome_name(CandidateOutcome outcome) {
       return "behind";
     case CandidateOutcome::kAfterEndOfSearch:
       return "not reached";
+    case CandidateOutcome::kTransparent:
+      return "transparent";
   }
   return "";
 }

@@ -69,14 +69,17 @@ Status Gatherer::define_pipeline_config(const RaytracingPipelineConfig1& config,
     return make_error(Id::kPipelineConfig1Tier, where, " is a RaytracingPipelineConfig1, ",
                       but_tier(*parts_.device));
   }
-  const auto known =
+  const auto skips =
       RaytracingPipelineFlags::kSkipTriangles | RaytracingPipelineFlags::kSkipProceduralPrimitives;
+  const bool micromaps = parts_.device->desc.Tier >= RaytracingTier::kTier1_2;
+  const auto known = micromaps ? skips | RaytracingPipelineFlags::kAllowOpacityMicromaps : skips;
   if ((config.Flags & ~known) != RaytracingPipelineFlags::kNone) {
     return make_error(Id::kConfigFlags, where, ": undefined pipeline flags ",
-                      hex(static_cast<uint32_t>(config.Flags)),
-                      "; only 0x100 and 0x200 are defined");
+                      hex(static_cast<uint32_t>(config.Flags)), "; only 0x100",
+                      micromaps ? ", 0x200 and 0x400" : " and 0x200", " are defined",
+                      micromaps ? "" : ", and from tier 1.2 on 0x400");
   }
-  if (config.Flags == known) {
+  if ((config.Flags & skips) == skips) {
     return make_error(Id::kConfigFlags, where,
                       ": kSkipTriangles and kSkipProceduralPrimitives cannot both be set");
   }

@@ -232,7 +232,8 @@ TEST_F(StateObjectTest, SO_23_PipelineConfig1NeedsTier11) {
 }
 
 TEST_F(StateObjectTest, TIER_02_LibrariesOfAHigherShaderModel) {
-  Device old = CreateNullDevice({.ShaderModel = ShaderModel::k6_5});
+  Device old =
+      CreateNullDevice({.Tier = RaytracingTier::kTier1_1, .ShaderModel = ShaderModel::k6_5});
   const auto make = [&old](const char* target) {
     LibraryBuilder b("lib.hlsl", target);
     b.Export("RayGen", Stage::kRayGeneration);
@@ -276,8 +277,11 @@ TEST_F(StateObjectTest, SO_23_PipelineFlags) {
   StateObjectDesc desc = Base();
   desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x300)};
   EXPECT_ERROR(Make(desc), "KA0539");
-  desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x400)};
-  EXPECT_ERROR(Make(desc), "KA0539", "0x400");
+  desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x800)};
+  EXPECT_ERROR(Make(desc), "KA0539", "0x800");
+  desc.Subobjects[2] =
+      RaytracingPipelineConfig1{1, RaytracingPipelineFlags::kAllowOpacityMicromaps};
+  EXPECT_OK(Make(desc));
 }
 
 TEST_F(StateObjectTest, PAY_02_PayloadsFitTheConfig) {

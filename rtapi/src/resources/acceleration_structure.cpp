@@ -7,6 +7,7 @@
 #include <rtapi/device.h>
 
 #include "rtapi/src/device/device_level.h"
+#include "runtime/structures/opacity_micromap.h"
 #include "runtime/structures/serialized_identifier.h"
 
 namespace rtapi {
@@ -121,10 +122,80 @@ Status check_aabbs(const RaytracingGeometryAabbsDesc& a, size_t index, Purpose p
                     "; both must be multiples of 8");
 }
 
+bool is_procedural(const RaytracingGeometryDesc& g) {
+  return g.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs;
+}
+
+// The triangles of a geometry that is not procedural.
+const RaytracingGeometryTrianglesDesc& triangles_of(const RaytracingGeometryDesc& g) {
+  return g.Type == RaytracingGeometryType::kOmmTriangles ? *g.OmmTriangles.pTriangles : g.Triangles;
+}
+
 uint64_t primitive_count(const RaytracingGeometryDesc& g) {
-  if (g.Type != RaytracingGeometryType::kTriangles) return g.AABBs.AABBCount;
-  const auto& t = g.Triangles;
+  if (is_procedural(g)) return g.AABBs.AABBCount;
+  const auto& t = triangles_of(g);
   return (t.IndexFormat == Format::kUnknown ? t.VertexCount : t.IndexCount) / 3;
+}
+
+// Bytes of a micromap index; 0: the format is none.
+uint32_t micromap_index_bytes(Format format) {
+  switch (format) {
+    case Format::kR8Uint:
+      return 1;
+    case Format::kR16Uint:
+      return 2;
+    case Format::kR32Uint:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+// Micromaps need tier 1.2, and a backend that has them; `what` names what was asked for.
+Status check_has_micromaps(const DeviceImpl& device, const std::string& what) {
+  if (device.desc.Tier < RaytracingTier::kTier1_2) {
+    return make_error(Id::kMicromapTier, what, " needs tier 1.2, ", but_tier(device));
+  }
+  if (device.backend->has_micromaps()) return {};
+  return make_error(Id::kNoMicromaps, what, " needs opacity micromaps, but backend ",
+                    in_quotes(device.desc.Backend), " has none");
+}
+
+Status check_linkage(const DeviceImpl& device, const RaytracingGeometryOmmTrianglesDesc& g,
+                     size_t index, Purpose purpose) {
+  const std::string where = geometry_text(index);
+  if (Status s = check_has_micromaps(device, where + " of type 2"); !s.ok()) return s;
+  if (g.pTriangles == nullptr || g.pOmmLinkage == nullptr) {
+    return make_error(Id::kMicromapLinkage, where, ": ",
+                      g.pTriangles == nullptr ? "pTriangles" : "pOmmLinkage", " is null");
+  }
+  const RaytracingGeometryOmmLinkageDesc& link = *g.pOmmLinkage;
+  const Format format = link.OpacityMicromapIndexFormat;
+  const uint32_t bytes = micromap_index_bytes(format);
+  if (bytes == 0 && format != Format::kUnknown) {
+    return make_error(Id::kMicromapLinkage, where, ": micromap index format ",
+                      static_cast<uint32_t>(format),
+                      "; it must be kR8Uint, kR16Uint, kR32Uint, or kUnknown without a buffer");
+  }
+  const auto& buffer = link.OpacityMicromapIndexBuffer;
+  if (bytes != 0 && buffer.StrideInBytes % bytes != 0) {
+    return make_error(Id::kMicromapLinkage, where, ": micromap indices have stride ",
+                      buffer.StrideInBytes, "; it must be a multiple of ", bytes);
+  }
+  if (purpose == Purpose::kSize) return {};
+  if (bytes != 0 && buffer.StartAddress % bytes != 0) {
+    return make_error(Id::kMicromapLinkage, where, ": micromap indices are at ",
+                      hex(buffer.StartAddress), "; the address must be a multiple of ", bytes);
+  }
+  if (link.OpacityMicromapArray % kRaytracingOpacityMicromapArrayByteAlignment != 0) {
+    return make_error(Id::kMicromapLinkage, where, ": the micromap array is at ",
+                      hex(link.OpacityMicromapArray), "; its address must be a multiple of 128");
+  }
+  if (bytes == 0 && link.OpacityMicromapArray == 0) {
+    return make_error(Id::kMicromapLinkage, where,
+                      ": without micromap indices there must be a micromap array");
+  }
+  return {};
 }
 
 const RaytracingGeometryDesc* geometry_at(const BuildRaytracingAccelerationStructureInputs& inputs,
@@ -144,20 +215,19 @@ Status check_geometries(const DeviceImpl& device,
                       ", but the pointer to the geometry descs is null");
   }
   uint64_t primitives = 0;
-  RaytracingGeometryType type = RaytracingGeometryType::kTriangles;
+  bool procedural = false;
   for (uint32_t i = 0; i < inputs.NumDescs; ++i) {
     const RaytracingGeometryDesc* g = geometry_at(inputs, i);
     if (!g) return make_error(Id::kGeometryDescsNull, geometry_text(i), " is a null pointer");
-    if (g->Type > RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+    if (g->Type > RaytracingGeometryType::kOmmTriangles) {
       return make_error(Id::kBuildInputs, geometry_text(i), " has type ",
-                        static_cast<uint32_t>(g->Type), "; it must be 0 or 1");
+                        static_cast<uint32_t>(g->Type), "; it must be 0 to 2");
     }
-    if (i == 0) type = g->Type;
-    if (g->Type != type) {
+    if (i == 0) procedural = is_procedural(*g);
+    if (is_procedural(*g) != procedural) {
       return make_error(Id::kGeometryMixed, geometry_text(i), " holds ",
-                        type == RaytracingGeometryType::kTriangles
-                            ? "AABBs but geometry 0 holds triangles"
-                            : "triangles but geometry 0 holds AABBs",
+                        procedural ? "triangles but geometry 0 holds AABBs"
+                                   : "AABBs but geometry 0 holds triangles",
                         "; all geometries of a bottom level must be of one kind");
     }
     const auto known =
@@ -166,9 +236,11 @@ Status check_geometries(const DeviceImpl& device,
       return make_error(Id::kBuildInputs, geometry_text(i), " has undefined flags ",
                         hex(static_cast<uint32_t>(g->Flags)));
     }
-    Status s = type == RaytracingGeometryType::kTriangles
-                   ? check_triangles(device, g->Triangles, i, purpose)
-                   : check_aabbs(g->AABBs, i, purpose);
+    if (g->Type == RaytracingGeometryType::kOmmTriangles) {
+      if (Status s = check_linkage(device, g->OmmTriangles, i, purpose); !s.ok()) return s;
+    }
+    Status s = procedural ? check_aabbs(g->AABBs, i, purpose)
+                          : check_triangles(device, triangles_of(*g), i, purpose);
     if (!s.ok()) return s;
     const uint64_t count = primitive_count(*g);
     primitives = std::min(primitives, UINT64_MAX - count) + count;
@@ -225,6 +297,39 @@ Status check_geometry_memory(const DeviceImpl& device, const RaytracingGeometryD
   return check_live(device, t.Transform3x4, 48, where + " Transform3x4");
 }
 
+Status check_linkage_memory(const DeviceImpl& device, const runtime::BuildCommand& command,
+                            size_t index) {
+  if (command.linkages.empty() || !command.linkages[index]) return {};
+  const auto& link = *command.linkages[index];
+  const uint32_t bytes = micromap_index_bytes(link.OpacityMicromapIndexFormat);
+  const auto& buffer = link.OpacityMicromapIndexBuffer;
+  const uint64_t count = bytes == 0 ? 0 : primitive_count(command.geometries[index]);
+  Status s =
+      check_live(device, buffer.StartAddress, extent_bytes(count, buffer.StrideInBytes, bytes),
+                 geometry_text(index) + " micromap indices");
+  if (!s.ok() || link.OpacityMicromapArray == 0) return s;
+  return check_structure_address(device, link.OpacityMicromapArray,
+                                 geometry_text(index) + " micromap array",
+                                 kRaytracingOpacityMicromapArrayByteAlignment);
+}
+
+Status check_micromap_memory(const DeviceImpl& device, const runtime::MicromapInputs& inputs) {
+  uint64_t count = 0;
+  uint64_t smallest = 0;
+  for (const auto& entry : inputs.histogram) {
+    if (entry.Count == 0) continue;
+    count += entry.Count;
+    const auto format = static_cast<runtime::MicromapFormat>(entry.Format);
+    smallest = std::max(smallest, runtime::micromap_bytes(entry.SubdivisionLevel, format));
+  }
+  Status s = check_live(device, inputs.input_buffer, smallest, "micromap input buffer");
+  if (!s.ok()) return s;
+  return check_live(
+      device, inputs.descs.StartAddress,
+      extent_bytes(count, inputs.descs.StrideInBytes, sizeof(RaytracingOpacityMicromapDesc)),
+      "micromap descs");
+}
+
 Status check_instance_memory(const DeviceImpl& device,
                              const BuildRaytracingAccelerationStructureInputs& inputs) {
   const bool array = inputs.DescsLayout == ElementsLayout::kArray;
@@ -256,26 +361,95 @@ Status check_scratch(const DeviceImpl& device, const BuildRaytracingAcceleration
   return check_live(device, scratch, bytes, "scratch");
 }
 
+Status check_micromap_array(const DeviceImpl& device,
+                            const BuildRaytracingAccelerationStructureInputs& inputs,
+                            Purpose purpose) {
+  if (Status s = check_has_micromaps(device, "a micromap array"); !s.ok()) return s;
+  if (inputs.NumDescs != 1 || inputs.DescsLayout != ElementsLayout::kArray) {
+    return make_error(Id::kMicromapArray, "NumDescs is ", inputs.NumDescs, " and DescsLayout ",
+                      static_cast<uint32_t>(inputs.DescsLayout),
+                      "; a micromap array has one desc, and layout kArray");
+  }
+  constexpr BuildFlags kAllowed =
+      BuildFlags::kAllowCompaction | BuildFlags::kPreferFastTrace | BuildFlags::kPreferFastBuild;
+  if ((inputs.Flags & ~kAllowed) != BuildFlags::kNone) {
+    return make_error(Id::kMicromapArray, "Flags are ", hex(static_cast<uint32_t>(inputs.Flags)),
+                      "; micromap arrays take kAllowCompaction, kPreferFastTrace and "
+                      "kPreferFastBuild only");
+  }
+  const RaytracingOpacityMicromapArrayDesc* desc = inputs.pOpacityMicromapArrayDesc;
+  if (desc == nullptr || (desc->NumOmmHistogramEntries != 0 && desc->pOmmHistogram == nullptr)) {
+    return make_error(Id::kMicromapArray,
+                      desc == nullptr ? "pOpacityMicromapArrayDesc" : "pOmmHistogram", " is null");
+  }
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < desc->NumOmmHistogramEntries; ++i) {
+    const RaytracingOpacityMicromapHistogramEntry& entry = desc->pOmmHistogram[i];
+    if (entry.SubdivisionLevel > kRaytracingOpacityMicromapMaxSubdivisionLevel ||
+        (entry.Format != RaytracingOpacityMicromapFormat::kOc1_2State &&
+         entry.Format != RaytracingOpacityMicromapFormat::kOc1_4State)) {
+      return make_error(Id::kMicromapArray, "histogram entry ", i, " has subdivision level ",
+                        entry.SubdivisionLevel, " and format ", static_cast<uint32_t>(entry.Format),
+                        "; levels are 0 to 12, formats 1 and 2");
+    }
+    count += entry.Count;
+  }
+  if (count > kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
+    return make_error(Id::kGeometryLimits, count, " micromaps; at most 2^29 are allowed");
+  }
+  if (purpose == Purpose::kSize) return {};
+  if (desc->InputBuffer % kRaytracingOpacityMicromapArrayByteAlignment != 0) {
+    return make_error(Id::kMicromapArray, "InputBuffer is at ",
+                      device.describe_address(desc->InputBuffer),
+                      "; its address must be a multiple of 128");
+  }
+  if (desc->PerOmmDescs.StartAddress % 4 != 0 || desc->PerOmmDescs.StrideInBytes % 4 != 0) {
+    return make_error(Id::kMicromapArray, "PerOmmDescs are at ",
+                      device.describe_address(desc->PerOmmDescs.StartAddress), " with stride ",
+                      desc->PerOmmDescs.StrideInBytes, "; both must be multiples of 4");
+  }
+  return {};
+}
+
+Status check_build_flags(const DeviceImpl& device, BuildFlags flags) {
+  constexpr BuildFlags kMicromapFlags =
+      BuildFlags::kAllowOmmLinkageUpdate | BuildFlags::kAllowDisableOmms;
+  if (HasAny(flags, kMicromapFlags)) {
+    const std::string what =
+        concat("build flag ", hex(static_cast<uint32_t>(flags & kMicromapFlags)));
+    if (Status s = check_has_micromaps(device, what); !s.ok()) return s;
+  }
+  if (HasAny(flags, BuildFlags::kAllowOmmLinkageUpdate) &&
+      !HasAny(flags, BuildFlags::kAllowUpdate)) {
+    return make_error(Id::kMicromapLinkage, "kAllowOmmLinkageUpdate needs kAllowUpdate");
+  }
+  return {};
+}
+
 Status check_inputs(const DeviceImpl& device,
                     const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (Status s = check_has_raytracing(device, "an acceleration structure"); !s.ok()) return s;
-  if (inputs.Type > StructureType::kBottomLevel) {
+  if (inputs.Type > StructureType::kOpacityMicromapArray) {
     return make_error(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
-                      "; it must be kTopLevel (0) or kBottomLevel (1)");
+                      "; it must be kTopLevel (0), kBottomLevel (1) or kOpacityMicromapArray (2)");
   }
   if (inputs.DescsLayout > ElementsLayout::kArrayOfPointers) {
     return make_error(Id::kBuildInputs, "DescsLayout is ",
                       static_cast<uint32_t>(inputs.DescsLayout), "; it must be 0 or 1");
   }
-  if (static_cast<uint32_t>(inputs.Flags) & ~0x3Fu) {
+  if (static_cast<uint32_t>(inputs.Flags) & ~0xFFu) {
     return make_error(Id::kBuildInputs, "Flags are ", hex(static_cast<uint32_t>(inputs.Flags)),
-                      "; only the bits of 0x3f are defined");
+                      "; only the bits of 0xff are defined");
   }
   if (HasAny(inputs.Flags, BuildFlags::kPreferFastTrace) &&
       HasAny(inputs.Flags, BuildFlags::kPreferFastBuild)) {
     return make_error(Id::kBuildFlagsExclusive,
                       "kPreferFastTrace and kPreferFastBuild are both set");
   }
+  if (inputs.Type == StructureType::kOpacityMicromapArray) {
+    return check_micromap_array(device, inputs, purpose);
+  }
+  if (Status s = check_build_flags(device, inputs.Flags); !s.ok()) return s;
   if (inputs.Type == StructureType::kBottomLevel) return check_geometries(device, inputs, purpose);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
     return make_error(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
@@ -290,21 +464,45 @@ Status check_build_inputs(const DeviceImpl& device,
   return check_inputs(device, inputs, Purpose::kBuild);
 }
 
-std::vector<RaytracingGeometryDesc> copy_geometry_descs(
-    const BuildRaytracingAccelerationStructureInputs& inputs) {
-  std::vector<RaytracingGeometryDesc> out;
-  if (inputs.Type != StructureType::kBottomLevel) return out;
-  out.reserve(inputs.NumDescs);
-  for (uint32_t i = 0; i < inputs.NumDescs; ++i) out.push_back(*geometry_at(inputs, i));
-  return out;
+runtime::BuildCommand describe_build(const BuildRaytracingAccelerationStructureInputs& inputs) {
+  runtime::BuildCommand command;
+  command.type = inputs.Type;
+  command.flags = inputs.Flags;
+  if (inputs.Type == StructureType::kTopLevel) {
+    command.instance_count = inputs.NumDescs;
+    command.instance_layout = inputs.DescsLayout;
+    command.instance_descs = inputs.InstanceDescs;
+    return command;
+  }
+  if (inputs.Type == StructureType::kOpacityMicromapArray) {
+    const RaytracingOpacityMicromapArrayDesc& desc = *inputs.pOpacityMicromapArrayDesc;
+    command.micromaps.histogram.assign(desc.pOmmHistogram,
+                                       desc.pOmmHistogram + desc.NumOmmHistogramEntries);
+    command.micromaps.input_buffer = desc.InputBuffer;
+    command.micromaps.descs = desc.PerOmmDescs;
+    return command;
+  }
+  command.geometries.reserve(inputs.NumDescs);
+  for (uint32_t i = 0; i < inputs.NumDescs; ++i) {
+    RaytracingGeometryDesc geometry = *geometry_at(inputs, i);
+    if (geometry.Type == RaytracingGeometryType::kOmmTriangles) {
+      const RaytracingGeometryOmmTrianglesDesc linked = geometry.OmmTriangles;
+      command.linkages.resize(inputs.NumDescs);
+      command.linkages[i] = *linked.pOmmLinkage;
+      geometry.Type = RaytracingGeometryType::kTriangles;
+      geometry.Triangles = *linked.pTriangles;
+    }
+    command.geometries.push_back(geometry);
+  }
+  return command;
 }
 
 Status check_structure_address(const DeviceImpl& device, GpuVirtualAddress address,
-                               std::string_view what) {
-  if (address == 0 || address % kRaytracingAccelerationStructureByteAlignment != 0) {
+                               std::string_view what, uint32_t alignment) {
+  if (address == 0 || address % alignment != 0) {
     return make_error(Id::kAccelerationStructureAlignment, what, " is at ",
-                      device.describe_address(address),
-                      "; its address must be a multiple of 256 and not 0");
+                      device.describe_address(address), "; its address must be a multiple of ",
+                      alignment, " and not 0");
   }
   const auto allocation = device.addresses.find(address);
   if (!allocation) {
@@ -320,10 +518,13 @@ Status check_structure_address(const DeviceImpl& device, GpuVirtualAddress addre
 
 Status check_build_addresses(const DeviceImpl& device,
                              const BuildRaytracingAccelerationStructureDesc& desc,
-                             const std::vector<RaytracingGeometryDesc>& geometries) {
+                             const runtime::BuildCommand& command) {
   const auto& inputs = desc.Inputs;
   const bool update = HasAny(inputs.Flags, BuildFlags::kPerformUpdate);
-  Status s = check_structure_address(device, desc.DestAccelerationStructureData, "dest");
+  const bool micromaps = inputs.Type == StructureType::kOpacityMicromapArray;
+  Status s = check_structure_address(device, desc.DestAccelerationStructureData, "dest",
+                                     micromaps ? kRaytracingOpacityMicromapArrayByteAlignment
+                                               : kRaytracingAccelerationStructureByteAlignment);
   if (!s.ok()) return s;
   if (!update && desc.SourceAccelerationStructureData != 0) {
     return make_error(Id::kBuildUpdate, "source is ",
@@ -331,12 +532,11 @@ Status check_build_addresses(const DeviceImpl& device,
                       ", but it must be 0 without kPerformUpdate");
   }
   if (update) {
-    s = check_structure_address(device, desc.SourceAccelerationStructureData, "source");
+    s = check_structure_address(device, desc.SourceAccelerationStructureData, "source",
+                                kRaytracingAccelerationStructureByteAlignment);
     if (!s.ok()) return s;
   }
-  const bool top = inputs.Type == StructureType::kTopLevel;
-  const auto sizes = device.backend->prebuild_info(inputs.Type, inputs.Flags, geometries,
-                                                   top ? inputs.NumDescs : 0);
+  const auto sizes = device.backend->prebuild_info(command);
   // An update writes as much memory as its source holds. The source may have been compacted, so
   // only the backend knows how much that is.
   if (!update) {
@@ -347,10 +547,12 @@ Status check_build_addresses(const DeviceImpl& device,
   s = check_scratch(device, desc,
                     update ? sizes.UpdateScratchDataSizeInBytes : sizes.ScratchDataSizeInBytes);
   if (!s.ok()) return s;
-  for (size_t i = 0; i < geometries.size(); ++i) {
-    if (s = check_geometry_memory(device, geometries[i], i); !s.ok()) return s;
+  for (size_t i = 0; i < command.geometries.size(); ++i) {
+    if (s = check_geometry_memory(device, command.geometries[i], i); !s.ok()) return s;
+    if (s = check_linkage_memory(device, command, i); !s.ok()) return s;
   }
-  return top ? check_instance_memory(device, inputs) : Status();
+  if (micromaps) return check_micromap_memory(device, command.micromaps);
+  return inputs.Type == StructureType::kTopLevel ? check_instance_memory(device, inputs) : Status();
 }
 
 Status check_structure_bytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
@@ -414,9 +616,7 @@ Device::GetRaytracingAccelerationStructurePrebuildInfo(
                       "GetRaytracingAccelerationStructurePrebuildInfo "
                       "on an empty device handle");
   if (Status s = check_inputs(*impl_, inputs, Purpose::kSize); !s.ok()) return s.error();
-  const bool top = inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
-  return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, copy_geometry_descs(inputs),
-                                       top ? inputs.NumDescs : 0);
+  return impl_->backend->prebuild_info(describe_build(inputs));
 }
 
 }  // namespace rtapi

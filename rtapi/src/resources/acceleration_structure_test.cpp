@@ -90,8 +90,8 @@ TEST_F(BuildTest, AS_01_OneKindOfGeometry) {
   desc_.Inputs.NumDescs = 2;
   desc_.Inputs.pGeometryDescs = two;
   EXPECT_ERROR(Build(), "KA0702", "geometry 1");
-  two[1].Type = static_cast<RaytracingGeometryType>(2);
-  EXPECT_ERROR(Build(), "KA0700", "type 2");
+  two[1].Type = static_cast<RaytracingGeometryType>(3);
+  EXPECT_ERROR(Build(), "KA0700", "type 3");
 }
 
 TEST_F(BuildTest, OneCallBuildsAndSaysWhatIsWrong) {
@@ -301,11 +301,128 @@ TEST_F(BuildTest, AS_50_FlagCombinations) {
       EXPECT_OK(Build());
     }
   }
-  desc_.Inputs.Flags = static_cast<Flags>(0x40);
-  EXPECT_ERROR(Build(), "KA0700", "0x40");
+  desc_.Inputs.Flags = static_cast<Flags>(0x100);
+  EXPECT_ERROR(Build(), "KA0700", "0x100");
   desc_.Inputs.Flags = Flags::kNone;
-  desc_.Inputs.Type = static_cast<Type>(2);
-  EXPECT_ERROR(Build(), "KA0700", "Type is 2");
+  desc_.Inputs.Type = static_cast<Type>(3);
+  EXPECT_ERROR(Build(), "KA0700", "Type is 3");
+}
+
+// Triangles that are linked to a micromap array.
+class LinkedBuildTest : public BuildTest {
+ protected:
+  LinkedBuildTest() {
+    linkage_.OpacityMicromapArray = array_.GetGPUVirtualAddress();
+    geometry_.Type = RaytracingGeometryType::kOmmTriangles;
+    geometry_.OmmTriangles = {&triangles_, &linkage_};
+  }
+
+  Buffer array_ = Structure(4096);
+  RaytracingGeometryTrianglesDesc triangles_ = geometry_.Triangles;
+  RaytracingGeometryOmmLinkageDesc linkage_;
+};
+
+TEST_F(LinkedBuildTest, OMM_14_LinkedTrianglesAreTriangles) {
+  EXPECT_OK(Build());
+  triangles_.VertexFormat = Format::kR8Uint;
+  EXPECT_ERROR(Build(), "KA0703", "geometry 0");
+  geometry_.OmmTriangles.pTriangles = nullptr;
+  EXPECT_ERROR(Build(), "KA0747", "pTriangles is null");
+  geometry_.OmmTriangles = {&triangles_, nullptr};
+  EXPECT_ERROR(Build(), "KA0747", "pOmmLinkage is null");
+}
+
+TEST_F(LinkedBuildTest, OMM_15_IndexFormats) {
+  const uint64_t input = input_.GetGPUVirtualAddress();
+  for (const auto& [format, bytes] :
+       {std::pair(Format::kR8Uint, 1u), {Format::kR16Uint, 2u}, {Format::kR32Uint, 4u}}) {
+    linkage_.OpacityMicromapIndexFormat = format;
+    linkage_.OpacityMicromapIndexBuffer = {input, 8};
+    EXPECT_OK(Build());
+    if (bytes == 1) continue;
+    linkage_.OpacityMicromapIndexBuffer = {input + 1, 8};
+    EXPECT_ERROR(Build(), "KA0747", "multiple of " + std::to_string(bytes));
+    linkage_.OpacityMicromapIndexBuffer = {input, 7};
+    EXPECT_ERROR(Build(), "KA0747", "stride 7");
+  }
+  linkage_.OpacityMicromapIndexBuffer = {input, 1 << 20};
+  EXPECT_ERROR(Build(), "KA0719", "geometry 0 micromap indices");
+  linkage_.OpacityMicromapIndexFormat = Format::kR8G8Uint;
+  EXPECT_ERROR(Build(), "KA0747", "index format");
+  linkage_ = {};
+  EXPECT_ERROR(Build(), "KA0747", "there must be a micromap array");
+  linkage_.OpacityMicromapArray = array_.GetGPUVirtualAddress() + 64;
+  EXPECT_ERROR(Build(), "KA0747", "multiple of 128");
+  linkage_.OpacityMicromapArray = input & ~127ull;
+  EXPECT_ERROR(Build(), "KA0713", "micromap array");
+}
+
+TEST_F(LinkedBuildTest, OMM_22_LinkageUpdatesGoWithUpdates) {
+  desc_.Inputs.Flags = Flags::kAllowOmmLinkageUpdate;
+  EXPECT_ERROR(Build(), "KA0747", "needs kAllowUpdate");
+  desc_.Inputs.Flags = Flags::kAllowOmmUpdate | Flags::kAllowUpdate | Flags::kAllowDisableOmms;
+  EXPECT_OK(Build());
+}
+
+TEST_F(BuildTest, OMM_01_MicromapArrays) {
+  const RaytracingOpacityMicromapHistogramEntry entries[] = {
+      {3, 0, RaytracingOpacityMicromapFormat::kOc1_2State},
+      {2, 3, RaytracingOpacityMicromapFormat::kOc1_4State}};
+  RaytracingOpacityMicromapArrayDesc array = {
+      2, entries, input_.GetGPUVirtualAddress(), {input_.GetGPUVirtualAddress() + 1024, 8}};
+  desc_.Inputs = {};
+  desc_.Inputs.Type = Type::kOpacityMicromapArray;
+  desc_.Inputs.NumDescs = 1;
+  desc_.Inputs.pOpacityMicromapArrayDesc = &array;
+  EXPECT_OK(Build());
+  desc_.DestAccelerationStructureData += 128;
+  EXPECT_OK(Build());
+  desc_.DestAccelerationStructureData += 64;
+  EXPECT_ERROR(Build(), "KA0711", "multiple of 128");
+  desc_.DestAccelerationStructureData -= 64;
+  desc_.Inputs.NumDescs = 2;
+  EXPECT_ERROR(Build(), "KA0746", "NumDescs is 2");
+  desc_.Inputs.NumDescs = 1;
+  desc_.Inputs.DescsLayout = ElementsLayout::kArrayOfPointers;
+  EXPECT_ERROR(Build(), "KA0746", "DescsLayout 1");
+  desc_.Inputs.DescsLayout = ElementsLayout::kArray;
+  for (const Flags flags : {Flags::kAllowUpdate, Flags::kMinimizeMemory, Flags::kAllowOmmUpdate,
+                            Flags::kAllowDisableOmms}) {
+    desc_.Inputs.Flags = flags;
+    EXPECT_ERROR(Build(), "KA0746", "Flags are");
+  }
+  desc_.Inputs.Flags = Flags::kAllowCompaction | Flags::kPreferFastTrace;
+  EXPECT_OK(Build());
+  array.InputBuffer += 64;
+  EXPECT_ERROR(Build(), "KA0746", "InputBuffer");
+  array.InputBuffer -= 64;
+  array.PerOmmDescs.StrideInBytes = 10;
+  EXPECT_ERROR(Build(), "KA0746", "PerOmmDescs");
+  array.PerOmmDescs.StrideInBytes = 4096;
+  EXPECT_ERROR(Build(), "KA0719", "micromap descs");
+  const RaytracingOpacityMicromapHistogramEntry deep = {
+      1, 13, RaytracingOpacityMicromapFormat::kOc1_2State};
+  array = {1, &deep, array.InputBuffer, {array.InputBuffer + 1024, 8}};
+  EXPECT_ERROR(Build(), "KA0746", "subdivision level 13");
+  array.pOmmHistogram = nullptr;
+  EXPECT_ERROR(Build(), "KA0746", "pOmmHistogram is null");
+}
+
+TEST_F(BuildTest, TIER_01_MicromapsNeedTier12) {
+  const Device old = CreateNullDevice({.Tier = RaytracingTier::kTier1_1});
+  BuildRaytracingAccelerationStructureInputs inputs = desc_.Inputs;
+  const auto size = [&] { return old.GetRaytracingAccelerationStructurePrebuildInfo(inputs); };
+  EXPECT_OK(size());
+  inputs.Flags = Flags::kAllowDisableOmms;
+  EXPECT_ERROR(size(), "KA0546", "build flag 0x80", "tier 1.1");
+  inputs.Flags = Flags::kNone;
+  const RaytracingGeometryTrianglesDesc triangles = geometry_.Triangles;
+  const RaytracingGeometryOmmLinkageDesc linkage = {};
+  geometry_.Type = RaytracingGeometryType::kOmmTriangles;
+  geometry_.OmmTriangles = {&triangles, &linkage};
+  EXPECT_ERROR(size(), "KA0546", "geometry 0 of type 2");
+  inputs.Type = Type::kOpacityMicromapArray;
+  EXPECT_ERROR(size(), "KA0546", "a micromap array");
 }
 
 TEST_F(BuildTest, AS_52_SourceGoesWithPerformUpdate) {
@@ -358,7 +475,7 @@ TEST_F(BuildTest, AS_70_Copies) {
   };
   EXPECT_OK(copy(source + 1024, source, Mode::kCompact));
   EXPECT_ERROR(copy(source, source, Mode::kClone), "KA0716", "overlap");
-  EXPECT_ERROR(copy(source + 128, source, Mode::kClone), "KA0711", "dest");
+  EXPECT_ERROR(copy(source + 64, source, Mode::kClone), "KA0711", "dest");
   EXPECT_ERROR(copy(source, 0, Mode::kClone), "KA0711", "source");
   EXPECT_ERROR(copy(source, 0x100000, Mode::kClone), "KA0712");
   EXPECT_ERROR(copy(source + 1024, source, static_cast<Mode>(9)), "KA0716", "undefined");

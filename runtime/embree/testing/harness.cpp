@@ -362,7 +362,7 @@ runtime::BuildCommand Harness::bottom_level_command(const std::vector<GeometryIn
   command.type = Type::kBottomLevel;
   command.flags = flags;
   for (const GeometryInput& input : geometries) command.geometries.push_back(geometry(input));
-  const auto info = device_->prebuild_info(command.type, flags, command.geometries, 0);
+  const auto info = device_->prebuild_info(command);
   command.dest = buffer(info.ResultDataMaxSizeInBytes)->address();
   command.scratch = buffer(info.ScratchDataSizeInBytes)->address();
   return command;
@@ -374,7 +374,7 @@ runtime::BuildCommand Harness::top_level_command(
   command.type = Type::kTopLevel;
   command.instance_count = static_cast<uint32_t>(instances.size());
   command.instance_descs = upload(instances);
-  const auto info = device_->prebuild_info(command.type, command.flags, {}, command.instance_count);
+  const auto info = device_->prebuild_info(command);
   command.dest = buffer(info.ResultDataMaxSizeInBytes)->address();
   return command;
 }

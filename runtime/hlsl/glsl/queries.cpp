@@ -118,7 +118,7 @@ std::string GlslEmitter::query_trace_function() {
                                       origin + ", " + t_min + ", " + direction + ", " + t_max +
                                       ", flags, true, site);\n"
                                 : std::string(") {\n")) +
-          "  s = g_Query(5u, flags & 0x3FFu, " + t_min + ", " + t_max + ", " + origin + ", " +
+          "  s = g_Query(5u, flags & 0x7FFu, " + t_min + ", " + t_max + ", " + origin + ", " +
           direction +
           ");\n"
           "  uint64_t top = g_top_level(scene);\n"
@@ -131,7 +131,7 @@ std::string GlslEmitter::query_trace_function() {
           "    top = k_dispatch.empty_top_level;\n"
           "    o = vec3(0.0);\n    d = vec3(0.0, 0.0, 1.0);\n    t0 = 0.0;\n    t1 = 1.0;\n"
           "  }\n"
-          "  rayQueryInitializeEXT(q, accelerationStructureEXT(top), flags & 0x3FFu, "
+          "  rayQueryInitializeEXT(q, accelerationStructureEXT(top), flags & 0x7FFu, "
           "mask & 0xFFu, o, max(t0, 0.0), d, t1);\n"
           "}\n");
 }

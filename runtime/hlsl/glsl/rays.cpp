@@ -270,7 +270,7 @@ std::string GlslEmitter::trace_function(const Type* payload) {
       "  " +
       out + ".data = " + to +
       "(payload);\n"
-      "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x3FFu, "
+      "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x7FFu, "
       "mask & 0xFFu, "
       "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
       member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number + ");\n" +

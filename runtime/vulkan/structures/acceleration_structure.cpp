@@ -34,10 +34,8 @@ class Structures final : public AccelerationStructures {
   rtapi::Status start(Memory& memory);
 
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
-      std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      uint32_t instance_count) const override {
-    return runtime::estimate_sizes(type, flags, geometries, instance_count);
+      const runtime::BuildCommand& inputs) const override {
+    return runtime::estimate_sizes(inputs);
   }
   rtapi::Status build(CommandStream& stream, const runtime::BuildCommand& command) override;
   rtapi::Status copy(CommandStream& stream,

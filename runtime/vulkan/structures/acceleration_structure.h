@@ -35,9 +35,7 @@ class AccelerationStructures {
   virtual ~AccelerationStructures() = default;
 
   virtual rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      rtapi::RaytracingAccelerationStructureType type,
-      rtapi::RaytracingAccelerationStructureBuildFlags flags,
-      std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const = 0;
+      const runtime::BuildCommand& inputs) const = 0;
 
   // Commands. Each flushes the stream before it reads GPU memory. Errors remove the device; ids and
   // texts are the same as in the Embree backend.

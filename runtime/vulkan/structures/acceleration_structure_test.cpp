@@ -312,12 +312,11 @@ TEST(VulkanScene, SizesGrowWithEveryCount) {
   const auto size = [&](uint32_t vertices, size_t geometries, uint32_t instances) {
     rtapi::RaytracingGeometryDesc desc;
     desc.Triangles.VertexCount = vertices;
-    const std::vector<rtapi::RaytracingGeometryDesc> descs(geometries, desc);
-    return h.structures()
-        .prebuild_info(instances == 0 ? rtapi::RaytracingAccelerationStructureType::kBottomLevel
-                                      : rtapi::RaytracingAccelerationStructureType::kTopLevel,
-                       Flags::kNone, descs, instances)
-        .ResultDataMaxSizeInBytes;
+    runtime::BuildCommand inputs;
+    if (instances == 0) inputs.type = rtapi::RaytracingAccelerationStructureType::kBottomLevel;
+    inputs.geometries.assign(geometries, desc);
+    inputs.instance_count = instances;
+    return h.structures().prebuild_info(inputs).ResultDataMaxSizeInBytes;
   };
   EXPECT_LT(size(300, 1, 0), size(600, 1, 0));
   EXPECT_LT(size(300, 1, 0), size(300, 2, 0));

@@ -92,7 +92,7 @@ runtime::BuildCommand SceneHarness::bottom_level_command(
   command.type = Type::kBottomLevel;
   command.flags = flags;
   for (const GeometryInput& input : geometries) command.geometries.push_back(geometry(input));
-  const auto info = structures_->prebuild_info(command.type, flags, command.geometries, 0);
+  const auto info = structures_->prebuild_info(command);
   command.dest = buffer(info.ResultDataMaxSizeInBytes)->address();
   return command;
 }
@@ -103,8 +103,7 @@ runtime::BuildCommand SceneHarness::top_level_command(
   command.type = Type::kTopLevel;
   command.instance_count = static_cast<uint32_t>(instances.size());
   command.instance_descs = upload(instances);
-  const auto info =
-      structures_->prebuild_info(command.type, command.flags, {}, command.instance_count);
+  const auto info = structures_->prebuild_info(command);
   command.dest = buffer(info.ResultDataMaxSizeInBytes)->address();
   return command;
 }

@@ -14,7 +14,7 @@ namespace kaamos::hlsl {
 namespace {
 
 constexpr uint32_t kStages = ir::kStageRayGeneration | ir::kStageClosestHit | ir::kStageMiss;
-constexpr uint32_t kDefinedRayFlags = 0x3FF;
+constexpr uint32_t kDefinedRayFlags = 0x7FF;
 constexpr uint32_t kHitRecordBits = 0xFFFFFFF;
 constexpr uint32_t kMissRecordBits = 0xFFFF;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/names/resolver.h"
 
+#include "kaamos/shader/micromaps.h"
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/names/name_parts.h"
 #include "runtime/hlsl/ir/builtin_types.h"
@@ -442,7 +443,8 @@ const Type* Resolver::resolve_ray_query(const NamePart& part, Scope* scope) {
     report(CheckId::kRayQueryMicromaps, arguments[0].location);
     return types_.error();
   }
-  return types_.ray_query(static_cast<uint32_t>(*flags));
+  const uint32_t allowed = allows_micromaps ? shader::kRayQueryAllowsMicromaps : 0;
+  return types_.ray_query(static_cast<uint32_t>(*flags) | allowed);
 }
 
 // The scope that is named before a `::`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/names/templates.h"
 
+#include "kaamos/shader/micromaps.h"
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/names/name_parts.h"
 #include "runtime/hlsl/ir/builtin_types.h"
@@ -228,7 +229,7 @@ bool Templates::deduce(const TypeSyntax* syntax, const Type* type,
     return deduce_type(0, types_.scalar(type->scalar));
   }
   if (type->is_query() && part.identifier == resource_name(type->resource)) {
-    deduce_number(0, type->ray_query_flags);
+    deduce_number(0, type->ray_query_flags & ~shader::kRayQueryAllowsMicromaps);
     return true;
   }
   if (type->is_resource() && part.identifier == resource_name(type->resource)) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kaamos/shader/micromaps.h"
 #include "runtime/hlsl/ir/builtin_types.h"
 
 namespace kaamos::hlsl {
@@ -233,7 +234,11 @@ std::string to_string(const Type* type) {
     }
     case TypeKind::kResource: {
       std::string text(resource_name(type->resource));
-      if (type->is_query()) text += "<" + std::to_string(type->ray_query_flags) + ">";
+      if (type->is_query()) {
+        const uint32_t flags = type->ray_query_flags;
+        text += "<" + std::to_string(flags & ~shader::kRayQueryAllowsMicromaps);
+        text += (flags & shader::kRayQueryAllowsMicromaps) != 0 ? ", 1>" : ">";
+      }
       if (type->element && type->resource != ir::ResourceKind::kByteAddressBuffer &&
           type->resource != ir::ResourceKind::kRWByteAddressBuffer) {
         text += "<" + to_string(type->element) + ">";

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+//
+// Opacity micromaps while rays are traced.
+#include "tests/conformance/omm.h"
+
+#include <shaders/omm.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/conformance/compile.h"
+#include "tests/conformance/rq.h"
+
+namespace kaamos::conformance {
+
+using namespace rtapi;
+
+namespace {
+
+using MicromapFormat = RaytracingOpacityMicromapFormat;
+constexpr auto kTwoStates = MicromapFormat::kOc1_2State;
+constexpr auto kFourStates = MicromapFormat::kOc1_4State;
+constexpr auto kOpaque = RaytracingGeometryFlags::kOpaque;
+constexpr auto kNonOpaque = RaytracingGeometryFlags::kNone;
+
+constexpr uint32_t kForceTwoStates = 0x400;
+enum InstanceBits : uint32_t { kOpaqueHere = 4, kNonOpaqueHere = 8, kTwoHere = 16, kDisabled = 32 };
+
+// What a ray finds of a micro-triangle, by the text of the rules.
+Found outcome(uint32_t state, bool geometry_opaque, uint32_t instance_flags, uint32_t ray_flags) {
+  bool opaque = geometry_opaque;
+  if ((instance_flags & kDisabled) == 0) {
+    const bool two = (instance_flags & kTwoHere) != 0 || (ray_flags & kForceTwoStates) != 0;
+    if (two) state &= 1;
+    if (state == 0) return kFoundNothing;
+    opaque = state == 1;
+  }
+  if ((instance_flags & kOpaqueHere) != 0) opaque = true;
+  if ((instance_flags & kNonOpaqueHere) != 0) opaque = false;
+  if ((ray_flags & (opaque ? kCullOpaque : kCullNonOpaque)) != 0) return kFoundNothing;
+  if ((ray_flags & kForceOpaque) != 0) opaque = true;
+  if ((ray_flags & kForceNonOpaque) != 0) opaque = false;
+  return opaque ? kFoundOpaque : kFoundByAnyHit;
+}
+
+// Triangles 0 to 3 have the special indices -1 to -4, the others micromaps 6 to 9.
+struct Table {
+  std::vector<Micromap> micromaps;
+  std::vector<int32_t> indices = {-1, -2, -3, -4, 0, 1, 2, 3};
+
+  Table(uint32_t level, MicromapFormat format) {
+    for (uint32_t i = 0; i < 10; ++i) micromaps.push_back(pattern(level, format, i));
+  }
+  uint32_t state(uint32_t triangle, uint32_t micro_triangle) const {
+    if (triangle < 4) return triangle;
+    return micromaps[6 + indices[triangle]].states[micro_triangle];
+  }
+};
+
+void all_states_with_all_flags(Context& t) {
+  const uint32_t instance_flags[] = {0, 4, 8, 0x10, 0x14, 0x18, 0x20, 0x24, 0x28, 0x30, 0x34, 0x38};
+  const uint32_t ray_flags[] = {0, 1, 2, 0x400, 0x401, 0x402, 0x40, 0x80, 0x440, 0x480};
+  for (const auto& [level, format, index_format] :
+       {std::tuple(0u, kTwoStates, Format::kR8Uint), std::tuple(0u, kFourStates, Format::kR16Uint),
+        std::tuple(2u, kFourStates, Format::kR8Uint), std::tuple(3u, kTwoStates, Format::kR32Uint),
+        std::tuple(3u, kFourStates, Format::kR32Uint),
+        std::tuple(5u, kFourStates, Format::kR16Uint)}) {
+    const Table table(level, format);
+    const Buffer array = array_of(t, table.micromaps);
+    const Buffer indices = indices_of(t, table.indices, index_format, 4);
+    for (const bool opaque : {false, true}) {
+      LinkedInputs linked(BuildFlags::kAllowDisableOmms);
+      linked.add(t, row_of_triangles(8, opaque ? kOpaque : kNonOpaque),
+                 linkage_of(array, indices, index_format, 4, 6));
+      const Buffer bottom = build_new(t, linked.inputs);
+      std::vector<RaytracingInstanceDesc> instances;
+      for (size_t i = 0; i < std::size(instance_flags); ++i) {
+        instances.push_back(instance(bottom, 0, 0, instance_flags[i]));
+        instances.back().Transform[1][3] = 4.0f * static_cast<float>(i);
+      }
+      struct Expected {
+        Found found;
+        uint32_t triangle, micro, instance_flags, ray_flags;
+      };
+      std::vector<Ray> rays;
+      std::vector<Expected> expected;
+      const uint32_t step = level < 3 ? 1 : level == 3 ? 7 : 101;
+      for (uint32_t triangle = 0; triangle < 8; ++triangle) {
+        for (uint32_t k = 0; k < 1u << 2 * level; k += step) {
+          for (size_t i = 0; i < std::size(instance_flags); ++i) {
+            for (const uint32_t flags : ray_flags) {
+              const auto [u, v] = middle_of(level, k);
+              rays.push_back(ray_in(triangle, u, v, 4.0 * static_cast<double>(i)));
+              rays.back().flags = flags;
+              expected.push_back(
+                  {outcome(table.state(triangle, k), opaque, instance_flags[i], flags), triangle, k,
+                   instance_flags[i], flags});
+            }
+          }
+        }
+      }
+      MicromapProgram program(t);
+      program.word_bytes = std::max<uint64_t>(kWordBytes, 64 * rays.size());
+      program.scene = t.top_level(instances);
+      const auto seen = program.trace(rays);
+      uint32_t wrong = 0;
+      for (size_t i = 0; i < seen.size(); ++i) {
+        const Found found = found_by(seen[i]);
+        if (found == expected[i].found || ++wrong > 3) continue;
+        const Expected& e = expected[i];
+        t.fail("level " + std::to_string(level) + ", triangle " + std::to_string(e.triangle) +
+               ", micro-triangle " + std::to_string(e.micro) + ", geometry " +
+               (opaque ? "opaque" : "not opaque") + ", instance flags " +
+               std::to_string(e.instance_flags) + ", ray flags " + std::to_string(e.ray_flags) +
+               ": found " + std::to_string(found) + ", expected " + std::to_string(e.found));
+      }
+    }
+  }
+}
+
+// A bottom level of one triangle with a special index.
+Buffer special(Context& t, int32_t index, RaytracingGeometryFlags flags = kNonOpaque) {
+  LinkedInputs linked;
+  linked.add(t, row_of_triangles(1, flags),
+             linkage_of({}, indices_of(t, {index}, Format::kR32Uint, 4), Format::kR32Uint, 4));
+  return build_new(t, linked.inputs);
+}
+
+void the_order_of_micro_triangles(Context& t) {
+  // Level 2, by cell (u, v) and half of it: 00u 00d 10u 01u 01d 11u 11d 10d 20u 20d 30u 21u ...
+  const Barycentrics points[] = {{0.08, 0.08}, {0.16, 0.16}, {0.33, 0.08}, {0.08, 0.33},
+                                 {0.16, 0.41}, {0.33, 0.33}, {0.41, 0.41}, {0.41, 0.16},
+                                 {0.58, 0.08}, {0.66, 0.16}, {0.83, 0.08}, {0.58, 0.33},
+                                 {0.33, 0.58}, {0.16, 0.66}, {0.08, 0.58}, {0.08, 0.83}};
+  for (uint32_t k = 0; k < 16; ++k) {
+    Micromap one = {2, kTwoStates, std::vector<uint32_t>(16)};
+    one.states[k] = 1;
+    LinkedInputs linked;
+    linked.add(t, row_of_triangles(1, kNonOpaque), linkage_of(array_of(t, {one})));
+    MicromapProgram program(t);
+    program.scene = t.top_level({instance(build_new(t, linked.inputs))});
+    std::vector<Ray> rays;
+    for (const auto& [u, v] : points) rays.push_back(ray_in(0, u, v));
+    const auto seen = program.trace(rays);
+    for (uint32_t i = 0; i < 16; ++i) {
+      const uint32_t expected = i == k ? kFoundOpaque : kFoundNothing;
+      t.equal("micro-triangle " + std::to_string(k) + ", place " + std::to_string(i),
+              static_cast<uint32_t>(found_by(seen[i])), expected);
+    }
+  }
+}
+
+void both_sides_show_the_same(Context& t) {
+  const Micromap micromap = pattern(3, kFourStates, 3);
+  LinkedInputs linked;
+  linked.add(t, row_of_triangles(1, kNonOpaque), linkage_of(array_of(t, {micromap})));
+  const Buffer bottom = build_new(t, linked.inputs);
+  const auto expected = expected_of(micromap);
+  for (const uint32_t flags : {0u, 2u}) {  // TRIANGLE_FRONT_COUNTERCLOCKWISE
+    const Buffer top = t.top_level({instance(bottom, 0, 0, flags)});
+    for (const bool behind : {false, true}) {
+      std::vector<Ray> rays;
+      for (uint32_t k = 0; k < 64; ++k) {
+        const auto [u, v] = middle_of(3, k);
+        rays.push_back(ray_in(0, u, v));
+        if (!behind) continue;
+        rays.back().origin[2] = 10;
+        rays.back().direction[2] = -1;
+      }
+      MicromapProgram program(t);
+      program.scene = top;
+      const auto seen = program.trace(rays);
+      for (uint32_t k = 0; k < 64; ++k) {
+        t.equal("micro-triangle " + std::to_string(k), static_cast<uint32_t>(found_by(seen[k])),
+                static_cast<uint32_t>(expected[k]));
+      }
+    }
+  }
+}
+
+void without_permission_they_are_ignored(Context& t) {
+  MicromapProgram program(t, false);
+  const Buffer transparent = t.top_level({instance(special(t, -1))});
+  t.equal("transparent",
+          static_cast<uint32_t>(found_by(program.trace(transparent, ray_in(0, .2, .2)))),
+          static_cast<uint32_t>(kFoundByAnyHit));
+  const Buffer opaque = t.top_level({instance(special(t, -1, kOpaque))});
+  t.equal("transparent, geometry opaque",
+          static_cast<uint32_t>(found_by(program.trace(opaque, ray_in(0, .2, .2)))),
+          static_cast<uint32_t>(kFoundOpaque));
+}
+
+void queries(Context& t) {
+  const Micromap micromap = pattern(3, kFourStates, 5);
+  LinkedInputs linked;
+  linked.add(t, row_of_triangles(1, kOpaque), linkage_of(array_of(t, {micromap})));
+  std::vector<Ray> rays;
+  for (uint32_t i = 0; i < 64 * 4; ++i) {
+    const auto [u, v] = middle_of(3, i % 64);
+    rays.push_back(ray_in(0, u, v));
+    rays.back().extra[0] = i < 192;
+    const uint32_t flags[] = {0, kForceTwoStates, kForceOpaque, 0};
+    rays.back().flags = flags[i / 64];
+  }
+  Program program(t, kaamos_shaders_omm());
+  program.raygen("AskOfMicromaps");
+  program.scene = t.top_level({instance(build_new(t, linked.inputs))});
+  program.rays = t.upload(rays);
+  const auto words = program.run(static_cast<uint32_t>(rays.size()));
+  for (uint32_t i = 0; i < rays.size(); ++i) {
+    const uint32_t state = micromap.states[i % 64];
+    const Found expected =
+        rays[i].extra[0] != 0 ? outcome(state, true, 0, rays[i].flags) : kFoundOpaque;
+    const std::string what = "query " + std::to_string(i);
+    t.equal(what + " status", words[4 * i], expected == kFoundNothing ? 0u : 1u);
+    t.equal(what + " candidates", words[4 * i + 1], expected == kFoundByAnyHit ? 1u : 0u);
+    t.equal(what + " flags", words[4 * i + 2], rays[i].flags);
+  }
+}
+
+void ray_flags_show_it(Context& t) {
+  MicromapProgram program(t);
+  Ray ray = ray_in(0, 0.2, 0.2);
+  ray.flags = kForceTwoStates;
+  const Seen seen = program.trace(t.top_level({instance(special(t, -4))}), ray);
+  t.equal("RayFlags()", seen.flags, uint32_t{kForceTwoStates});
+  t.equal("found", static_cast<uint32_t>(found_by(seen)), static_cast<uint32_t>(kFoundOpaque));
+}
+
+void what_the_compiler_refuses(Context& t) {
+  const auto query = [](const std::string& target, const std::string& arguments) {
+    return compile(shader_of("raygeneration", "RayQuery<" + arguments + "> query;"), target,
+                   target == "lib_6_9" ? std::optional(false) : std::nullopt);
+  };
+  t.accepted("both arguments", query("lib_6_9",
+                                     "RAY_FLAG_FORCE_OMM_2_STATE, "
+                                     "RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS"));
+  t.refused("the second argument in 6.8",
+            query("lib_6_8", "0, RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS"));
+  t.refused("the flag without permission", query("lib_6_9", "RAY_FLAG_FORCE_OMM_2_STATE"));
+}
+
+void system_values_are_the_triangles(Context& t) {
+  const Micromap micromap = {2, kTwoStates, std::vector<uint32_t>(16, 1)};
+  LinkedInputs linked;
+  linked.add_plain(t, row_of_triangles(1, kOpaque));
+  Geometry far = row_of_triangles(3, kNonOpaque);
+  for (size_t i = 1; i < far.vertices.size(); i += 3) far.vertices[i] += 8;
+  linked.add(t, far, linkage_of(array_of(t, {micromap, micromap, micromap})));
+  MicromapProgram program(t);
+  program.scene = t.top_level({instance(build_new(t, linked.inputs))});
+  std::vector<Ray> rays;
+  for (uint32_t k = 0; k < 16; ++k) {
+    const auto [u, v] = middle_of(2, k);
+    rays.push_back(ray_in(2, u, v, 8));
+  }
+  rays.push_back(ray_in(0, 0.3, 0.3));
+  const auto seen = program.trace(rays);
+  for (uint32_t k = 0; k < 16; ++k) {
+    const auto [u, v] = middle_of(2, k);
+    t.equal("geometry", seen[k].geometry, 1u);
+    t.equal("record", seen[k].record, 0u);
+    t.equal("primitive", seen[k].primitive, 2u);
+    t.equal("hit kind", seen[k].hit_kind, seen[0].hit_kind);
+    t.distance("t", seen[k].t, 5.0f);
+    t.close("barycentrics.x", seen[k].barycentrics[0], static_cast<float>(u), 1e-5f);
+    t.close("barycentrics.y", seen[k].barycentrics[1], static_cast<float>(v), 1e-5f);
+  }
+  t.equal("the plain one's geometry", seen[16].geometry, 0u);
+}
+
+void the_first_accepted_hit_ends_the_search(Context& t) {
+  const Buffer transparent = special(t, -1);
+  const Buffer opaque = special(t, -2);
+  std::vector<RaytracingInstanceDesc> instances = {instance(transparent), instance(opaque)};
+  instances[1].Transform[2][3] = 2;
+  MicromapProgram program(t);
+  Ray ray = ray_in(0, 0.2, 0.2);
+  ray.flags = kAcceptFirst;
+  const Seen seen = program.trace(t.top_level(instances), ray);
+  t.equal("instance", seen.instance_index, 1u);
+  t.distance("t", seen.t, 7.0f);
+  t.equal("any-hit shaders", seen.any_hits, 0u);
+}
+
+void one_any_hit_call(Context& t) {
+  LinkedInputs linked;
+  linked.add(t, row_of_triangles(1, RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation),
+             linkage_of({}, indices_of(t, {-4}, Format::kR8Uint, 1), Format::kR8Uint, 1));
+  MicromapProgram program(t);
+  program.scene = t.top_level({instance(build_new(t, linked.inputs))});
+  std::vector<Ray> rays;
+  for (uint32_t k = 0; k < 256; ++k) {
+    const auto [u, v] = middle_of(4, k);
+    rays.push_back(ray_in(0, u, v));
+  }
+  for (const Seen& seen : program.trace(rays)) t.equal("any-hit shaders", seen.any_hits, 1u);
+}
+
+void without_any_hit_shader_unknown_is_opaque(Context& t) {
+  Standard program(t);
+  program.set_pipeline_flags(RaytracingPipelineFlags::kAllowOpacityMicromaps);
+  program.record("Plain");
+  for (const int32_t index : {-1, -2, -3, -4}) {
+    const Seen seen = program.trace(t.top_level({instance(special(t, index))}), ray_in(0, .2, .2));
+    t.equal("end with index " + std::to_string(index), seen.end,
+            index == -1 ? uint32_t{kMissRan} : uint32_t{kClosestHitRan});
+  }
+}
+
+void inactive_triangles_stay_so(Context& t) {
+  Geometry geometry = row_of_triangles(1, kNonOpaque);
+  geometry.vertices[0] = std::numeric_limits<float>::quiet_NaN();
+  LinkedInputs linked;
+  linked.add(t, geometry,
+             linkage_of({}, indices_of(t, {-2}, Format::kR8Uint, 1), Format::kR8Uint, 1));
+  MicromapProgram program(t);
+  const Seen seen =
+      program.trace(t.top_level({instance(build_new(t, linked.inputs))}), ray_in(0, 0.2, 0.2));
+  t.equal("end", seen.end, uint32_t{kMissRan});
+}
+
+}  // namespace
+
+std::vector<RuleTest> omm_tests() {
+  return {{"OMM-04, OMM-16, OMM-17, OMM-33, OMM-34, OMM-35, OMM-36, OMM-37, OMM-38, OMM-39",
+           all_states_with_all_flags},
+          {"OMM-28", the_order_of_micro_triangles},
+          {"OMM-32", both_sides_show_the_same},
+          {"OMM-40", without_permission_they_are_ignored, "KA0493"},
+          {"OMM-41", queries},
+          {"OMM-42", ray_flags_show_it},
+          {"OMM-43", what_the_compiler_refuses},
+          {"OMM-14, OMM-45", system_values_are_the_triangles},
+          {"OMM-46", the_first_accepted_hit_ends_the_search},
+          {"OMM-47", one_any_hit_call},
+          {"OMM-48", without_any_hit_shader_unknown_is_opaque},
+          {"OMM-49", inactive_triangles_stay_so}};
+}
+
+}  // namespace kaamos::conformance
