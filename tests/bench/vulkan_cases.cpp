@@ -30,6 +30,10 @@ bool is_hit(const ClosestResult& result) {
   return result.t >= 0;
 }
 
+bool is_hit(const ShadedResult& result) {
+  return result.t >= 0;
+}
+
 // Hits may differ for 1 of 10,000 rays.
 template <typename T>
 void check_same_hits(const std::vector<T>& a, const std::vector<T>& b) {
@@ -48,6 +52,21 @@ Line rates(const std::string& name, const Measure& measure, const RayGrid& grid,
   const Pairs times = time_pairs(measure, ours, baseline);
   const double mrays = 1e-6 * static_cast<double>(grid.rays.size());
   return {name, 1 / times.ratio, mrays / times.ours, mrays / times.baseline, "Mrays/s", true};
+}
+
+// HitObject::TraceRay and Invoke against TraceRay.
+template <typename T>
+Case hit_object_case(const char* name, Program usual, Program program) {
+  return {name, [=](Fixtures& f, const Measure& measure) {
+            const RayGrid& grid = f.rays(RaySet::kPrimary);
+            DxrDispatch by_trace(f.vulkan_scene(), usual, grid);
+            DxrDispatch by_object(f.vulkan_scene(), program, grid);
+            by_trace.run();
+            by_object.run();
+            check_same_hits(by_object.results<T>(), by_trace.results<T>());
+            return rates(
+                name, measure, grid, [&] { by_object.run(); }, [&] { by_trace.run(); });
+          }};
 }
 
 Case hand_case(RaySet set) {
@@ -283,6 +302,10 @@ std::vector<Case> vulkan_cases() {
   // First, before another case has started the driver.
   for (const bool cached : {false, true}) cases.push_back(first_dispatch_case(cached));
   for (const RaySet set : kVulkanRaySets) cases.push_back(hand_case(set));
+  cases.push_back(hit_object_case<ClosestResult>("hit-object/vulkan/primary", Program::kClosest,
+                                                 Program::kHitObject));
+  cases.push_back(hit_object_case<ShadedResult>("hit-object/vulkan/shaded", Program::kShaded,
+                                                Program::kShadedHitObject));
   for (const bool shuffled : {false, true}) cases.push_back(sorting_case(shuffled));
   for (const RaySet set : kVulkanRaySets) cases.push_back(backends_case(set));
   return cases;
