@@ -20,11 +20,17 @@ TiledConstants under_sky() {
   return constants;
 }
 
+// Renderers keep a reference.
+const Scene& boxes() {
+  static const Scene scene = make_screen_boxes();
+  return scene;
+}
+
 // A mirror for a floor, and things that are as rough as it gets.
 std::unique_ptr<FrameRenderer> render(const TiledConstants& constants,
                                       const std::string& backend = "embree") {
   auto renderer =
-      make_screen_renderer(backend, make_screen_boxes(), "tiled-reflections", constants.screen,
+      make_screen_renderer(backend, boxes(), "tiled-reflections", constants.screen,
                            [&](EffectSettings& settings) { settings.set_constants(constants); });
   renderer->render().value();
   return renderer;
@@ -51,7 +57,7 @@ TEST_P(TiledReflections, WithoutAnEnvironmentTheyAreHybrid) {
   const auto renderer = render(constants, GetParam());
   const HybridConstants hybrid = default_hybrid_constants();
   const auto other =
-      make_screen_renderer(GetParam(), make_screen_boxes(), "hybrid-reflections", hybrid.screen,
+      make_screen_renderer(GetParam(), boxes(), "hybrid-reflections", hybrid.screen,
                            [&](EffectSettings& settings) { settings.set_constants(hybrid); });
   other->render().value();
   EXPECT_EQ(renderer->read("tiled").value().values, other->read("hybrid").value().values);
@@ -66,7 +72,7 @@ TEST_P(TiledReflections, RoughSurfacesShowTheEnvironment) {
   nothing.screen = constants.screen;
   nothing.roughest = -1;
   const auto other =
-      make_screen_renderer(GetParam(), make_screen_boxes(), "ssr-masked", nothing.screen,
+      make_screen_renderer(GetParam(), boxes(), "ssr-masked", nothing.screen,
                            [&](EffectSettings& settings) { settings.set_constants(nothing); });
   other->render().value();
   EXPECT_EQ(renderer->read("tiled").value().values, other->read("ssr_masked").value().values);

@@ -107,9 +107,9 @@ TEST(EdgeShadow, ExtremesAreHardOrRefused) {
   settings.width = settings.height = 8;
   settings.effects = choose_effects({"sun-edges"});
   settings.effects["sun-edges"].set_constants(constants_of(64, -1));
+  const Scene scene = make_peter_panning({});
   const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice().value(), make_peter_panning({}), settings)
-          .value();
+      FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
   const auto refused = renderer->render();
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("margin is -1"), std::string::npos)
