@@ -12,6 +12,7 @@
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
 #include "effects/occlusion/screen_space_ao/line_sweep_ao.h"
 #include "effects/occlusion/screen_space_ao/screen_space_ao.h"
+#include "effects/occlusion/second_layer/second_layer.h"
 #include "effects/occlusion/settings.h"
 
 namespace kaamos::effects {
@@ -19,6 +20,7 @@ namespace kaamos::effects {
 namespace {
 
 constexpr const char* kFilter = "occlusion/screen_space_ao/occlusion_filter";
+constexpr const char* kSecondLayer = "occlusion/second_layer/second_layer";
 constexpr const char* kLineSweep = "occlusion/screen_space_ao/line_sweep_ao";
 
 class ScreenSpaceAoPass : public EffectPass {
@@ -34,6 +36,29 @@ class ScreenSpaceAoPass : public EffectPass {
 
  private:
   const Frame& frame_;
+  ScreenSpaceAo passes_;
+};
+
+// Points in the hemisphere, over two layers of depth.
+class LayeredAoPass : public EffectPass {
+ public:
+  LayeredAoPass(const Frame& frame, SecondLayer layer, ScreenSpaceAo passes)
+      : frame_(frame), layer_(std::move(layer)), passes_(std::move(passes)) {}
+  rtapi::Status begin_frame(const Camera& camera) override {
+    layer_.begin_frame(camera);
+    return passes_.begin_frame();
+  }
+  void record(rtapi::CommandList& list, const EffectSettings& settings,
+              const PassConstants& constants) override {
+    const auto own = settings.get_constants<HemisphereConstants>();
+    layer_.record(list, own.separation * constants.radius);
+    passes_.record(list, frame_, constants, settings.constants);
+  }
+  std::uint64_t bytes() const override { return layer_.bytes() + passes_.bytes(); }
+
+ private:
+  const Frame& frame_;
+  SecondLayer layer_;
   ScreenSpaceAo passes_;
 };
 
@@ -158,6 +183,29 @@ Effect screen_space_row(const char* name, const char* about, const char* layer,
   return row;
 }
 
+Effect layered_row(const EffectLibrary& library) {
+  const HemisphereConstants constants{.layers = 2};
+  Effect row =
+      screen_space_row("hemisphere-ao-layers", "hemisphere ambient occlusion, two layers of depth",
+                       "hemisphere_ao_layers", library, ScreenSpaceAoKind::kHemisphere, constants,
+                       hemisphere_settings(), steps_of_points(constants));
+  row.more_libraries.push_back({kSecondLayer, second_layer_library});
+  row.make = [file = library.file](
+                 const EffectScope& scope) -> rtapi::Result<std::unique_ptr<EffectPass>> {
+    auto layer = SecondLayer::create(scope, scope.library(kSecondLayer));
+    if (!layer) return layer.error();
+    auto passes = ScreenSpaceAo::create(scope.device, scope.frame, ScreenSpaceAoKind::kHemisphere,
+                                        scope.library(file), scope.library(kFilter), scope.views,
+                                        scope.settings.constants);
+    if (!passes) return passes.error();
+    return std::unique_ptr<EffectPass>(
+        std::make_unique<LayeredAoPass>(scope.frame, std::move(*layer), std::move(*passes)));
+  };
+  row.may_equal = "nothing stands before a crease, so that the second layer hides nothing";
+  row.misses = "what is outside of the picture, or behind two things";
+  return row;
+}
+
 // Those of a row that only makes visibility.
 SettingTable<GtaoConstants> gtao_settings_without_bend() {
   return close_settings(gtao_settings(), {"bent-normals"});
@@ -262,8 +310,10 @@ std::vector<Effect> occlusion_alternatives() {
                        CrytekConstants{.remap = 1}, crytek_settings(),
                        steps_of_points(CrytekConstants{.remap = 1})),
       screen_space_row("hemisphere-ao", "hemisphere ambient occlusion", "hemisphere_ao", hemisphere,
-                       ScreenSpaceAoKind::kHemisphere, HemisphereConstants{}, hemisphere_settings(),
+                       ScreenSpaceAoKind::kHemisphere, HemisphereConstants{},
+                       close_settings(hemisphere_settings(), {"separation"}),
                        steps_of_points(HemisphereConstants{})),
+      layered_row(hemisphere),
       screen_space_row("hbao", "horizon-based ambient occlusion", "hbao", hbao,
                        ScreenSpaceAoKind::kHbao, HbaoConstants{}, hbao_settings(), hbao_steps()),
       gtao_row("gtao", "ground-truth ambient occlusion", "gtao", GtaoConstants{}, gtao_steps()),

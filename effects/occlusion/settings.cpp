@@ -44,9 +44,13 @@ SettingTable<CrytekConstants> crytek_settings() {
 
 SettingTable<HemisphereConstants> hemisphere_settings() {
   using C = HemisphereConstants;
-  return {filter_passes<C>(),
-          count_setting("points", &C::samples, {1, 4096}, "", "in the hemisphere", "survey 7.1"),
-          number_setting("bias", &C::bias, {0, 10}, "radii", "of depth", "survey 7.1")};
+  return {
+      filter_passes<C>(),
+      count_setting("points", &C::samples, {1, 4096}, "", "in the hemisphere", "survey 7.1"),
+      number_setting("bias", &C::bias, {0, 10}, "radii", "of depth", "survey 7.1"),
+      closed_setting(&C::layers),  // a row of its own
+      number_setting("separation", &C::separation, {0, 100}, "radii",
+                     "of the second layer of depth from the first, at least", "Mara et al. 2016")};
 }
 
 SettingTable<HbaoConstants> hbao_settings() {

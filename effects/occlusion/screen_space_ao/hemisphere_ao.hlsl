@@ -7,10 +7,15 @@
 
 struct HemisphereConstants {
   uint filter_passes;  // of occlusion_filter.hlsl, for the host
-  uint samples;  // points in the hemisphere
-  float bias;    // of depth, in radii
+  uint samples;        // points in the hemisphere
+  float bias;          // of depth, in radii
+  uint layers;         // of depth: 1, or 2 with second_view_z
+  float separation;    // of the layers, in radii, for the host
 };
 ConstantBuffer<HemisphereConstants> hemisphere : register(b0, space3);
+
+// What lies behind the first surface; 0: nothing. [effects/occlusion/second_layer]
+Texture2D<float> second_view_z : register(t4, space3);
 
 static const float kGoldenAngle = 2.39996323;
 
@@ -20,6 +25,12 @@ float3 DirectionInHemisphere(uint index, uint count, float turn) {
   const float across = sqrt(max(1.0 - height * height, 0.0));
   const float phi = kGoldenAngle * float(index) + turn;
   return float3(across * cos(phi), across * sin(phi), height);
+}
+
+// Returns how much a surface at a depth occludes a point, and fades with its distance to the centre.
+float Occlusion(float other_z, float3 position, float3 centre, float radius) {
+  if (!IsSurface(other_z) || other_z > position.z - hemisphere.bias * radius) return 0.0;
+  return smoothstep(0.0, 1.0, radius / abs(centre.z - other_z));
 }
 
 [shader("compute")]
@@ -50,9 +61,11 @@ void HemisphereOcclusion(uint3 id : SV_DispatchThreadID) {
     const int2 other = int2(floor(PlaceOf(position, size)));
     if (!IsInside(other, size)) continue;
     seen += 1.0;
-    const float other_z = g_view_z[other];
-    if (!IsSurface(other_z) || other_z > position.z - hemisphere.bias * radius) continue;
-    occluded += smoothstep(0.0, 1.0, radius / abs(centre.z - other_z));
+    float most = Occlusion(g_view_z[other], position, centre, radius);
+    if (hemisphere.layers > 1) {
+      most = max(most, Occlusion(second_view_z[other], position, centre, radius));
+    }
+    occluded += most;
   }
   raw[pixel] = seen > 0.0 ? 1.0 - occluded / seen : 1.0;
 }

@@ -40,6 +40,9 @@ struct HemisphereConstants {
   std::uint32_t filter_passes = 1;  ///< 0: the noise stays
   std::uint32_t samples = 16;       ///< points in the hemisphere
   float bias = 0.025f;              ///< of depth, in radii
+  /// 2: a second layer of depth is drawn and asked besides. Holds for the pass's life.
+  std::uint32_t layers = 1;
+  float separation = 0.5f;  ///< of the layers, in radii
 };
 
 /// Mirrors HbaoConstants of hbao.hlsl. [Bavoil, Sainz and Dimitrov 2008]
