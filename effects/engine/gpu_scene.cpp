@@ -7,6 +7,8 @@
 #include <cstring>
 #include <span>
 
+#include "effects/engine/bottom_level_inputs.h"
+
 namespace kaamos::effects {
 
 using namespace rtapi;
@@ -28,25 +30,6 @@ rtapi::Result<Buffer> create_scratch_buffer(const Device& device, std::uint64_t 
   desc.Flags = ResourceFlags::kAllowUnorderedAccess;
   desc.Name = std::move(name);
   return device.CreateBuffer(desc);
-}
-
-static RaytracingGeometryFlags geometry_flags(const Geometry& geometry, bool glass) {
-  // Any-hit shaders count layers of glass, so each hit must invoke them only once.
-  if (glass) return RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
-  return geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
-}
-
-RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu) {
-  RaytracingGeometryDesc desc;
-  desc.Type = RaytracingGeometryType::kTriangles;
-  desc.Flags = geometry_flags(geometry, gpu.glass);
-  desc.Triangles.VertexFormat = Format::kR32G32B32Float;
-  desc.Triangles.VertexCount = geometry.vertex_count;
-  desc.Triangles.VertexBuffer = {gpu.vertices, gpu.constants.vertex_stride};
-  desc.Triangles.IndexFormat = geometry.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint;
-  desc.Triangles.IndexCount = geometry.index_count;
-  desc.Triangles.IndexBuffer = gpu.indices;
-  return desc;
 }
 
 namespace {
@@ -131,17 +114,13 @@ rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t m
 // the next mesh.
 rtapi::Status add_bottom_level(const Device& device, CommandQueue& queue, const Mesh& mesh,
                                std::size_t& first_record, GpuScene& out) {
-  std::vector<RaytracingGeometryDesc> descs;
+  BottomLevelInputs inputs;
   for (const Geometry& geometry : mesh.geometries) {
-    descs.push_back(geometry_desc(geometry, out.geometries[first_record++]));
+    inputs.add(geometry, out.geometries[first_record++]);
   }
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
-  inputs.NumDescs = static_cast<std::uint32_t>(descs.size());
-  inputs.pGeometryDescs = descs.data();
   auto bottom_level =
-      build(device, queue, inputs, mesh.name + " bottom level", out.statistics.bottom_level_bytes);
+      build(device, queue, inputs.desc(RaytracingAccelerationStructureBuildFlags::kPreferFastTrace),
+            mesh.name + " bottom level", out.statistics.bottom_level_bytes);
   if (!bottom_level) return bottom_level.error();
   out.bottom_levels.push_back(*bottom_level);
   return {};
@@ -254,8 +233,8 @@ std::vector<MaterialConstants> material_constants(const Scene& scene) {
 
 }  // namespace
 
-rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
-                                     const Scene& scene) {
+rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue, const Scene& scene,
+                                     std::uint32_t micromap_states) {
   GpuScene out;
   out.statistics.unique_triangles = unique_triangle_count(scene);
   out.statistics.instanced_triangles = instanced_triangle_count(scene);
@@ -276,6 +255,11 @@ rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
   auto previous = CreateUploadBuffer(device, unmoved, "previous instances");
   if (!previous) return previous.error();
   out.previous_instances = *previous;
+  if (micromap_states != 0) {
+    auto micromaps = build_micromaps(device, queue, scene, micromap_states, out);
+    if (!micromaps) return micromaps.error();
+    out.micromaps = std::move(*micromaps);
+  }
   return out;
 }
 
@@ -290,13 +274,13 @@ static rtapi::Status add_bottom_levels(const Device& device, CommandQueue& queue
 
 rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
                                          const Scene& scene, const glm::dvec3& origin,
-                                         Profile* profile) {
+                                         Profile* profile, std::uint32_t micromap_states) {
   const auto step = [&](const char* name) {
     return Profile::enter(profile, ProfilePart::kStart, name);
   };
   auto uploaded = [&] {
     const auto upload = step("upload of the scene");
-    return upload_scene(device, queue, scene);
+    return upload_scene(device, queue, scene, micromap_states);
   }();
   if (!uploaded) return uploaded.error();
   GpuScene out = std::move(*uploaded);

@@ -8,10 +8,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "effects/assets/scene/scene.h"
 #include "effects/engine/profile.h"
+#include "effects/engine/scene_micromaps.h"
 
 namespace kaamos::effects {
 
@@ -42,6 +44,8 @@ struct GpuGeometry {
   std::uint32_t index_count = 0;          ///< from `indices` on, a multiple of 3
   bool alpha_tested = false;              ///< any-hit shaders run: also of glass
   bool glass = false;                     ///< its material is see-through
+  /// Its opacity micromaps, if it has some. [build_micromaps]
+  std::optional<rtapi::RaytracingGeometryOmmLinkageDesc> linkage;
 
   /// Its vertices, with all their attributes.
   GpuRange vertex_range() const {
@@ -95,15 +99,16 @@ struct GpuScene {
   std::vector<rtapi::Texture> textures;  ///< one per image
   std::vector<GpuGeometry> geometries;   ///< of all meshes, in the order of their records
   GpuSceneStatistics statistics;         ///< of create_gpu_scene
+  /// Opacity micromaps, if there are to be some: pipelines must allow them then.
+  std::optional<SceneMicromaps> micromaps;
 };
 
-/// Buffers and textures of a valid scene, and the arguments of its meshes' records; no acceleration
-/// structures, nor what depends on them.
-/// @errors those of the device, among them KA0990 no memory.
+/// Buffers and textures of a valid scene, the arguments of its meshes' records, and opacity
+/// micromaps of so many states, 2 or 4, or none: 0; no other acceleration structures, nor what
+/// depends on them.
+/// @errors those of the device, among them KA0990 no memory and KA0547 no micromaps.
 rtapi::Result<GpuScene> upload_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                                     const Scene& scene);
-/// Input of a bottom level build. `gpu`: the record of `geometry`.
-rtapi::RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu);
+                                     const Scene& scene, std::uint32_t micromap_states = 0);
 /// A buffer that an acceleration structure of at most `bytes` may be built in.
 /// @errors those of rtapi::Device::CreateBuffer.
 rtapi::Result<rtapi::Buffer> create_structure_buffer(const rtapi::Device& device,
@@ -117,10 +122,12 @@ rtapi::Result<rtapi::Buffer> create_scratch_buffer(const rtapi::Device& device, 
 /// `origin` (the camera) before they are rounded to float: far from the world's origin a float has
 /// too few digits left. Skinned meshes stay in their bind pose: scenes that move take a
 /// StructureManager. [effects/geometry/structures]
-/// `profile` gets its steps; null: nobody asks.
-/// @errors those of the device, among them KA0990 no memory and KA0709 too many triangles.
+/// `profile` gets its steps; null: nobody asks. `micromap_states`: as for upload_scene.
+/// @errors those of the device, among them KA0990 no memory, KA0709 too many triangles and KA0547
+/// no micromaps.
 rtapi::Result<GpuScene> create_gpu_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                          const Scene& scene, const glm::dvec3& origin,
-                                         Profile* profile = nullptr);
+                                         Profile* profile = nullptr,
+                                         std::uint32_t micromap_states = 0);
 
 }  // namespace kaamos::effects

@@ -48,7 +48,12 @@ rtapi::Result<StateObject> create_pipeline(const Device& device, const Frame& fr
   }
   state.Add(library);
   state.Add(RaytracingShaderConfig{desc.payload_bytes, 8});
-  state.Add(RaytracingPipelineConfig{desc.max_recursion_depth});
+  if (scene.micromaps) {
+    state.Add(RaytracingPipelineConfig1{desc.max_recursion_depth,
+                                        RaytracingPipelineFlags::kAllowOpacityMicromaps});
+  } else {
+    state.Add(RaytracingPipelineConfig{desc.max_recursion_depth});
+  }
   state.Add(GlobalRootSignature{frame.root_signature()});
   state.Associate(state.Add(LocalRootSignature{frame.local_root_signature()}), groups);
   return device.CreateStateObject(state);

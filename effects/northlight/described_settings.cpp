@@ -24,8 +24,9 @@ constexpr std::uint32_t kMostSamples = 65536;
 // somebody has described it below, or left it out here.
 SettingTable<StructureOptions> structures_settings() {
   const StructureOptions options;
-  const auto& [deformable_period, hero_period, compact, coarser_rays] = options;
-  static_cast<void>(std::tie(deformable_period, hero_period, compact, coarser_rays));
+  const auto& [deformable_period, hero_period, compact, coarser_rays, opacity_micromaps] = options;
+  static_cast<void>(
+      std::tie(deformable_period, hero_period, compact, coarser_rays, opacity_micromaps));
   using C = StructureOptions;
   return {
       count_setting("deformable-period", &C::deformable_period, {0, 65536}, "frames",
@@ -34,7 +35,10 @@ SettingTable<StructureOptions> structures_settings() {
       switch_setting("compact", &C::compact, "structures that stand still are compacted"),
       count_setting("coarser-rays", &C::coarser_rays, {0, 16}, "levels",
                     "of detail by which rays see coarser instances than draws do; a fault, shown "
-                    "with --primary raster")};
+                    "with --primary raster"),
+      choice_setting("opacity-micromaps", &C::opacity_micromaps, {"0", "2", "4"},
+                     "states of the micromaps that say where leaves and fences have holes; 4: the "
+                     "picture stays the same; 0: there are none, any-hit shaders look")};
 }
 
 // A member that may be absent.
@@ -156,7 +160,7 @@ std::vector<FrameTopic> frame_topics() {
       {{"taa", "antialiasing over frames"}, settings_within(&F::taa_constants, taa_settings())},
       {{"enlarge", "the kernels of a frame that is enlarged"},
        settings_within(&F::enlarge_constants, enlarge_settings())},
-      {{"structures", "acceleration structures of what moves"},
+      {{"structures", "acceleration structures, and those of what moves"},
        settings_within(&F::structures, structures_settings())},
   };
 }

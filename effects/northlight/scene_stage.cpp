@@ -29,7 +29,7 @@ rtapi::Status SceneStage::create() {
     context_.gpu = structures_->scene();
   } else {
     auto gpu = create_gpu_scene(context_.device, context_.runner.queue(), scene, camera.position(),
-                                profile);
+                                profile, settings.structures.opacity_micromaps);
     if (!gpu) return gpu.error();
     context_.gpu = std::move(*gpu);
   }

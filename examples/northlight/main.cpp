@@ -222,6 +222,9 @@ int render_once(FrameRenderer& renderer, const Options& options) {
   if (is_done(done) && options.reference > 0) {
     done = add_reference(options, renderer.context().scene, show_progress, frame);
   }
+  if (is_done(done) && options.frame.structures.opacity_micromaps != 0) {
+    done = compare_micromaps(options, renderer.context().scene, show_progress, frame);
+  }
   return is_done(done) ? write_frame(renderer, options, frame, *written, seen)
                        : report(done, options);
 }

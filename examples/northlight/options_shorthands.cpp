@@ -87,6 +87,11 @@ void add_shorthands(CLI::App& app, Options& options, Shorthands& words) {
       ->check(CLI::IsMember({"sun", "sky", "local", "emissive"}));
   app.add_option("--gi-volume", options.frame.volume.file,
                  "file of the volume: read if it exists, otherwise baked and written");
+  app.add_option("--opacity-micromaps", words.opacity_micromaps,
+                 "states of opacity micromaps, which say where leaves and fences have holes, so "
+                 "that any-hit shaders need not look: 4 (the picture stays the same), 2 (edges "
+                 "are those of the micromaps)")
+      ->check(CLI::IsMember({2u, 4u}));
   app.add_flag("--curvature-roughness", words.curvature_roughness,
                "surfaces are rougher where their normals vary from pixel to pixel");
   app.add_option("--glass-layers", words.glass_layers,
@@ -110,6 +115,7 @@ void apply_shorthands(const Shorthands& words, Options& options) {
   if (words.sun_angle) frame.sun_angular_radius = *words.sun_angle * 3.14159265f / 360.0f;
   if (!words.texture_lod.empty()) frame.ray_cones = words.texture_lod == "cone";
   if (!words.bake_lights.empty()) frame.volume.lights = baked_lights(words.bake_lights);
+  if (words.opacity_micromaps) frame.structures.opacity_micromaps = *words.opacity_micromaps;
   if (words.curvature_roughness) frame.curvature_to_roughness = true;
   if (words.glass_layers) {
     TransparentConstants glass =

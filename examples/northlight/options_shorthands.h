@@ -24,6 +24,7 @@ struct Shorthands {
   std::string texture_lod;
   std::string sun_at_hits;
   bool curvature_roughness = false;
+  std::optional<std::uint32_t> opacity_micromaps;
   std::optional<std::uint32_t> glass_layers;
 };
 

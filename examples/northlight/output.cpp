@@ -133,6 +133,25 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
       {"bottom_level_ms", s.bottom_level_ms},       {"top_level_ms", s.top_level_ms},
       {"bottom_level_bytes", s.bottom_level_bytes}, {"top_level_bytes", s.top_level_bytes},
       {"unique_triangles", s.unique_triangles},     {"instanced_triangles", s.instanced_triangles}};
+  if (const auto& micromaps = renderer.context().gpu.micromaps) {
+    const MicromapStatistics& m = micromaps->statistics;
+    json["opacity_micromaps"] = {{"states", m.states},
+                                 {"geometries", m.geometries},
+                                 {"triangles", m.triangles},
+                                 {"micromaps", m.micromaps},
+                                 {"bytes", m.bytes},
+                                 {"bake_ms", m.bake_ms},
+                                 {"transparent", m.shares[0]},
+                                 {"opaque", m.shares[1]},
+                                 {"unknown", m.shares[2] + m.shares[3]}};
+  }
+  if (const auto& saved = result.micromaps) {
+    json["opacity_micromaps"]["any_hit_calls"] = saved->calls;
+    json["opacity_micromaps"]["any_hit_calls_without"] = saved->calls_without;
+    json["opacity_micromaps"]["ms"] = saved->ms;
+    json["opacity_micromaps"]["ms_without"] = saved->ms_without;
+    json["opacity_micromaps"]["other_pixels"] = saved->other_pixels;
+  }
   for (const PassStatistics& pass : result.passes) {
     const double rays = static_cast<double>(pass.rays.TraceRayCalls);
     json["passes"].push_back({{"name", pass.name},
@@ -330,6 +349,26 @@ std::string describe_levels(const FrameResult& result) {
       share(m.false_light, m.pixels - m.lit));
 }
 
+static std::string describe_micromaps(const FrameRenderer& renderer, const FrameResult& result) {
+  const auto& micromaps = renderer.context().gpu.micromaps;
+  if (!micromaps) return {};
+  const MicromapStatistics& m = micromaps->statistics;
+  std::string out = fmt::format(
+      "opacity micromaps of {} states: {} for {} triangles of {} geometries, {:.1f} MiB, baked in "
+      "{:.0f} ms; of the triangles {:.0f} % are transparent, {:.0f} % opaque, {:.0f} % unknown\n",
+      m.states, m.micromaps, m.triangles, m.geometries, mebibytes(m.bytes), m.bake_ms,
+      100 * m.shares[0], 100 * m.shares[1], 100 * (m.shares[2] + m.shares[3]));
+  if (const auto& saved = result.micromaps) {
+    const auto without = static_cast<double>(std::max<std::uint64_t>(saved->calls_without, 1));
+    out += fmt::format(
+        "without them: {} any-hit calls instead of {} ({:.0f} % are saved), {:.1f} ms instead of "
+        "{:.1f} in passes with rays, {} pixels differ\n",
+        saved->calls_without, saved->calls, 100 * (1 - static_cast<double>(saved->calls) / without),
+        saved->ms_without, saved->ms, saved->other_pixels);
+  }
+  return out;
+}
+
 std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
   const GpuSceneStatistics& s = renderer.context().gpu.statistics;
   std::string out = fmt::format(
@@ -355,7 +394,8 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
         100 * bake->error, renderer.lights().bakes_on_demand() ? ", before cells are filtered" : "",
         mebibytes(bake->bytes));
   }
-  out += describe_primary(result) + describe_levels(result) + describe_views(result);
+  out += describe_micromaps(renderer, result) + describe_primary(result) + describe_levels(result) +
+         describe_views(result);
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
   if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
   return out;

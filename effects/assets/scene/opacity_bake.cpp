@@ -76,11 +76,15 @@ class Coverage {
   std::size_t index(std::uint32_t x, std::uint32_t y) const {
     return std::size_t{y} * (width_ + 1) + x;
   }
-  static Range texels(double low, double high, double margin) {
+  // Linear filters reach half a texel farther than the texel that a point lies in.
+  Range texels(double low, double high, double margin) const {
     const auto at = [](double texel) {
       return static_cast<std::int64_t>(std::floor(std::clamp(texel, -kFar, kFar)));
     };
-    return {at(low - 0.5 - margin), at(high - 0.5 + margin) + 1};
+    const bool nearest =
+        sampler_.min_filter == Filter::kNearest && sampler_.mag_filter == Filter::kNearest;
+    const double reach = margin + (nearest ? 0.0 : 0.5);
+    return {at(low - reach), at(high + reach)};
   }
 
   // Calls part(first, end) for the texels of the image that a range shows.

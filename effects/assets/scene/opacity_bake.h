@@ -20,7 +20,7 @@ namespace kaamos::effects {
 /// `cutoff`. Textures are read at level 0, filtered or not.
 struct AlphaTest {
   const TextureImage* image = nullptr;  ///< null: alpha is 1 everywhere
-  Sampler sampler;                      ///< its wrap counts
+  Sampler sampler;                      ///< its wrap and filters count
   /// u' = dot(m.xy, uv) + offset.x, v' = dot(m.zw, uv) + offset.y.
   ///@{
   glm::vec4 uv_matrix{1, 0, 0, 1};
@@ -33,8 +33,8 @@ struct AlphaTest {
 /// How finely triangles are divided.
 struct BakeOptions {
   bool two_states = false;       ///< nothing is unknown: what a micro-triangle mostly is
-  std::uint32_t max_level = 6;   ///< 4^level micro-triangles at most, 0 to 12
-  float texels_per_edge = 1.5f;  ///< the level has micro-triangles with edges of up to so many
+  std::uint32_t max_level = 7;   ///< 4^level micro-triangles at most, 0 to 12
+  float texels_per_edge = 0.5f;  ///< the level has micro-triangles with edges of up to so many
 };
 
 /// One micromap of an array, laid out as rtapi::RaytracingOpacityMicromapDesc.

@@ -136,8 +136,8 @@ TEST(OpacityBake, EqualTrianglesShareAMicromapAndUniformOnesNeedNone) {
   const BakedMicromaps baked = bake_micromaps(triangles, test);
   EXPECT_EQ(baked.indices, (std::vector<std::int32_t>{0, -2, 0}));
   EXPECT_EQ(baked.micromaps.size(), 1u);
-  EXPECT_EQ(baked.micromaps[0].level, 6u);  // 68 texels
-  EXPECT_EQ(baked.bits.size(), 1024u);
+  EXPECT_EQ(baked.micromaps[0].level, 7u);  // 68 texels
+  EXPECT_EQ(baked.bits.size(), 4096u);
 
   BakeOptions two;
   two.two_states = true;

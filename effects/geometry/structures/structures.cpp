@@ -35,16 +35,6 @@ Flags build_flags(BuildClass build_class) {
   return Flags::kNone;
 }
 
-BuildRaytracingAccelerationStructureInputs bottom_level_inputs(
-    const std::vector<RaytracingGeometryDesc>& geometries, Flags flags) {
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.Flags = flags;
-  inputs.NumDescs = static_cast<std::uint32_t>(geometries.size());
-  inputs.pGeometryDescs = geometries.data();
-  return inputs;
-}
-
 bool any_alpha_tested(const Mesh& mesh) {
   return std::any_of(mesh.geometries.begin(), mesh.geometries.end(),
                      [](const Geometry& g) { return g.alpha_tested; });
@@ -68,7 +58,7 @@ rtapi::Result<StructureManager> StructureManager::create(const Device& device, C
   const auto start = Clock::now();
   StructureManager manager;
   manager.options_ = options;
-  auto uploaded = upload_scene(device, queue, scene);
+  auto uploaded = upload_scene(device, queue, scene, options.opacity_micromaps);
   if (!uploaded) return uploaded.error();
   manager.gpu_ = std::move(*uploaded);
   manager.instances_ = scene.instances;
@@ -110,12 +100,12 @@ rtapi::Status StructureManager::build_static(const Device& device, CommandQueue&
     if (!wanted[id]) continue;
     const Mesh& mesh = scene.meshes[id];
     std::size_t record = first_record(scene, id);
-    std::vector<RaytracingGeometryDesc> geometries;
+    BottomLevelInputs geometries;
     for (const Geometry& geometry : mesh.geometries) {
-      geometries.push_back(geometry_desc(geometry, gpu_.geometries[record++]));
+      geometries.add(geometry, gpu_.geometries[record++]);
     }
     BuildRaytracingAccelerationStructureDesc desc;
-    desc.Inputs = bottom_level_inputs(geometries, flags);
+    desc.Inputs = geometries.desc(flags);
     const auto info = device.GetRaytracingAccelerationStructurePrebuildInfo(desc.Inputs);
     if (!info) return info.error();
     auto result = create_structure_buffer(device, info->ResultDataMaxSizeInBytes,
@@ -246,7 +236,7 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
     gpu.vertices = body.skinned.vertices.GetGPUVirtualAddress() +
                    std::uint64_t{mesh.geometries[i].first_vertex} * gpu.constants.vertex_stride;
     gpu.vertex_buffer = body.skinned.vertices;
-    body.geometries.push_back(geometry_desc(mesh.geometries[i], gpu));
+    body.geometries.add(mesh.geometries[i], gpu);
     gpu_.geometries.push_back(gpu);
   }
   const auto info = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs(body));
@@ -296,7 +286,7 @@ rtapi::Status StructureManager::create_top_level(const Device& device) {
 }
 
 BuildRaytracingAccelerationStructureInputs StructureManager::inputs(const Body& body) const {
-  return bottom_level_inputs(body.geometries, build_flags(body.build_class));
+  return body.geometries.desc(build_flags(body.build_class));
 }
 
 Buffer StructureManager::skinned_vertices(std::uint32_t instance) const {

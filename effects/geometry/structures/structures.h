@@ -14,6 +14,7 @@
 
 #include "effects/assets/scene/animation.h"
 #include "effects/assets/scene/scene.h"
+#include "effects/engine/bottom_level_inputs.h"
 #include "effects/engine/gpu_scene.h"
 #include "effects/geometry/skinning/skinning.h"
 
@@ -32,6 +33,9 @@ struct StructureOptions {
   /// Levels of detail by which rays see an instance coarser than draws do, as far as it has any.
   /// 0: both see the same one. More shows what comes of it.
   std::uint32_t coarser_rays = 0;
+  /// States of the opacity micromaps of alpha-tested geometries: 2, 4, or 0: there are none.
+  /// [build_micromaps]
+  std::uint32_t opacity_micromaps = 0;
 };
 
 /// The cost of the scene and its last frame.
@@ -68,7 +72,7 @@ class StructureManager {
  public:
   /// Uploads a valid scene and builds the static structures. There is no top level before the first
   /// frame.
-  /// @errors those of the device, among them KA0990 no memory.
+  /// @errors those of the device, among them KA0990 no memory and KA0547 no micromaps.
   static rtapi::Result<StructureManager> create(const rtapi::Device& device,
                                                 rtapi::CommandQueue& queue, const Scene& scene,
                                                 const StructureOptions& options = {});
@@ -109,7 +113,7 @@ class StructureManager {
     std::uint32_t joint_count = 0;
     std::size_t first_record = 0;
     SkinnedMesh skinned;
-    std::vector<rtapi::RaytracingGeometryDesc> geometries;
+    BottomLevelInputs geometries;
     rtapi::Buffer structure;
     rtapi::Buffer scratch;
     std::vector<JointMatrix> joints;  // in the last frame

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "effects/measure/run/frame_result.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace kaamos::measure {
@@ -63,6 +65,35 @@ rtapi::Result<Outcome> render_frame(FrameRenderer& renderer, const Progress& pro
   auto frame = read_frame(renderer, reads);
   if (!frame) return frame.error();
   result = std::move(*frame);
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> compare_micromaps(const Options& options, const Scene& scene,
+                                         const Progress& progress, FrameResult& result) {
+  Options without = options;
+  without.frame.structures.opacity_micromaps = 0;
+  auto renderer = create_renderer(without, scene, options.say);
+  if (!renderer) return renderer.error();
+  FrameResult other;
+  const auto done =
+      render_frame(**renderer, progress, other, [](const std::string&) { return false; });
+  if (!is_done(done)) return done;
+  const auto add = [](const FrameResult& of, std::uint64_t& calls, double& ms) {
+    for (const PassStatistics& pass : of.passes) {
+      calls += pass.rays.AnyHitInvocations;
+      if (pass.rays.TraceRayCalls != 0) ms += pass.ms;
+    }
+  };
+  MicromapSavings savings;
+  add(result, savings.calls, savings.ms);
+  add(other, savings.calls_without, savings.ms_without);
+  const std::vector<float>&a = result.radiance.values, &b = other.radiance.values;
+  const std::size_t channels = result.radiance.channels;
+  for (std::size_t i = 0; i < a.size(); i += channels) {
+    const auto at = static_cast<std::ptrdiff_t>(i), end = static_cast<std::ptrdiff_t>(i + channels);
+    savings.other_pixels += std::equal(a.begin() + at, a.begin() + end, b.begin() + at) ? 0 : 1;
+  }
+  result.micromaps = savings;
   return Outcome::kDone;
 }
 

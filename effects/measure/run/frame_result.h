@@ -4,6 +4,7 @@
 
 #include <rtapi/rtapi.h>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -30,6 +31,13 @@ struct ViewResult {
   std::string legend;  // what its colours stand for
 };
 
+// A frame with opacity micromaps against the same without.
+struct MicromapSavings {
+  std::uint64_t calls = 0, calls_without = 0;  // of any-hit shaders
+  double ms = 0, ms_without = 0;               // of the passes that trace rays
+  std::uint64_t other_pixels = 0;              // whose radiance is not the same
+};
+
 struct FrameResult {
   std::map<std::string, effects::FloatImage> layers;  // "ao", "normal", ...
   effects::FloatImage radiance;                       // RGBA, linear
@@ -37,6 +45,7 @@ struct FrameResult {
   std::vector<std::string> left_out;                  // effects and parts left out, and why
   std::optional<effects::PrimaryComparison> primary;  // of surfaces that were drawn
   std::optional<effects::LevelMismatch> levels;       // where rays see others than draws
+  std::optional<MicromapSavings> micromaps;           // of opacity micromaps
   std::vector<ViewResult> views;                      // of --view
 };
 
@@ -55,5 +64,9 @@ rtapi::Result<FrameResult> read_frame(effects::FrameRenderer& renderer,
 // Renders a frame and reads it.
 rtapi::Result<Outcome> render_frame(effects::FrameRenderer& renderer, const Progress& progress,
                                     FrameResult& result, const LayerChoice& reads = {});
+
+// Renders the frame without its opacity micromaps, and sets result.micromaps.
+rtapi::Result<Outcome> compare_micromaps(const Options& options, const effects::Scene& scene,
+                                         const Progress& progress, FrameResult& result);
 
 }  // namespace kaamos::measure
