@@ -10,6 +10,7 @@
 
 #include "effects/engine/effect_pass.h"
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
+#include "effects/occlusion/baked_ao/baked_ao.h"
 #include "effects/occlusion/screen_space_ao/line_sweep_ao.h"
 #include "effects/occlusion/screen_space_ao/screen_space_ao.h"
 #include "effects/occlusion/second_layer/second_layer.h"
@@ -275,6 +276,28 @@ Effect uniform_row() {
           .repeats = true};
 }
 
+std::vector<EffectStep> baked_steps() {
+  std::vector<EffectStep> out;
+  for (const float texel : {0.4f, 0.2f, 0.1f}) {
+    EffectStep& each = out.emplace_back(
+        step(fmt::format("texels of {:g} m", texel), BakedAoConstants{.texel = texel}));
+    each.settings.radius = kDefaultAmbientOcclusionRadius;
+  }
+  return out;
+}
+
+Effect baked_row() {
+  Effect row = occlusion_row("baked-ao", "ambient occlusion baked into texels", "baked_ao");
+  row.steps = baked_steps();
+  row.library = {"occlusion/baked_ao/baked_ao", baked_ao_library};
+  row.make = make_baked_ao;
+  set_constants(row, BakedAoConstants{}, baked_ao_settings());
+  row.defaults.radius = kDefaultAmbientOcclusionRadius;
+  row.may_equal = "a triangle has 1,024 texels along an edge at most, and a scene so many in all";
+  row.misses = "what moves; normal maps; what is smaller than a texel";
+  return row;
+}
+
 }  // namespace
 
 Effect ambient_occlusion_row() {
@@ -322,6 +345,7 @@ std::vector<Effect> occlusion_alternatives() {
       gtao_over_frames_row(),
       gtao_bent_row(),
       line_sweep_row(),
+      baked_row(),
       uniform_row()};
 }
 

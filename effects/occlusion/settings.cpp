@@ -113,4 +113,14 @@ SettingTable<UniformOcclusionConstants> uniform_occlusion_settings() {
                          "effects/SOURCES.md: E4")};
 }
 
+SettingTable<BakedAoConstants> baked_ao_settings() {
+  using C = BakedAoConstants;
+  return {
+      number_setting("texel", &C::texel, {1e-6, 1e6}, "m",
+                     "between texels along a triangle's edges"),
+      count_setting("rays", &C::rays, {1, 65536}, "", "of a texel"),
+      count_setting("most-texels", &C::most_texels, {1, 1 << 28}, "texels",
+                    "of a scene besides one a triangle; where it had more, the texel is doubled")};
+}
+
 }  // namespace kaamos::effects

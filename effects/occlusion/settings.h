@@ -5,6 +5,7 @@
 
 #include "effects/engine/setting.h"
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
+#include "effects/occlusion/baked_ao/baked_ao.h"
 #include "effects/occlusion/screen_space_ao/line_sweep_ao.h"
 #include "effects/occlusion/screen_space_ao/screen_space_ao.h"
 
@@ -18,6 +19,7 @@ SettingTable<HbaoConstants> hbao_settings();
 SettingTable<GtaoConstants> gtao_settings();
 SettingTable<LineSweepSettings> line_sweep_settings();
 SettingTable<UniformOcclusionConstants> uniform_occlusion_settings();
+SettingTable<BakedAoConstants> baked_ao_settings();
 ///@}
 
 }  // namespace kaamos::effects

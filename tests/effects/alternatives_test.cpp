@@ -17,6 +17,7 @@
 #include "effects/indirect/indirect_diffuse/indirect_diffuse.h"
 #include "effects/indirect/indirect_diffuse/occluded_volume.h"
 #include "effects/northlight/frame_renderer.h"
+#include "effects/occlusion/baked_ao/baked_ao.h"
 #include "effects/occlusion/screen_space_ao/screen_space_ao.h"
 #include "effects/reflections/planar/planar_reflections.h"
 #include "effects/reflections/screen_space/screen_reflections.h"
@@ -111,6 +112,7 @@ const std::map<std::string, Change>& lengths() {
       {"screen-sun", screen_shadow},
       {"gi-ray-ao", change<IndirectConstants>([](auto& c, float s) { c.length *= s; })},
       {"gi-screen-ao", change<OccludedVolumeSettings>([](auto& c, float s) { c.radius *= s; })},
+      {"baked-ao", change<BakedAoConstants>([](auto& c, float s) { c.texel *= s; })},
       // No length, but all that GTAO can do.
       {"gtao-frames", change<GtaoConstants>([](auto& c, float) { c.multibounce = 1; })},
       {"glass-shadow-map", map},
