@@ -12,6 +12,7 @@ Effect local_lights_row() {
                    .is_light = true,
                    .part = &FrameParts::local_lights}},
       .needs = {.local_lights = true, .lights = true},
+      .replaced_by = "lamp-visibility",
   };
 }
 

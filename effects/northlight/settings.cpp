@@ -50,7 +50,9 @@ void add_included(std::map<std::string, EffectSettings>& chosen,
   for (const Effect& effect : effects) {
     if (effect.includes.empty() || chosen.count(effect.name) == 0) continue;
     const Effect* included = find_effect(effects, effect.includes);
-    if (included != nullptr) chosen.try_emplace(included->name, included->defaults);
+    if (included == nullptr) continue;
+    EffectSettings& own = chosen.try_emplace(included->name, included->defaults).first->second;
+    own.named = own.named || chosen.at(effect.name).named;
   }
 }
 

@@ -98,7 +98,7 @@ std::uint32_t pixel_offset(const EffectSettings& settings, std::uint32_t index);
 /// within one. [PassConstants::first_sample]
 std::uint32_t first_sample(const EffectSettings& settings, std::uint32_t index);
 
-/// Brings along what the chosen effects include. [Effect::includes]
+/// Brings along what the chosen effects include, by name what was named. [Effect::includes]
 void add_included(std::map<std::string, EffectSettings>& chosen,
                   const std::vector<Effect>& effects);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadows of each pixel's strongest lamps, whole: in place of their maps and contact shadows.
+// Shadows of each pixel's strongest lamps, whole, in place of their maps and contact shadows; and
+// of all lamps.
 #include <fmt/format.h>
 
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "effects/shadows/contact_shadow/contact_shadow.h"
 #include "effects/shadows/lamp_shadow/lamp_shadow.h"
+#include "effects/shadows/lamp_visibility/lamp_visibility.h"
 #include "effects/shadows/rows.h"
 #include "effects/shadows/settings.h"
 
@@ -92,10 +94,26 @@ Effect rays_row() {
   return out;
 }
 
+// All of them, not the strongest alone: it brings no main lighting along.
+Effect visibility_row() {
+  Effect out = {.name = "lamp-visibility", .about = "local lights, a hard shadow ray to each"};
+  out.library = {"shadows/lamp_visibility/lamp_visibility", lamp_visibility_library};
+  out.make = make_lamp_visibility;
+  out.signals = {{.name = "lamp_visibility",
+                  .is_sum = false,
+                  .is_light = true,
+                  .part = &FrameParts::local_lights}};
+  out.needs = {.local_lights = true, .lights = true};
+  out.alternative_to = "contact";
+  out.shadows_alone = true;
+  out.misses = "penumbras";
+  return out;
+}
+
 }  // namespace
 
 std::vector<Effect> lamp_shadow_rows() {
-  return {pcf_row(), pcss_row(), hybrid_row(), rays_row()};
+  return {pcf_row(), pcss_row(), hybrid_row(), rays_row(), visibility_row()};
 }
 
 }  // namespace kaamos::effects

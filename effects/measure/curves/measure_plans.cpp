@@ -208,6 +208,11 @@ MeasurePlan technique_plan(const Options& options) {
     own.measure = row.alternative_to;
     plan = full_plan(own);
     plan.settings.clear();
+    // All light of the lamps, not the visibility of the strongest.
+    if (row.signals.front().part == &FrameParts::local_lights) {
+      std::erase_if(plan.references, [](const auto& each) { return !each.light; });
+      plan.signal = "radiance of the lamps";
+    }
     plan.references.resize(1);
   }
   plan.title = row.about;

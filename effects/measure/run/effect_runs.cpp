@@ -233,6 +233,13 @@ rtapi::Texture EffectRuns::sum(const Setting& setting) const {
 }
 
 rtapi::Result<FloatImage> EffectRuns::read_lit(const Setting& setting) {
+  const EffectSignal& signal =
+      find_effect(renderer_->context().effects, setting.effect)->signals.front();
+  if (signal.part == &FrameParts::local_lights) {
+    const auto whole = renderer_->read(signal.name);
+    if (!whole) return whole.error();
+    return first_channels(*whole, 3);
+  }
   const auto taken =
       renderer_->composition().take_strongest(*renderer_->effects().find(setting.effect));
   if (!taken) return taken.error();
