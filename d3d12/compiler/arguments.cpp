@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
@@ -82,6 +83,9 @@ class ArgumentParser {
 
 std::string ArgumentParser::set_profile(const std::string& value) {
   out_.options.Target = value;
+  // As for devices: programs of others cannot ask for it. [objects/create_device.cpp]
+  const char* model = std::getenv("KAAMOS_SHADER_MODEL");
+  out_.options.Experimental = model != nullptr && std::string_view(model) == "6.10";
   const size_t major = value.find('_');
   if (major == std::string::npos) return {};  // the compiler refuses it
   if (value.find("_4_") == major || value.find("_5_") == major) {

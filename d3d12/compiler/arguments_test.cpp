@@ -72,6 +72,15 @@ TEST(DxcArguments, OptionsOfTheLanguage) {
   EXPECT_FALSE(parse({"-Zpr", "-Zpc", "a.hlsl"}).options.RowMajorMatrices);
 }
 
+TEST(DxcArguments, ExperimentalModelsAreChosenByTheVariable) {
+  EXPECT_FALSE(parse({"-T", "lib_6_10", "a.hlsl"}).options.Experimental);
+  setenv("KAAMOS_SHADER_MODEL", "6.10", 1);
+  EXPECT_TRUE(parse({"-T", "lib_6_10", "a.hlsl"}).options.Experimental);
+  setenv("KAAMOS_SHADER_MODEL", "6.9", 1);
+  EXPECT_FALSE(parse({"-T", "lib_6_10", "a.hlsl"}).options.Experimental);
+  unsetenv("KAAMOS_SHADER_MODEL");
+}
+
 TEST(DxcArguments, Files) {
   const DxcArguments parsed = parse({"-Fo", "a.cso", "-Fha.h", "-Vn", "g_a", "-Fe", "a.err", "-Fc",
                                      "a.asm", "/Fd", "a.pdb", "-MF", "a.d", "a.hlsl"});

@@ -146,6 +146,7 @@ rtapi::Result<ShaderSource> read_source(std::span<const std::byte> part) {
   if (has_space) options.AutoBindingSpace = space;
   options.HlslVersion = in.text();
   if (const uint32_t given = in.number()) options.PayloadQualifiers = given == 2;
+  options.Experimental = true;  // what was allowed when it was compiled
   for (bool* flag : {&options.RowMajorMatrices, &options.Native16BitTypes, &options.ExternalLinkage,
                      &options.Strict, &options.Debug, &options.ReserveUnusedRegisters}) {
     *flag = in.number() != 0;

@@ -42,7 +42,7 @@ HRESULT options(const Query& query, const Fill& fill) {
 constexpr D3D_FEATURE_LEVEL kHighestLevel = D3D_FEATURE_LEVEL_12_1;
 constexpr UINT kAddressBits = 40;  // of a buffer; BufferDesc::SizeInBytes
 
-D3D_SHADER_MODEL highest_model(const rtapi::Device& device) {
+D3D_SHADER_MODEL model_of(const rtapi::Device& device) {
   return static_cast<D3D_SHADER_MODEL>(device.GetDesc().ShaderModel);
 }
 
@@ -156,7 +156,7 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
       // A program asks with the highest model it knows and gets the lower of the two.
       return answer<D3D12_FEATURE_DATA_SHADER_MODEL>(query, [this](auto& out) {
         if (out.HighestShaderModel < D3D_SHADER_MODEL_5_1) return E_INVALIDARG;
-        out.HighestShaderModel = std::min(out.HighestShaderModel, highest_model(device_));
+        out.HighestShaderModel = std::min(out.HighestShaderModel, model_of(device_));
         return S_OK;
       });
     case D3D12_FEATURE_ROOT_SIGNATURE:

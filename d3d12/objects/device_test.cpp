@@ -246,13 +246,14 @@ TEST_F(DeviceCalls, VariablesChooseTheLevel) {
   for (const Row& row :
        {Row{"none", "6.0", D3D12_RAYTRACING_TIER_NOT_SUPPORTED, D3D_SHADER_MODEL_6_0},
         Row{"1.0", "6.3", D3D12_RAYTRACING_TIER_1_0, D3D_SHADER_MODEL_6_3},
-        Row{"1.1", "6.5", D3D12_RAYTRACING_TIER_1_1, D3D_SHADER_MODEL_6_5}}) {
+        Row{"1.1", "6.5", D3D12_RAYTRACING_TIER_1_1, D3D_SHADER_MODEL_6_5},
+        Row{"1.1", "6.10", D3D12_RAYTRACING_TIER_1_1, static_cast<D3D_SHADER_MODEL>(0x6A)}}) {
     const auto device = device_of_level(row.tier, row.model);
     ASSERT_NE(device, nullptr) << row.tier;
     D3D12_FEATURE_DATA_D3D12_OPTIONS5 five = {};
     EXPECT_EQ(device->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS5, &five, sizeof(five)), S_OK);
     EXPECT_EQ(five.RaytracingTier, row.reported) << row.tier;
-    D3D12_FEATURE_DATA_SHADER_MODEL model = {D3D_SHADER_MODEL_6_8};
+    D3D12_FEATURE_DATA_SHADER_MODEL model = {static_cast<D3D_SHADER_MODEL>(0x6A)};
     EXPECT_EQ(device->CheckFeatureSupport(D3D12_FEATURE_SHADER_MODEL, &model, sizeof(model)), S_OK);
     EXPECT_EQ(model.HighestShaderModel, row.reported_model) << row.tier;
   }

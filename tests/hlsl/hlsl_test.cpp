@@ -51,6 +51,7 @@ hlsl::FrontendOptions options_of(const HlslTest& test, bool checked) {
     const std::string& word = test.options[i];
     const bool last = i + 1 == test.options.size();
     if (word == "-enable-16bit-types") options.native_16bit = true;
+    if (word == "-enable-experimental") options.experimental = true;
     if (word == "-disable-payload-qualifiers") options.payload_qualifiers = false;
     if (word == "-Zpr") options.row_major = true;
     if (word == "-HV" && !last)

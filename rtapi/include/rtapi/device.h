@@ -60,7 +60,8 @@ struct DeviceDesc {
   /// (KA0914).
   RaytracingTier Tier = kHighestRaytracingTier;
   /// Libraries that were compiled for a higher one are refused (KA0544). At most
-  /// kHighestShaderModel, and at least what the tier needs: 6.3 for 1.0, 6.5 for 1.1 (KA0914).
+  /// kExperimentalShaderModel, and at least what the tier needs: 6.3 for 1.0, 6.5 for 1.1, 6.9 for
+  /// 1.2 (KA0914).
   rtapi::ShaderModel ShaderModel = kHighestShaderModel;
   /// Lanes of a wave in compute shaders on the CPU: 4, 8, 16 or 32 (KA0914); 0: 8. Vulkan ignores
   /// it: there the driver decides. In ray shaders each thread is a wave of its own.

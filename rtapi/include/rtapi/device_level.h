@@ -20,7 +20,8 @@ enum class RaytracingTier : uint32_t {
   /// DispatchRays and seven vertex formats.
   kTier1_1 = 11,
   kTier1_2 = 12,  ///< opacity micromaps, HitObject and MaybeReorderThread
-  kTier2_0 = 20,  ///< clusters, partitioned top levels, indirect builds; not offered yet
+  kTier2_0 =
+      20,  ///< EXPERIMENTAL: clusters, partitioned top levels, indirect builds; not offered yet
 };
 
 /// The highest tier that this version has, on every backend.
@@ -39,14 +40,19 @@ enum class ShaderModel : uint32_t {
   k6_7 = 0x67,
   k6_8 = 0x68,
   k6_9 = 0x69,
+  /// EXPERIMENTAL, since its specification still moves: TriangleObjectPositions, DebugBreak. A
+  /// device has it only where it is asked for.
+  k6_10 = 0x6A,
 };
 
-/// The highest shader model that this version has, on every backend.
+/// The highest shader model that is final, on every backend, and what a device has by default.
 inline constexpr ShaderModel kHighestShaderModel = ShaderModel::k6_9;
+/// EXPERIMENTAL: the highest one that a device can be asked for.
+inline constexpr ShaderModel kExperimentalShaderModel = ShaderModel::k6_10;
 
 /// Returns "none", "1.0", "1.1", "1.2" or "2.0"; "unknown" for a value of none of them.
 const char* GetName(RaytracingTier tier);
-/// Returns "6.0" to "6.9"; "unknown" for a value of none of them.
+/// Returns "6.0" to "6.10"; "unknown" for a value of none of them.
 std::string GetName(ShaderModel model);
 
 /// Reads a name that GetName gives, offered or not.

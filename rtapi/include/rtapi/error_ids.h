@@ -608,9 +608,9 @@ inline constexpr ErrorId kSubobjectRange{2592};  ///< the value {0} is out of ra
 inline constexpr ErrorId kRootSignatureStage{2593};  ///< DXC does not allow [RootSignature] on a {0} shader
 inline constexpr ErrorId kAttributeTwice{2594};  ///< [{0}] is written twice; the first one counts
 inline constexpr ErrorId kExportedResource{2596};  ///< DXC does not export '{0}', because a parameter or its result holds resources
-inline constexpr ErrorId kUnknownTarget{2600};  ///< unknown target '{0}'; the targets are lib_6_3 to lib_6_9, lib_6_x, and cs_6_0 to cs_6_9, vs and ps too
+inline constexpr ErrorId kUnknownTarget{2600};  ///< unknown target '{0}'; the targets are lib_6_3 to lib_6_10, lib_6_x, and cs_6_0 to cs_6_10, vs and ps too
 inline constexpr ErrorId kExportSyntax{2601};  ///< '{0}' is not a list of exports; write "A;B1,B2=C"
-inline constexpr ErrorId kPreviewTarget{2602};  ///< the target '{0}' is not supported: Shader Model 6.10 is a preview, and 6.9 is the highest here
+inline constexpr ErrorId kExperimentalTarget{2602};  ///< the target '{0}' is experimental: the specification of Shader Model 6.10 still moves
 inline constexpr ErrorId kPayloadTarget{2610};  ///< -enable-payload-qualifiers needs lib_6_6 or higher; the target is {0}
 inline constexpr ErrorId kPayloadIgnored{2611};  ///< the access qualifiers of payload '{0}' are ignored: they take effect from lib_6_7 on, and in lib_6_6 with -enable-payload-qualifiers
 inline constexpr ErrorId kPayloadFieldPlain{2612};  ///< payload field '{0}' has no access qualifiers; write ': read(..) : write(..)'

@@ -34,7 +34,7 @@ struct ShaderSourceFile {
 struct ShaderCompileOptions {
   std::string File = {};                   ///< the main source file; also names it in messages
   std::optional<std::string> Source = {};  ///< the text, instead of reading File
-  std::string Target = "lib_6_6";          ///< -T: lib_6_3 to lib_6_9, cs_6_x, vs_6_x, ps_6_x
+  std::string Target = "lib_6_6";          ///< -T: lib_6_3 to lib_6_10, cs_6_x, vs_6_x, ps_6_x
   std::string EntryPoint = {};             ///< -E, unless a library
   std::vector<ShaderDefine> Defines = {};  ///< -D
   std::vector<std::string> IncludeDirectories = {};  ///< -I
@@ -49,7 +49,9 @@ struct ShaderCompileOptions {
   /// model 5.0.
   bool ReserveUnusedRegisters = false;
   bool Native16BitTypes = false;  ///< -enable-16bit-types
-  bool ExternalLinkage = false;   ///< -default-linkage external
+  /// -enable-experimental: targets of shader model 6.10, whose specification still moves.
+  bool Experimental = false;
+  bool ExternalLinkage = false;  ///< -default-linkage external
   /// -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
   /// [DXR: Availability]
   std::optional<bool> PayloadQualifiers = {};

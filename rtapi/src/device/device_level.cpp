@@ -18,7 +18,7 @@ constexpr TierRow kTiers[] = {{RaytracingTier::kNotSupported, "none", ShaderMode
                               {RaytracingTier::kTier1_0, "1.0", ShaderModel::k6_3},
                               {RaytracingTier::kTier1_1, "1.1", ShaderModel::k6_5},
                               {RaytracingTier::kTier1_2, "1.2", ShaderModel::k6_9},
-                              {RaytracingTier::kTier2_0, "2.0", ShaderModel::k6_9}};
+                              {RaytracingTier::kTier2_0, "2.0", ShaderModel::k6_10}};
 
 const TierRow* find_tier(RaytracingTier tier) {
   for (const TierRow& row : kTiers) {
@@ -28,7 +28,7 @@ const TierRow* find_tier(RaytracingTier tier) {
 }
 
 bool is_defined(ShaderModel model) {
-  return model >= ShaderModel::k6_0 && model <= ShaderModel::k6_9;
+  return model >= ShaderModel::k6_0 && model <= kExperimentalShaderModel;
 }
 
 // The model of "lib_6_6"; none for lib_6_x.
@@ -36,7 +36,7 @@ std::optional<ShaderModel> model_of_target(std::string_view target) {
   const size_t underscore = target.find('_');
   if (underscore == std::string_view::npos) return std::nullopt;
   std::string name(target.substr(underscore + 1));
-  if (name.size() != 3) return std::nullopt;
+  if (name.size() < 3) return std::nullopt;
   name[1] = '.';
   const auto model = ParseShaderModel(name);
   return model ? std::optional(*model) : std::nullopt;
@@ -70,7 +70,8 @@ Result<ShaderModel> ParseShaderModel(std::string_view name) {
     if (name == GetName(model)) return model;
   }
   return detail::make_error(detail::Id::kDeviceDesc, detail::in_quotes(name),
-                            " is no shader model; they are 6.0 to 6.9");
+                            " is no shader model; they are 6.0 to ",
+                            GetName(kExperimentalShaderModel));
 }
 
 namespace detail {
@@ -85,11 +86,11 @@ Status check_device_level(const DeviceDesc& desc) {
     return make_error(Id::kDeviceDesc, "Tier is ", row->name, "; the highest that is offered is ",
                       GetName(kHighestRaytracingTier));
   }
-  if (!is_defined(desc.ShaderModel) || desc.ShaderModel > kHighestShaderModel) {
+  if (!is_defined(desc.ShaderModel)) {
     return make_error(Id::kDeviceDesc, "ShaderModel is ",
                       hex(static_cast<uint32_t>(desc.ShaderModel)), "; it must be 0x60 to ",
-                      hex(static_cast<uint32_t>(kHighestShaderModel)), " (",
-                      GetName(kHighestShaderModel), ")");
+                      hex(static_cast<uint32_t>(kExperimentalShaderModel)), " (",
+                      GetName(kExperimentalShaderModel), ")");
   }
   if (desc.ShaderModel < row->needs) {
     return make_error(Id::kDeviceDesc, "Tier ", row->name, " needs ShaderModel ",

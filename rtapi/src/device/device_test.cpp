@@ -65,7 +65,7 @@ TEST(DeviceTest, TierAndShaderModelFitEachOther) {
   const auto create = [](RaytracingTier tier, ShaderModel model) {
     return CreateDevice({.Backend = "null", .Tier = tier, .ShaderModel = model});
   };
-  for (uint32_t model = 0x60; model <= static_cast<uint32_t>(kHighestShaderModel); ++model) {
+  for (uint32_t model = 0x60; model <= static_cast<uint32_t>(kExperimentalShaderModel); ++model) {
     const auto level = static_cast<ShaderModel>(model);
     EXPECT_TRUE(create(RaytracingTier::kNotSupported, level).ok());
     EXPECT_EQ(create(RaytracingTier::kTier1_0, level).ok(), model >= 0x63) << model;
@@ -75,6 +75,7 @@ TEST(DeviceTest, TierAndShaderModelFitEachOther) {
   EXPECT_ERROR(create(RaytracingTier::kTier1_1, ShaderModel::k6_4), "KA0914",
                "Tier 1.1 needs ShaderModel 6.5 or higher, but it is 6.4");
   EXPECT_ERROR(create(RaytracingTier::kTier1_1, static_cast<ShaderModel>(0x70)), "KA0914", "0x70");
+  EXPECT_EQ(DeviceDesc().ShaderModel, ShaderModel::k6_9);  // 6.10 has to be asked for
   EXPECT_ERROR(create(RaytracingTier::kTier1_1, static_cast<ShaderModel>(0x51)), "KA0914", "0x51");
 }
 
@@ -84,15 +85,16 @@ TEST(DeviceTest, TiersAndShaderModelsHaveNames) {
         RaytracingTier::kTier1_2, RaytracingTier::kTier2_0}) {
     EXPECT_EQ(ParseRaytracingTier(GetName(tier)).value(), tier);
   }
-  for (uint32_t model = 0x60; model <= 0x69; ++model) {
+  for (uint32_t model = 0x60; model <= 0x6A; ++model) {
     EXPECT_EQ(ParseShaderModel(GetName(static_cast<ShaderModel>(model))).value(),
               static_cast<ShaderModel>(model));
   }
   EXPECT_STREQ(GetName(RaytracingTier::kTier1_1), "1.1");
   EXPECT_EQ(GetName(ShaderModel::k6_5), "6.5");
+  EXPECT_EQ(GetName(ShaderModel::k6_10), "6.10");
   EXPECT_EQ(GetName(static_cast<ShaderModel>(0x51)), "unknown");
   EXPECT_ERROR(ParseRaytracingTier("11"), "KA0914", "\"11\"", "none, 1.0, 1.1, 1.2, 2.0");
-  EXPECT_ERROR(ParseShaderModel("6_6"), "KA0914", "\"6_6\"", "6.0 to 6.9");
+  EXPECT_ERROR(ParseShaderModel("6_6"), "KA0914", "\"6_6\"", "6.0 to 6.10");
 }
 
 TEST(DeviceTest, NoneOfRaytracingOnADeviceWithoutIt) {

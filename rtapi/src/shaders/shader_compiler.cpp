@@ -37,6 +37,7 @@ hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
   out.reserve_unused = options.ReserveUnusedRegisters;
   out.payload_qualifiers = options.PayloadQualifiers;
   out.native_16bit = options.Native16BitTypes;
+  out.experimental = options.Experimental;
   out.external_linkage = options.ExternalLinkage;
   out.check_access = options.CheckAccess;
   out.embed_source = options.EmbedSource;

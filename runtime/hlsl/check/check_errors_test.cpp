@@ -331,8 +331,9 @@ const std::vector<Case>& cases() {
       {"NoEntryPoint", Id::kNoEntryPoint, "void f() {}", target("cs_6_6")},
       {"UnknownTarget", Id::kUnknownTarget, "void f() {}", target("gs_6_6")},
       {"UnknownMinor", Id::kUnknownTarget, "void f() {}", target("lib_6_11")},
-      {"PreviewTarget", Id::kPreviewTarget, "void f() {}", target("lib_6_10")},
-      {"PreviewPixelTarget", Id::kPreviewTarget, "void f() {}", target("ps_6_10")},
+      {"ExperimentalTarget", Id::kExperimentalTarget, "void f() {}", target("lib_6_10")},
+      {"ExperimentalPixelTarget", Id::kExperimentalTarget, "void f() {}", target("ps_6_10")},
+      {"UnknownTargetAfterIt", Id::kUnknownTarget, "void f() {}", target("lib_6_11")},
       {"TraceRayFromAnyHit", Id::kStage,
        kRayTypes + "[shader(\"anyhit\")] void H(inout Payload p, Attributes a) {\n"
                    "  RayDesc r = (RayDesc)0;\n  @TraceRay(scene, 0, 255, 0, 0, 0, r, p);\n}"},

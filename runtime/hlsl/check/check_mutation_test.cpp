@@ -89,6 +89,8 @@ TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
     if (text.find("OPTIONS: -HV 2018") != std::string::npos) options.hlsl_version = 2018;
     if (text.find("OPTIONS: -T lib_6_7") != std::string::npos) options.target = "lib_6_7";
     if (text.find(" -T lib_6_9") != std::string::npos) options.target = "lib_6_9";
+    options.experimental = text.find(" -T lib_6_10") != std::string::npos;
+    if (options.experimental) options.target = "lib_6_10";
     if (text.find(" -disable-payload-qualifiers") != std::string::npos) {
       options.payload_qualifiers = false;
     }

@@ -90,6 +90,7 @@ const std::vector<Option>& options() {
        [](Arguments& a, const std::string& v) { return parse_number(v, a.automatic_space); },
        "a whole number"},
       {"-enable-16bit-types", false, flag(&Arguments::native_16bit), ""},
+      {"-enable-experimental", false, flag(&Arguments::experimental), ""},
       {"-enable-payload-qualifiers", false,
        [](Arguments& a, const std::string&) {
          // -disable-payload-qualifiers wins, wherever it appears.
@@ -245,6 +246,7 @@ Of its own:
   -no-source                leaves out the source, from which a checked device compiles that code
                             for a library that was compiled without -check-access, and a state
                             object links the library with others that it calls
+  -enable-experimental      allows profiles of 6.10, whose specification still moves
   -no-wide                  compute, ray generation, vertex and pixel shaders run thread by
                             thread, never 8 threads at once
   --strict                  refuses what DXC refuses, even if Kaamos could accept it

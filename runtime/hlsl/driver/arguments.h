@@ -25,6 +25,7 @@ struct Arguments {
   uint32_t automatic_space = 0;
   uint32_t hlsl_version = 2021;
   bool native_16bit = false;
+  bool experimental = false;
   bool row_major = false;
   bool reserve_unused = false;
   std::optional<bool> payload_qualifiers;

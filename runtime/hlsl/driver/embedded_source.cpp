@@ -113,6 +113,7 @@ std::optional<EmbeddedSource> read_embedded_source(std::string_view text) {
   options.strict = in.number() != 0;
   options.reserve_unused = in.number() != 0;
   if (const uint32_t given = in.number()) options.payload_qualifiers = given == 2;
+  options.experimental = true;  // what was allowed when the library was made
   for (uint32_t left = in.number(); left > 0 && in.ok(); --left) {
     std::string path = normalize_path(in.text());
     out.files.add(std::move(path), in.text());

@@ -33,10 +33,11 @@ std::pair<std::string_view, std::string_view> stage_and_minor(std::string_view t
   return {};
 }
 
-// For lib_6_3, cs_6_6, vs_6_0 or ps_6_0, the digit after "6_", where x counts as 8; -1 for any
+// For lib_6_3, cs_6_6, vs_6_0 or ps_6_0, the number after "6_", where x counts as 8; -1 for any
 // other profile.
 int minor_version(const std::string& target) {
   const auto [stage, minor] = stage_and_minor(target);
+  if (minor == "10") return 10;
   if (minor.size() != 1) return -1;
   const char digit = minor[0];
   const bool library = stage == "lib";
@@ -68,10 +69,11 @@ std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text)
 std::optional<TokenList> preprocess_source(const FrontendOptions& options, SourceManager& sources,
                                            DiagnosticEngine& diagnostics) {
   const int minor = minor_version(options.target);
-  if (minor < 0) {
-    const bool is_preview = stage_and_minor(options.target).second == "10";
-    diagnostics.report(is_preview ? DiagnosticId::kPreviewTarget : DiagnosticId::kUnknownTarget, {},
-                       {options.target});
+  const bool is_experimental = minor > 9;
+  if (minor < 0 || (is_experimental && !options.experimental)) {
+    diagnostics.report(
+        is_experimental ? DiagnosticId::kExperimentalTarget : DiagnosticId::kUnknownTarget, {},
+        {options.target});
     return std::nullopt;
   }
   PreprocessOptions preprocess;

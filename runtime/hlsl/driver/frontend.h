@@ -23,7 +23,7 @@ struct FrontendOptions {
   std::optional<std::string> text;  // the source itself; if empty, the file is read
   std::vector<std::string> include_folders;
   std::vector<std::string> defines;  // "NAME" or "NAME=VALUE"
-  std::string target = "lib_6_6";    // lib_6_3 .. lib_6_9, lib_6_x, cs_6_0 .. cs_6_9
+  std::string target = "lib_6_6";    // lib_6_3 .. lib_6_10, lib_6_x, cs_6_0 .. cs_6_10
   std::string entry_point = "main";  // cs_6_x only [-E]
   std::string exports;               // as DXC's -exports: "A;B1,B2=C"
   bool external_linkage = false;     // [-default-linkage external]; lib_6_x always has it
@@ -31,6 +31,7 @@ struct FrontendOptions {
   uint32_t hlsl_version = 2021;      // [-HV]
   bool reserve_unused = false;       // [-flegacy-resource-reservation]
   bool native_16bit = false;         // [-enable-16bit-types]
+  bool experimental = false;         // profiles of 6.10 [-enable-experimental]
   bool row_major = false;            // [-Zpr]; false is [-Zpc]
   // -enable-payload-qualifiers, -disable-payload-qualifiers; if empty, on from lib_6_7 up.
   std::optional<bool> payload_qualifiers = {};

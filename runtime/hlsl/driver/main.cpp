@@ -44,6 +44,7 @@ FrontendOptions frontend_options(const Arguments& arguments) {
   options.automatic_space = arguments.automatic_space;
   options.hlsl_version = arguments.hlsl_version;
   options.native_16bit = arguments.native_16bit;
+  options.experimental = arguments.experimental;
   options.row_major = arguments.row_major;
   options.reserve_unused = arguments.reserve_unused;
   options.payload_qualifiers = arguments.payload_qualifiers;

@@ -39,6 +39,7 @@ FrontendOptions options_of(const fs::path& path) {
     if (word != "OPTIONS:") continue;
     while (words >> word) {
       if (word == "-enable-16bit-types") options.native_16bit = true;
+      if (word == "-enable-experimental") options.experimental = true;
       if (word == "-disable-payload-qualifiers") options.payload_qualifiers = false;
       if (word == "-Zpr") options.row_major = true;
       if (word == "-HV") words >> options.hlsl_version;

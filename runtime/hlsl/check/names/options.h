@@ -19,7 +19,7 @@ struct ExportRequest {
 
 struct CheckOptions {
   std::string name;                // the main file's, for ir::Module::name
-  std::string target = "lib_6_6";  // lib_6_3 .. lib_6_9, lib_6_x, cs_6_0 .. cs_6_9
+  std::string target = "lib_6_6";  // lib_6_3 .. lib_6_10, lib_6_x, cs_6_0 .. cs_6_10
   std::string entry_point;         // cs_6_x: the kernel's name
   std::vector<ExportRequest> exports;
   // If true, every non-static function with a body is exported. [-default-linkage external]
@@ -63,8 +63,9 @@ struct Link {
   std::vector<std::string> entries;  // exports of the first unit that become entry points
   std::vector<Definition> definitions;
 };
-// The minor version of a target such as lib_6_3; lib_6_x has everything.
+// The minor version of a target such as lib_6_3; lib_6_x has everything that is final.
 inline uint32_t shader_model_minor(const std::string& target) {
+  if (target.ends_with("_10")) return 10;
   const char digit = target.empty() ? 'x' : target.back();
   return digit >= '0' && digit <= '9' ? static_cast<uint32_t>(digit - '0') : 9;
 }
