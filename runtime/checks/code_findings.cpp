@@ -4,6 +4,10 @@
 #include <bit>
 #include <cstdio>
 #include <iterator>
+#include <optional>
+
+#include <kaamos/shader/debugging.h>
+#include <kaamos/shader/triangle_positions.h>
 
 #include "runtime/backend/ray_flags.h"
 #include "runtime/checks/names.h"
@@ -139,7 +143,27 @@ std::string bounds_text(const runtime::AddressMap& addresses, const CheckReport&
          ". Check the index, and that the stride in the shader is that of the buffer";
 }
 
+// What only shader model 6.10 has; none for the other findings.
+std::optional<Id> experimental_id(Finding finding) {
+  if (finding == shader::kNoTriangle) return Id::kNoTriangle;
+  if (finding == shader::kNoDataAccess) return Id::kNoDataAccess;
+  if (finding == shader::kBreakWithoutDebugger) return Id::kDebugBreak;
+  return std::nullopt;
+}
+
+std::string describe_experimental(const CheckReport& r) {
+  if (r.finding == shader::kBreakWithoutDebugger) {
+    return "DebugBreak: no debugger is attached that would stop here";
+  }
+  if (r.finding == shader::kNoTriangle) {
+    return "TriangleObjectPositions of what is not the hit of a triangle; it reads 0";
+  }
+  return "TriangleObjectPositions of geometry " + text_of(r.values[0]) + ", primitive " +
+         text_of(r.values[1]) + ", but the bottom level was built without kAllowDataAccess (0x100)";
+}
+
 Id id_of(const CheckReport& r) {
+  if (const auto id = experimental_id(r.finding)) return *id;
   switch (r.finding) {
     case Finding::kOutOfBounds:
       return Id::kRootAccessOutOfBounds;
@@ -181,6 +205,7 @@ Id id_of(const CheckReport& r) {
 }
 
 std::string describe(const runtime::AddressMap& addresses, const CheckReport& r) {
+  if (experimental_id(r.finding)) return describe_experimental(r);
   const uint64_t* v = r.values;
   switch (r.finding) {
     case Finding::kOutOfBounds:

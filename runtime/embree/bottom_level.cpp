@@ -144,6 +144,7 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
   for (size_t i = 0; i < shapes.size(); ++i) {
     static_cast<runtime::GeometryShape&>(*level->geometries_[i]) = shapes[i];
   }
+  level->positions_ = runtime::positions_of(*level, flags);
   return level;
 }
 
@@ -156,6 +157,7 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::updated_copy(
   if (auto s = level->create_scene(context); !s) return s.error();
   if (auto s = level->add_geometries(context, geometries, linkages, this); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
+  level->positions_ = runtime::positions_of(*level, flags_);
   return level;
 }
 

@@ -16,6 +16,7 @@
 #include "runtime/embree/exact.h"
 #include "runtime/embree/padded_box.h"
 #include "runtime/structures/structure_map.h"
+#include "runtime/structures/triangle_positions.h"
 
 namespace kaamos::embree {
 
@@ -81,6 +82,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   BuildFlags flags() const { return flags_; }
   const std::vector<std::unique_ptr<GeometryInfo>>& geometries() const { return geometries_; }
   uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }
+  // By geometry, for shaders.
+  const shader::GeometryPositions* positions() const { return positions_.data(); }
 
  private:
   BottomLevel() = default;
@@ -110,6 +113,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
   ExactFrame exact_frame_;
   uint64_t out_of_range_triangles_ = 0;
   std::vector<std::unique_ptr<GeometryInfo>> geometries_;
+  std::vector<shader::GeometryPositions> positions_;
   mutable std::mutex twin_mutex_;
   mutable std::shared_ptr<const BottomLevel> twin_;
 };

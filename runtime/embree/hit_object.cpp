@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/hit_object.h"
 
+#include <cstring>
+
+#include "kaamos/shader/debugging.h"
 #include "kaamos/shader/reordering.h"
+#include "kaamos/shader/triangle_positions.h"
+#include "runtime/backend/debugger.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/trace.h"
@@ -14,7 +19,8 @@ const RecordTable& table_of(const Worker& worker, const shader::HitObject& hit) 
                                             : worker.dispatch->miss_table;
 }
 
-shader::RaySystemValues values_of(const shader::HitObject& hit) {
+shader::RaySystemValues values_of(const shader::HitObject& hit,
+                                  const shader::InstanceTransform& world_to_object) {
   shader::RaySystemValues values;
   for (int i = 0; i < 3; ++i) {
     values.ray.origin[i] = hit.origin[i];
@@ -30,7 +36,7 @@ shader::RaySystemValues values_of(const shader::HitObject& hit) {
   values.geometry_index = hit.geometry_index;
   values.primitive_index = hit.primitive_index;
   values.object_to_world = hit.object_to_world;
-  values.world_to_object = hit.world_to_object;
+  values.world_to_object = world_to_object.rows;
   return values;
 }
 
@@ -46,7 +52,10 @@ void invoke_hit_object(shader::Invocation& caller, const shader::HitObject& hit,
   const ShaderRecord record = table_of(worker, hit).at(hit.record);
   const Shader& shader = is_hit ? record.target->closest_hit : record.target->shader;
   if (!shader.runs()) return;
-  const shader::RaySystemValues values = values_of(hit);
+  shader::InstanceTransform world_to_object;
+  std::memcpy(world_to_object.rows, hit.world_to_object, sizeof(world_to_object.rows));
+  world_to_object.positions = shader::positions_of(hit);
+  const shader::RaySystemValues values = values_of(hit, world_to_object);
   shader::Invocation invocation = invocation_of(caller, shader, record, values);
   const RunningShader running(worker, shader);
   if (is_hit) {
@@ -59,6 +68,7 @@ void invoke_hit_object(shader::Invocation& caller, const shader::HitObject& hit,
 
 uint32_t record_constant(shader::Invocation& caller, const shader::HitObject& hit,
                          uint32_t offset) {
+  if (offset == shader::kDebuggingEnabled) return runtime::is_debugger_attached() ? 1 : 0;
   if (hit.is_bound == 0) return 0;
   if (offset == shader::kReorderedRecord) table_of(worker_of(caller), hit).at(hit.record);
   return table_of(worker_of(caller), hit).argument(hit.record, offset);

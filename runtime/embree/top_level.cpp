@@ -46,7 +46,8 @@ TopLevel::~TopLevel() {
 void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds) {
   const rtapi::RaytracingInstanceDesc& desc = instance.desc;
   InstanceNode& node = nodes_.emplace_back();
-  float* world_to_object = world_to_object_.emplace_back().rows;
+  WorldToObject& transform = world_to_object_.emplace_back();
+  float* world_to_object = transform.rows;
   RTCBounds& box = bounds.emplace_back(kNoBounds);
   node = {};
   std::memcpy(node.object_to_world, desc.Transform, sizeof(node.object_to_world));
@@ -58,7 +59,8 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   if (instance.bottom_level == nullptr) return;
   const runtime::Bounds& b = instance.bounds;
   box = {b.lower[0], b.lower[1], b.lower[2], 0, b.upper[0], b.upper[1], b.upper[2], 0};
-  std::memcpy(world_to_object, instance.world_to_object, sizeof(WorldToObject));
+  std::memcpy(world_to_object, instance.world_to_object, sizeof(transform.rows));
+  transform.positions = static_cast<const BottomLevel&>(*instance.bottom_level).positions();
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 3; ++row) {
       node.world_to_object_columns[column][row] = world_to_object[4 * row + column];
@@ -164,7 +166,8 @@ std::vector<runtime::Instance> TopLevel::instances() const {
     instance.desc.Flags = flags_of(node);
     if (node.scene == nullptr) continue;
     instance.bottom_level = by_scene[node.scene];
-    std::memcpy(instance.world_to_object, world_to_object_[i].rows, sizeof(WorldToObject));
+    std::memcpy(instance.world_to_object, world_to_object_[i].rows,
+                sizeof(world_to_object_[i].rows));
     runtime::world_bounds(node.object_to_world, instance.bottom_level->object_bounds(),
                           instance.bounds);
   }

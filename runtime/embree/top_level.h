@@ -25,10 +25,8 @@
 
 namespace kaamos::embree {
 
-// The transform that only shaders need from an instance: 3x4, row-major.
-struct WorldToObject {
-  float rows[12];
-};
+// What only shaders need from an instance.
+using WorldToObject = shader::InstanceTransform;
 
 class TopLevel final : public runtime::TopLevelBase {
  public:
@@ -47,6 +45,10 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
+  // Of the instance's bottom level, by geometry.
+  const shader::GeometryPositions* positions(uint32_t index) const {
+    return world_to_object_[index].positions;
+  }
   bool has_exact() const { return has_exact_; }
   // The level for rays that make all geometry non-opaque, and so may meet any-hit shaders
   // everywhere: the same instances with all triangles exact. Made when it is first asked for, in

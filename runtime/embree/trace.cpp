@@ -126,6 +126,7 @@ struct WriteHitObject {
       float barycentrics[2] = {ray_hit.hit.u, ray_hit.hit.v};
       clamp_barycentrics(barycentrics[0], barycentrics[1]);
       std::memcpy(out.attributes, barycentrics, sizeof(barycentrics));
+      shader::set_position_table(out, state.top_level->positions(index));
     }
     set_hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind,
                    hit_t<some_exact>(state, ray_hit), state.values);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "kaamos/shader/triangle_positions.h"
 #include "runtime/backend/ray_flags.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
@@ -37,7 +38,10 @@ shader::HitObject Replay::hit_object_of(const Trace& trace) const {
   out.record = static_cast<uint32_t>(hit_record_index(trace, trace.hit));
   std::memcpy(out.attributes, trace.attributes, sizeof(out.attributes));
   std::memcpy(out.object_to_world, instance.object_to_world.data(), sizeof(out.object_to_world));
-  std::memcpy(out.world_to_object, instance.world_to_object.data(), sizeof(out.world_to_object));
+  std::memcpy(out.world_to_object, instance.world_to_object.rows, sizeof(out.world_to_object));
+  if (out.hit_kind >= shader::kLeastTriangleHitKind) {
+    shader::set_position_table(out, instance.world_to_object.positions);
+  }
   return out;
 }
 
@@ -92,6 +96,9 @@ void Replay::invoke(Frame& caller, const shader::HitObject& hit, void* payload,
   if (linked == nullptr) return;
   Frame frame;
   frame.begin(*this, *linked, record, caller.depth + 1);
+  shader::InstanceTransform world_to_object;
+  std::memcpy(world_to_object.rows, hit.world_to_object, sizeof(world_to_object.rows));
+  world_to_object.positions = shader::positions_of(hit);
   frame.values = {{{hit.origin[0], hit.origin[1], hit.origin[2]},
                    hit.t_min,
                    {hit.direction[0], hit.direction[1], hit.direction[2]},
@@ -104,7 +111,7 @@ void Replay::invoke(Frame& caller, const shader::HitObject& hit, void* payload,
                   hit.geometry_index,
                   hit.primitive_index,
                   hit.object_to_world,
-                  hit.world_to_object};
+                  world_to_object.rows};
   frame.ray = &frame.values;
   if (call != nullptr) {
     call->Shaders.push_back({linked->name, stage_of(*linked)});

@@ -31,7 +31,7 @@ RayQueryHit hit_of(const Candidate& candidate, const Instance& instance, bool op
   hit.front_face = !candidate.procedural && is_front_face(candidate, instance);
   hit.non_opaque = candidate.procedural && !opaque;
   hit.object_to_world = instance.object_to_world.data();
-  hit.world_to_object = instance.world_to_object.data();
+  hit.world_to_object = instance.world_to_object.rows;
   return hit;
 }
 

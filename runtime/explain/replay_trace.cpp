@@ -217,7 +217,7 @@ void Replay::offer_box(Trace& trace, const Candidate& candidate, const Record& r
                   candidate.geometry,
                   candidate.primitive,
                   instance.object_to_world.data(),
-                  instance.world_to_object.data()};
+                  instance.world_to_object.rows};
   frame.ray = &frame.values;
   frame.trace = &trace;
   frame.candidate = &candidate;
@@ -269,7 +269,7 @@ AnyHitResult Replay::run_any_hit(Trace& trace, const Candidate& candidate, const
                   candidate.geometry,
                   candidate.primitive,
                   instance.object_to_world.data(),
-                  instance.world_to_object.data()};
+                  instance.world_to_object.rows};
   frame.ray = &frame.values;
   const shader::ExportDesc& code = *linked.code;
   const uint32_t payload_bytes = trace.arguments->payload_bytes;
@@ -359,7 +359,7 @@ void Replay::run_closest_hit(Trace& trace) {
                   trace.hit.geometry,
                   trace.hit.primitive,
                   instance.object_to_world.data(),
-                  instance.world_to_object.data()};
+                  instance.world_to_object.rows};
   frame.ray = &frame.values;
   const char* layout = payload_layout(linked, trace.arguments->payload_bytes);
   if (trace.call != nullptr) {

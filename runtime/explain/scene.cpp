@@ -68,8 +68,9 @@ Box transformed(const Box& box, const std::array<float, 12>& m) {
 
 }  // namespace
 
-BottomLevel::BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source)
-    : source_(std::move(source)) {
+BottomLevel::BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source,
+                         runtime::BuildFlags flags)
+    : source_(std::move(source)), positions_(runtime::positions_of(*source_, flags)) {
   std::vector<Box> boxes;
   for (const runtime::GeometryShape& shape : source_->geometry_shapes()) {
     const auto g = static_cast<uint32_t>(geometries_.size());
@@ -214,7 +215,8 @@ std::shared_ptr<const BottomLevel> Scenes::bottom_level(uint64_t address) {
     return nullptr;
   }
   auto& made = bottom_levels_[structure->bottom_level.get()];
-  if (made == nullptr) made = std::make_shared<BottomLevel>(structure->bottom_level);
+  if (made == nullptr)
+    made = std::make_shared<BottomLevel>(structure->bottom_level, structure->flags);
   return made;
 }
 
@@ -231,11 +233,11 @@ const TopLevel* Scenes::find(uint64_t address) {
     std::memcpy(instance.object_to_world.data(), desc.Transform, sizeof desc.Transform);
     Box box;
     if (is_finite(instance.object_to_world.data(), 12) &&
-        runtime::invert_transform(instance.object_to_world.data(),
-                                  instance.world_to_object.data()) &&
+        runtime::invert_transform(instance.object_to_world.data(), instance.world_to_object.rows) &&
         invert(instance.object_to_world, instance.inverse)) {
       instance.bottom_level = bottom_level(desc.AccelerationStructure);
       if (instance.bottom_level != nullptr) {
+        instance.world_to_object.positions = instance.bottom_level->positions();
         box = transformed(instance.bottom_level->bounds(), instance.object_to_world);
       }
     }

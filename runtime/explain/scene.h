@@ -13,6 +13,7 @@
 #include "runtime/backend/backend.h"
 #include "runtime/explain/bvh.h"
 #include "runtime/structures/structure_map.h"
+#include "runtime/structures/triangle_positions.h"
 
 namespace kaamos::explain {
 
@@ -32,8 +33,9 @@ struct Candidate {
 // A bottom level with a hierarchy to find its primitives.
 class BottomLevel {
  public:
-  explicit BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source);
+  BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source, runtime::BuildFlags flags);
   Box bounds() const { return bvh_.bounds(); }
+  const shader::GeometryPositions* positions() const { return positions_.data(); }
   // Finds every triangle at t >= 0 along the object-space ray, and every box that it hits.
   void find(const Ray& ray, uint32_t instance, std::vector<Candidate>& out) const;
 
@@ -55,6 +57,7 @@ class BottomLevel {
 
   std::shared_ptr<const runtime::BottomLevelBase> source_;  // owns what the contents refer to
   std::vector<Geometry> geometries_;
+  std::vector<shader::GeometryPositions> positions_;
   std::vector<Primitive> primitives_;
   Bvh bvh_;
 };
@@ -62,7 +65,7 @@ class BottomLevel {
 struct Instance {
   rtapi::RaytracingInstanceDesc desc;
   std::array<float, 12> object_to_world = {};
-  std::array<float, 12> world_to_object = {};
+  shader::InstanceTransform world_to_object = {};
   std::array<double, 12> inverse = {};              // of object_to_world
   std::shared_ptr<const BottomLevel> bottom_level;  // null: inactive
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The services that replayed shaders call.
+#include "kaamos/shader/debugging.h"
+#include "runtime/backend/debugger.h"
 #include "runtime/explain/guard.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/shader/texture/texture_sampling.h"
@@ -105,6 +107,7 @@ struct Services {
   }
   static uint32_t record_constant(shader::Invocation& caller, const shader::HitObject& hit,
                                   uint32_t offset) {
+    if (offset == shader::kDebuggingEnabled) return runtime::is_debugger_attached() ? 1 : 0;
     return frame_of(caller).replay->record_constant(hit, offset);
   }
   static void begin_query(shader::Invocation& caller, shader::RayQuery& query,

@@ -287,7 +287,7 @@ rtapi::Status Parser::read_payload_header() {
                          rtapi::HasAny(flags, BuildFlags::kPreferFastBuild);
   const bool pointers_fit = has_block_ ? !top && !array : top || pointers_.empty();
   if (payload_.type > static_cast<uint32_t>(Type::kOpacityMicromapArray) || payload_.count > most ||
-      payload_.count > (bytes_.size() - at_) / each || (payload_.flags & ~0xDFu) != 0 ||
+      payload_.count > (bytes_.size() - at_) / each || (payload_.flags & ~0x1DFu) != 0 ||
       exclusive || !pointers_fit) {
     return error("its contents are damaged: type " + std::to_string(payload_.type) + " of " +
                  std::to_string(payload_.count) + " with build flags " +

@@ -11,6 +11,7 @@ rtapi::Status compile(const std::string& source, const std::string& target,
   options.File = "rule.hlsl";
   options.Source = source;
   options.Target = target;
+  options.Experimental = true;
   options.PayloadQualifiers = payload_qualifiers;
   // The front end alone accepts or refuses a source, so no C++ compiler is needed.
   options.Interpret = true;

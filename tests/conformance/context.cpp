@@ -107,6 +107,7 @@ DeviceDesc Target::device_desc() const {
   desc.Precision = precision;
   desc.Checked = checked;
   desc.Tier = tier;
+  desc.ShaderModel = kExperimentalShaderModel;
   return desc;
 }
 

@@ -128,6 +128,7 @@ void later_tiers_are_refused(Context& t) {
   inputs.pGeometryDescs = &desc;
   DeviceDesc tier_1_1 = t.target().device_desc();
   tier_1_1.Tier = RaytracingTier::kTier1_1;
+  tier_1_1.ShaderModel = kHighestShaderModel;
   const Device old = CreateDevice(tier_1_1).value();
   const auto sizes_of = [&](const BuildRaytracingAccelerationStructureInputs& each) {
     return old.GetRaytracingAccelerationStructurePrebuildInfo(each);

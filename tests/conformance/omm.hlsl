@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OPTIONS: -T lib_6_9
+// OPTIONS: -T lib_6_9 -disable-payload-qualifiers
 // Queries that meet opacity micromaps, with and without permission.
 #include "common.hlsli"
 

@@ -16,12 +16,13 @@ constexpr Rule kRules[] = {
 #include "tests/conformance/omm_rules.inc"
 #include "tests/conformance/ras_rules.inc"
 #include "tests/conformance/ser_rules.inc"
+#include "tests/conformance/top_rules.inc"
 #undef LATER
 #undef RULE
 };
 
 static_assert(std::count_if(std::begin(kRules), std::end(kRules),
-                            [](const Rule& rule) { return rule.tag == 'R'; }) == 482);
+                            [](const Rule& rule) { return rule.tag == 'R'; }) == 496);
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiles probe.hlsl for a debugger and sends one ray through two triangles.
+// Compiles probe.hlsl, or another file for a given target, for a debugger, and sends one ray
+// through two triangles.
 #include <rtapi/rtapi.h>
 #include <rtapi/shader_compiler.h>
 
@@ -10,10 +11,11 @@
 
 using namespace rtapi;
 
-static int Probe(const char* shader) {
+static int Probe(const char* shader, const char* target) {
   example::Setup setup;
   DeviceDesc device_desc;
   device_desc.Threads = 1;
+  device_desc.ShaderModel = kExperimentalShaderModel;
   setup.device = CreateDevice(device_desc).value();
   setup.queue = setup.device.CreateCommandQueue().value();
   const Device& device = setup.device;
@@ -21,6 +23,8 @@ static int Probe(const char* shader) {
   ShaderCompileOptions options;
   options.File = shader;
   options.Debug = true;
+  options.Experimental = true;
+  if (target != nullptr) options.Target = target;
   const ShaderCompilation compiled = CompileShaderLibrary(options);
   compiled.Status.value();
 
@@ -69,7 +73,7 @@ static int Probe(const char* shader) {
 
 int main(int argc, char** argv) {
   try {
-    return argc == 2 ? Probe(argv[1]) : 2;
+    return argc == 2 || argc == 3 ? Probe(argv[1], argv[2]) : 2;
   } catch (const ResultError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

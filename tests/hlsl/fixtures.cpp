@@ -43,6 +43,7 @@ Device single_threaded_device(const std::string& backend, std::vector<std::strin
   desc.Backend = backend;
   desc.Threads = 1;
   desc.WaveLanes = wave_lanes;
+  desc.ShaderModel = kExperimentalShaderModel;
   if (told != nullptr) {
     desc.Checked = true;
     desc.OnMessage = [told](const Message& message) {

@@ -45,7 +45,12 @@ RaytracingGeometryDesc triangles(Scene& scene, const Device& device,
 RaytracingInstanceDesc triangle_instance(Scene& scene, const Device& device, CommandQueue& queue) {
   const RaytracingGeometryDesc back = triangles(scene, device, {-1});
   const RaytracingGeometryDesc front = triangles(scene, device, {1, 0});
-  scene.buffers.push_back(build_bottom_level(device, queue, {back, front}));
+  const bool is_readable = device.GetDesc().ShaderModel >= ShaderModel::k6_10;
+  scene.buffers.push_back(
+      BuildBottomLevel(device, queue, std::vector{back, front}, "triangles",
+                       is_readable ? RaytracingAccelerationStructureBuildFlags::kAllowDataAccess
+                                   : RaytracingAccelerationStructureBuildFlags::kNone)
+          .value());
   RaytracingInstanceDesc instance;
   const float transform[3][4] = {{2, 2, 0, 1}, {0, 4, 0, 2}, {0, 0, 8, 5}};
   std::copy_n(&transform[0][0], 12, &instance.Transform[0][0]);

@@ -27,6 +27,9 @@ inline constexpr ErrorId kQueryNoCandidate{409};  ///< RayQuery has no such cand
 inline constexpr ErrorId kQueryNoHit{410};  ///< hit data read without a hit
 inline constexpr ErrorId kCommitOutOfRange{411};  ///< procedural hit committed out of range
 inline constexpr ErrorId kAttributeMismatch{412};  ///< attribute type mismatch
+inline constexpr ErrorId kNoTriangle{413};  ///< positions of what is no triangle
+inline constexpr ErrorId kNoDataAccess{414};  ///< positions of a bottom level that does not allow it
+inline constexpr ErrorId kDebugBreak{415};  ///< DebugBreak without a debugger
 inline constexpr ErrorId kRootAccessOutOfBounds{417};  ///< root descriptor out of bounds
 inline constexpr ErrorId kMisalignedAccess{418};  ///< misaligned access
 inline constexpr ErrorId kRootAddress{419};  ///< root descriptor does not point to a buffer
@@ -146,6 +149,7 @@ inline constexpr ErrorId kLibraryShaderModel{544};  ///< shader needs a higher s
 inline constexpr ErrorId kNoRaytracing{545};  ///< device without ray tracing
 inline constexpr ErrorId kMicromapTier{546};  ///< opacity micromaps need tier 1.2
 inline constexpr ErrorId kNoMicromaps{547};  ///< backend has no opacity micromaps
+inline constexpr ErrorId kDataAccess{548};  ///< data access is experimental
 inline constexpr ErrorId kAttributesUnread{553};  ///< attributes declared of another size and not read
 inline constexpr ErrorId kFunctionUnresolved{560};  ///< function without a body
 inline constexpr ErrorId kFunctionDiffers{561};  ///< function declared with another signature
@@ -638,7 +642,7 @@ inline constexpr ErrorId kSpecializesNothing{2633};  ///< '{0}' specializes no t
 inline constexpr ErrorId kSpecializedLate{2634};  ///< '{0}' is already in use or defined, so it cannot be defined here
 inline constexpr ErrorId kAmbiguousPartial{2635};  ///< several partial specializations fit '{0}' equally well
 inline constexpr ErrorId kNoSuchStatic{2636};  ///< '{0}' has no static member '{1}'
-inline constexpr ErrorId kRayQuerySecondFlags{2640};  ///< {0} is not a valid set of RAYQUERY_FLAGs; the second argument of RayQuery is 0 or, from 6.9 on, 1
+inline constexpr ErrorId kRayQuerySecondFlags{2640};  ///< {0} is not a valid set of RAYQUERY_FLAGs; the second argument of RayQuery is 0, from 6.9 on also 1, from 6.10 on 0 to 3
 inline constexpr ErrorId kAutoWithoutValue{2641};  ///< 'auto' needs an initialiser with a type, so '{0}' cannot have it here
 inline constexpr ErrorId kLoopVariableAgain{2642};  ///< '{0}' hides the variable of a loop before it, which outlives the loop before HLSL 2021
 inline constexpr ErrorId kInterfaceObject{2643};  ///< '{0}' is an interface, so there can be no variable of it; use a struct that implements it

@@ -238,6 +238,9 @@ enum class RaytracingAccelerationStructureBuildFlags : uint32_t {
   kAllowOmmLinkageUpdate = 0x40,  ///< updates may change linkages; with kAllowUpdate (KA0747)
   kAllowOmmUpdate = 0x40,         ///< the same, as d3d12.h calls it
   kAllowDisableOmms = 0x80,       ///< instances may have kDisableOmms
+  /// EXPERIMENTAL, shader model 6.10: shaders may read the vertices of its triangles, by
+  /// TriangleObjectPositions. For bottom levels (KA0548).
+  kAllowDataAccess = 0x100,
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingAccelerationStructureBuildFlags> = true;

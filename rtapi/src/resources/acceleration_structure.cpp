@@ -411,7 +411,22 @@ Status check_micromap_array(const DeviceImpl& device,
   return {};
 }
 
-Status check_build_flags(const DeviceImpl& device, BuildFlags flags) {
+Status check_data_access(const DeviceImpl& device, StructureType type) {
+  if (type != StructureType::kBottomLevel) {
+    return make_error(Id::kDataAccess, "kAllowDataAccess (0x100) is for bottom levels only");
+  }
+  if (device.desc.ShaderModel < ShaderModel::k6_10) {
+    return make_error(Id::kDataAccess,
+                      "kAllowDataAccess (0x100) needs shader model 6.10, but this ",
+                      "device was created with shader model ", GetName(device.desc.ShaderModel));
+  }
+  return {};
+}
+
+Status check_build_flags(const DeviceImpl& device, StructureType type, BuildFlags flags) {
+  if (HasAny(flags, BuildFlags::kAllowDataAccess)) {
+    if (Status s = check_data_access(device, type); !s.ok()) return s;
+  }
   constexpr BuildFlags kMicromapFlags =
       BuildFlags::kAllowOmmLinkageUpdate | BuildFlags::kAllowDisableOmms;
   if (HasAny(flags, kMicromapFlags)) {
@@ -437,9 +452,9 @@ Status check_inputs(const DeviceImpl& device,
     return make_error(Id::kBuildInputs, "DescsLayout is ",
                       static_cast<uint32_t>(inputs.DescsLayout), "; it must be 0 or 1");
   }
-  if (static_cast<uint32_t>(inputs.Flags) & ~0xFFu) {
+  if (static_cast<uint32_t>(inputs.Flags) & ~0x1FFu) {
     return make_error(Id::kBuildInputs, "Flags are ", hex(static_cast<uint32_t>(inputs.Flags)),
-                      "; only the bits of 0xff are defined");
+                      "; only the bits of 0x1ff are defined");
   }
   if (HasAny(inputs.Flags, BuildFlags::kPreferFastTrace) &&
       HasAny(inputs.Flags, BuildFlags::kPreferFastBuild)) {
@@ -449,7 +464,7 @@ Status check_inputs(const DeviceImpl& device,
   if (inputs.Type == StructureType::kOpacityMicromapArray) {
     return check_micromap_array(device, inputs, purpose);
   }
-  if (Status s = check_build_flags(device, inputs.Flags); !s.ok()) return s;
+  if (Status s = check_build_flags(device, inputs.Type, inputs.Flags); !s.ok()) return s;
   if (inputs.Type == StructureType::kBottomLevel) return check_geometries(device, inputs, purpose);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
     return make_error(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");

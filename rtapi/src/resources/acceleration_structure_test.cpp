@@ -301,8 +301,8 @@ TEST_F(BuildTest, AS_50_FlagCombinations) {
       EXPECT_OK(Build());
     }
   }
-  desc_.Inputs.Flags = static_cast<Flags>(0x100);
-  EXPECT_ERROR(Build(), "KA0700", "0x100");
+  desc_.Inputs.Flags = static_cast<Flags>(0x200);
+  EXPECT_ERROR(Build(), "KA0700", "0x200");
   desc_.Inputs.Flags = Flags::kNone;
   desc_.Inputs.Type = static_cast<Type>(3);
   EXPECT_ERROR(Build(), "KA0700", "Type is 3");
@@ -406,6 +406,23 @@ TEST_F(BuildTest, OMM_01_MicromapArrays) {
   EXPECT_ERROR(Build(), "KA0746", "subdivision level 13");
   array.pOmmHistogram = nullptr;
   EXPECT_ERROR(Build(), "KA0746", "pOmmHistogram is null");
+}
+
+TEST_F(BuildTest, TOP_12_DataAccess) {
+  desc_.Inputs.Flags = Flags::kAllowDataAccess;
+  EXPECT_ERROR(Build(), "KA0548", "needs shader model 6.10", "shader model 6.9");
+  const Device device = CreateNullDevice({.ShaderModel = ShaderModel::k6_10});
+  const auto size = [&] {
+    return device.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs);
+  };
+  for (uint32_t bits = 0; bits < 32; ++bits) {
+    if ((bits & 0xC) == 0xC) continue;
+    desc_.Inputs.Flags = static_cast<Flags>(bits | 0x100);
+    EXPECT_OK(size());
+  }
+  desc_.Inputs.Type = Type::kTopLevel;
+  desc_.Inputs.Flags = Flags::kAllowDataAccess;
+  EXPECT_ERROR(size(), "KA0548", "bottom levels only");
 }
 
 TEST_F(BuildTest, TIER_01_MicromapsNeedTier12) {

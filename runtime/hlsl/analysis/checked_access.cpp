@@ -99,6 +99,7 @@ QueryNeed need_of(const Expr& value) {
     case QueryValue::kRayTMin:
     case QueryValue::kWorldRayOrigin:
     case QueryValue::kWorldRayDirection:
+    case QueryValue::kPositionTable:  // whoever reads the positions looks
       return {};
     case QueryValue::kType:  // COMMITTED_NOTHING is a valid answer
       return {!committed};

@@ -93,6 +93,7 @@ bool UniformValues::holds(const Expr* expr) const {
     case ExprKind::kSample:
     case ExprKind::kSystemValue:
     case ExprKind::kQueryValue:
+    case ExprKind::kTrianglePositions:
       return false;
     default:
       break;

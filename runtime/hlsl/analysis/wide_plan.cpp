@@ -95,6 +95,8 @@ class Analysis {
           return;
         case ExprKind::kQueryValue:
           return refuse("it traces rays inline");
+        case ExprKind::kTrianglePositions:
+          return refuse("it reads positions of triangles");
         case ExprKind::kVariable:
           if (expr.variable->storage == Storage::kGroupShared) {
             refuse("it reads groupshared memory");
@@ -180,6 +182,9 @@ class Analysis {
         return kNone;
       case StmtKind::kQuery:
         refuse("it traces rays inline");
+        return kNone;
+      case StmtKind::kDebugBreak:
+        refuse("it calls DebugBreak");
         return kNone;
       default:
         refuse("it has statements of ray shaders");

@@ -357,6 +357,7 @@ bool is_constant_at(const ir::Expr* e, int depth) {
     case ir::ExprKind::kSample:
     case ir::ExprKind::kDimensions:
     case ir::ExprKind::kQueryValue:
+    case ir::ExprKind::kTrianglePositions:
       return false;
     default:
       return std::all_of(e->operands.begin(), e->operands.end(), [depth](const ir::Expr* operand) {

@@ -140,6 +140,7 @@ class Checker final : Names {
     parts_.payload_rules.check_payload_use(type, location);
   }
   const Type* ray_desc() const override { return program_.ray_desc->type; }
+  const Type* triangle_positions() const override { return program_.triangle_positions->type; }
   const Type* hit_object() const override { return program_.hit_object->type; }
   void declare(const Decl* declaration, Scope* scope) override {
     parts_.declarations.declare(declaration, scope);

@@ -22,6 +22,13 @@ std::string pixel(const std::string& body, const std::string& globals = {}) {
          "\nreturn p;\n}\n";
 }
 
+std::string closest_hit(const std::string& body) {
+  return "struct [raypayload] P { int i : read(caller) : write(closesthit); };\n"
+         "[shader(\"closesthit\")] void c(inout P p, BuiltInTriangleIntersectionAttributes a) {\n"
+         "p.i = 0;\n" +
+         body + "\n}\n";
+}
+
 const std::vector<LanguageCase>& language_cases() {
   static const std::vector<LanguageCase> all = {
       {"InterfaceVariable", Id::kInterfaceObject, kernel("I @i;", "interface I { int f(); };")},
@@ -68,6 +75,30 @@ const std::vector<LanguageCase>& language_cases() {
       {"RayQuerySecondNotConstant", Id::kNotConstant, kernel("uint n = 0;\nRayQuery<0, @n> q;")},
       {"HitObject", Id::kNeedsShaderModel, kernel("@dx::HitObject h;")},
       {"Reorder", Id::kNeedsShaderModel, kernel("@dx::MaybeReorderThread(1, 2);")},
+      // Shader model 6.10
+      {"PositionsInOldModel", Id::kNeedsShaderModel, closest_hit("@TriangleObjectPositions();"),
+       "lib_6_9"},
+      {"PositionsOfOldQuery", Id::kNeedsShaderModel,
+       kernel("RayQuery<0> q;\nq.@CommittedTriangleObjectPositions();"), "lib_6_9"},
+      {"PositionsOfOldHit", Id::kNeedsShaderModel,
+       closest_hit("dx::HitObject h;\nh.@TriangleObjectPositions();"), "lib_6_9"},
+      {"PositionsInCompute", Id::kStage, kernel("@TriangleObjectPositions();"), "lib_6_10"},
+      {"PositionsInMiss", Id::kStage,
+       "struct [raypayload] P { int i : read(caller) : write(miss); };\n"
+       "[shader(\"miss\")] void m(inout P p) { p.i = 0; @TriangleObjectPositions(); }",
+       "lib_6_10"},
+      {"ClusterInOldModel", Id::kNeedsShaderModel, closest_hit("@ClusterID();"), "lib_6_9"},
+      {"ClusterInCompute", Id::kStage, kernel("@ClusterID();"), "lib_6_10"},
+      {"PositionsWithArgument", Id::kArgumentCount, closest_hit("@TriangleObjectPositions(1);"),
+       "lib_6_10"},
+      {"BreakInOldModel", Id::kNeedsShaderModel, kernel("@DebugBreak();"), "lib_6_9"},
+      {"GroupWaveIndex", Id::kUnsupported, kernel("uint i = @GetGroupWaveIndex();"), "lib_6_10"},
+      {"GroupWaveCount", Id::kUnsupported, kernel("uint i = @GetGroupWaveCount();"), "lib_6_10"},
+      {"BreakWithArgument", Id::kArgumentCount, kernel("@DebugBreak(1);"), "lib_6_10"},
+      {"DebuggingInOldModel", Id::kUndeclared, kernel("bool b = dx::@IsDebuggingEnabled();"),
+       "lib_6_9"},
+      {"ClustersOfOldQuery", Id::kRayQuerySecondFlags, kernel("RayQuery<0, @2> q;"), "lib_6_9"},
+      {"QueryFlagsOfNothing", Id::kRayQuerySecondFlags, kernel("RayQuery<0, @4> q;"), "lib_6_10"},
       // Vertex and pixel shaders
       {"PixelNoSemantic", Id::kGraphicsSemantic, "float4 main(float2 @p) : SV_Target { return 1; }",
        "ps_6_6"},
@@ -188,6 +219,7 @@ TEST_P(LanguageErrors, StandsAtTheMark) {
   const LanguageCase& one = language_cases()[GetParam()];
   FrontendOptions options;
   options.target = one.target;
+  options.experimental = true;
   options.hlsl_version = one.version;
   options.native_16bit = one.native;
   expect_at_mark(one.id, one.text, options);

@@ -48,6 +48,7 @@ class CppEmitter {
   friend class WideEmitter;  // prints into the same unit
 
   void emit_unoptimised();
+  void include_experimental();
 
   // types.cpp
   std::string type(const ir::Type* type);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "kaamos/shader/debugging.h"
 #include "kaamos/shader/reordering.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/cpp/emitter.h"
 #include "runtime/hlsl/ir/operators.h"
 #include "runtime/hlsl/ir/texture_shape.h"
+#include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
 
@@ -260,6 +262,8 @@ std::string CppEmitter::system_value(const Expr& expr) {
       return "ks::world_to_object_4x3(ctx.invocation)";
     case SystemValue::kHitKind:
       return "ctx.invocation.ray->hit_kind";
+    case SystemValue::kPositionTable:
+      return "ks::position_table(ctx.invocation.ray->world_to_object)";
   }
   return "0u";
 }
@@ -457,12 +461,20 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kSameBytes:
       return call("ks::same_bytes<" + type(expr.type) + ">", expr.operands);
     case ExprKind::kRecordConstant:
-      if (!module_.check_access && expr.operands[1]->kind == ExprKind::kLiteral &&
-          static_cast<uint32_t>(expr.operands[1]->literal[0]) == shader::kReorderedRecord) {
+      if (is_literal(expr.operands[1], shader::kDebuggingEnabled)) {
+        return "ks::is_debugging_enabled(ctx.invocation)";
+      }
+      if (!module_.check_access && is_literal(expr.operands[1], shader::kReorderedRecord)) {
         return "0u";
       }
       return "ks::record_constant(ctx.invocation, " + value(expr.operands[0]) + ", " +
              value(expr.operands[1]) + ")";
+    case ExprKind::kTrianglePositions:
+      return std::string(module_.check_access ? "ks::checked::triangle_positions(ctx.invocation, " +
+                                                    site(expr.location) + ", "
+                                              : "ks::triangle_positions(") +
+             value(expr.operands[0]) + ", " + value(expr.operands[1]) + ", " +
+             value(expr.operands[2]) + ")";
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -52,6 +52,8 @@ std::string CppEmitter::query_value(const Expr& expr) {
       return hit + ".front_face";
     case QueryValue::kProceduralNonOpaque:
       return hit + ".non_opaque";
+    case QueryValue::kPositionTable:
+      return "ks::position_table(" + hit + ".world_to_object)";
     case QueryValue::kRayFlags:
       return query + ".ray_flags";
     case QueryValue::kRayTMin:

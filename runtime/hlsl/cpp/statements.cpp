@@ -383,6 +383,13 @@ void CppEmitter::statement(const Stmt& stmt) {
       line("ctx.invocation.dispatch->services->remove_device(ctx.invocation, ks::RemovalReason(" +
            std::to_string(static_cast<int>(stmt.removal)) + "));");
       break;
+    case StmtKind::kDebugBreak:
+      // Written here and not in a function, so that a debugger is at this line.
+      line("if (ks::is_debugging_enabled(ctx.invocation)) { KAAMOS_BREAKPOINT(); }" +
+           (module_.check_access
+                ? " else { ks::report_break(ctx.invocation, " + site(stmt.location) + "); }"
+                : std::string()));
+      break;
     case StmtKind::kDiscard:  // the assignment before it is enough
       break;
     case StmtKind::kIf:

@@ -103,6 +103,7 @@ constexpr std::string_view kTypes[] = {
     "RayDesc",
     "RayQuery",
     "BuiltInTriangleIntersectionAttributes",
+    "BuiltInTrianglePositions",
     "RAY_FLAG",
     "CANDIDATE_TYPE",
     "COMMITTED_STATUS",

@@ -220,6 +220,11 @@ class GlslEmitter {
   std::string query_result(const ir::Expr& expr);
   std::string query_value(const ir::Expr& expr);
 
+  // triangle_positions.cpp
+  void declare_address();
+  std::string position_table();
+  std::string triangle_positions(const ir::Expr& expr);
+
   // system_values.cpp
   void declare_instance_entry();
   std::string system_value(const ir::Expr& expr);

@@ -295,6 +295,8 @@ std::string GlslEmitter::value(const Expr* e) {
       return same_bytes(expr);
     case ExprKind::kRecordConstant:
       return record_constant(expr);
+    case ExprKind::kTrianglePositions:
+      return triangle_positions(expr);
     case ExprKind::kQuad:  // a statement by now
       break;
   }

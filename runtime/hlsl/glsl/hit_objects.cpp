@@ -7,12 +7,14 @@
 // traceRayEXT, so that a twin's TraceRay is HitObject::TraceRay and Invoke.
 #include <algorithm>
 
+#include "kaamos/shader/debugging.h"
 #include "kaamos/shader/reordering.h"
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
 #include "runtime/hlsl/glsl/emitter.h"
 #include "runtime/hlsl/ir/hit_object.h"
+#include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
 
@@ -34,8 +36,6 @@ constexpr char kTables[] =
     "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer g_TwinTables {\n"
     "  uint first;\n  uint last_hit;\n  uint last_miss;\n  uint ray_flags;\n"
     "  uint64_t address[2];\n  uint64_t size[2];\n  uint64_t stride[2];\n};\n"
-    "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer g_Address { "
-    "uint64_t v; };\n"
     "g_TwinTables g_twin_tables() { return g_TwinTables(g_Address(k_dispatch_address + 624UL).v); "
     "}\n";
 static_assert(offsetof(shader::spirv::DispatchBlock, twin_tables) == 624);
@@ -77,6 +77,10 @@ constexpr char kSearch[] =
     "      g_twin.hit.$kind = rayQueryGetIntersectionFrontFaceEXT(q, false) ? 254u : 255u;\n"
     "      g_twin.hit.$attributes[0] = floatBitsToUint(at.x);\n"
     "      g_twin.hit.$attributes[1] = floatBitsToUint(at.y);\n"
+    "      uvec2 table = "
+    "g_position_table(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(q, false)));\n"
+    "      g_twin.hit.$attributes[6] = table.x;\n"
+    "      g_twin.hit.$attributes[7] = table.y;\n"
     "      g_twin.control = 0u;\n"
     "      executeCallableEXT(record, $location);\n"
     "      if ((g_twin.control & 1u) == 0u) {\n"
@@ -105,8 +109,10 @@ constexpr char kSearch[] =
     "  if (type == 1u) {\n"
     "    vec2 at = rayQueryGetIntersectionBarycentricsEXT(q, true);\n"
     "    kind = rayQueryGetIntersectionFrontFaceEXT(q, true) ? 254u : 255u;\n"
-    "    attributes = uint[8](floatBitsToUint(at.x), floatBitsToUint(at.y), 0u, 0u, 0u, 0u, 0u, "
-    "0u);\n"
+    "    uvec2 table = "
+    "g_position_table(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(q, true)));\n"
+    "    attributes = uint[8](floatBitsToUint(at.x), floatBitsToUint(at.y), 0u, 0u, 0u, 0u, "
+    "table.x, table.y);\n"
     "  }\n"
     "  hit.$kind = kind;\n"
     "  hit.$attributes = attributes;\n"
@@ -213,6 +219,7 @@ void GlslEmitter::declare_twin() {
   if (!made_.insert("g_twin").second) return;
   twin_location_ = std::to_string(next_location_++);
   declarations_ += "layout(location = " + twin_location_ + ") callableDataEXT g_Twin g_twin;\n";
+  declare_address();
   generated("g_TwinTables", kTables);
 }
 
@@ -236,6 +243,7 @@ std::string GlslEmitter::search_function() {
   declare_twin();
   declare_top_level();
   declare_instance_entry();
+  position_table();
   if (made_.insert("g_search").second) {
     made_.insert("g_Query");  // the extension
     Type hit;
@@ -390,8 +398,11 @@ std::string GlslEmitter::record_constant(const Expr& expr) {
   const bool reorders = offset->kind == ExprKind::kLiteral &&
                         static_cast<uint32_t>(offset->literal[0]) == shader::kReorderedRecord;
   if (reorders && !module_.check_access) return "0u";
+  // No debugger stops in a driver's shaders.
+  if (is_literal(offset, shader::kDebuggingEnabled)) return "0u";
   declare_instance_entry();
   declare_status();
+  declare_address();
   generated("g_TwinTables", kTables);
   hit_type();
   return call(generated("g_record_constant", with_hit(kRecordConstant)), expr.operands);

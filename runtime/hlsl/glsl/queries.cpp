@@ -238,6 +238,8 @@ std::string GlslEmitter::query_result(const Expr& expr) {
       return "return " + get("FrontFace") + ";";
     case QueryValue::kProceduralNonOpaque:
       return "return !rayQueryGetIntersectionCandidateAABBOpaqueEXT(q);";
+    case QueryValue::kPositionTable:
+      return "return " + position_table() + "(uint(" + get("InstanceCustomIndex") + "));";
     default:
       return "";
   }

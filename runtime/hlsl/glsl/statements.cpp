@@ -3,6 +3,7 @@
 // Statements: everything that has an effect.
 #include <algorithm>
 
+#include "kaamos/shader/debugging.h"
 #include "runtime/hlsl/analysis/wave_paths.h"
 #include "runtime/hlsl/glsl/emitter.h"
 
@@ -254,6 +255,12 @@ void GlslEmitter::statement(const Stmt& stmt) {
     case StmtKind::kRemoveDevice:
       declare_remove_device();
       line("g_remove_device(" + glsl::number(static_cast<uint32_t>(stmt.removal)) + ");");
+      break;
+    case StmtKind::kDebugBreak:
+      if (module_.check_access) {
+        line("k_tell(" + glsl::number(static_cast<uint32_t>(shader::kBreakWithoutDebugger)) + ", " +
+             site(stmt.location) + ", 0u, 0u, 0UL, 0UL, 0UL, 0UL);");
+      }
       break;
     case StmtKind::kDiscard:
       line("demote;");

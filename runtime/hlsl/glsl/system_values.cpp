@@ -142,6 +142,12 @@ std::string GlslEmitter::system_value(const Expr& expr) {
     case SystemValue::kHitKind:
       return if_has(hit && entry_.stage != kStageIntersection,
                     [&] { return hit_builtin("hit_kind", "uint", "gl_HitKindEXT"); });
+    case SystemValue::kPositionTable:
+      return if_has(hit, [&] {
+        return position_table() + "(" +
+               hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)") +
+               ")";
+      });
   }
   return zero(expr.type);
 }

@@ -164,6 +164,12 @@ std::string GlslEmitter::twin_system_value(const Expr& expr) {
       return twin_transform(false, true, expr.type);
     case SystemValue::kHitKind:
       return entry_.stage == kStageIntersection ? "" : twin_value(kHitHitKind);
+    case SystemValue::kPositionTable:
+      return generated("g_twin_position_table",
+                       with_hit("uvec2 g_twin_position_table() {\n"
+                                "  return g_in.hit.$kind >= 254u ? uvec2(g_in.hit.$attributes[6], "
+                                "g_in.hit.$attributes[7]) : uvec2(0u);\n}\n")) +
+             "()";
     default:
       return "";
   }

@@ -269,6 +269,8 @@ void Compiler::compile(Node& node) {
       return in_slot(node, evaluate_same_bytes());
     case ExprKind::kRecordConstant:
       return in_slot(node, evaluate_record_constant());
+    case ExprKind::kTrianglePositions:
+      return in_slot(node, evaluate_triangle_positions());
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -2,7 +2,9 @@
 #include "runtime/hlsl/interpret/evaluate.h"
 
 #include <kaamos/shader/checked.h>
+#include <kaamos/shader/debugging.h>
 #include <kaamos/shader/prelude.h>
+#include <kaamos/shader/triangle_positions.h>
 
 #include <algorithm>
 #include <cstring>
@@ -159,6 +161,8 @@ const std::byte* ray_value(const Node& node, Frame& frame) {
       return keep(node, frame, shader::world_to_object_4x3(invocation));
     case SystemValue::kHitKind:
       return keep(node, frame, ray.hit_kind);
+    case SystemValue::kPositionTable:
+      return keep(node, frame, shader::position_table(ray.world_to_object));
     default:
       return frame.context->program->zeros.data();
   }
@@ -225,6 +229,8 @@ const std::byte* query_value(const Node& node, Frame& frame) {
       return keep(node, frame, hit.front_face);
     case QueryValue::kProceduralNonOpaque:
       return keep(node, frame, hit.non_opaque);
+    case QueryValue::kPositionTable:
+      return keep(node, frame, shader::position_table(hit.world_to_object));
     case QueryValue::kRayFlags:
       return keep(node, frame, query.ray_flags);
     case QueryValue::kRayTMin:
@@ -280,7 +286,23 @@ const std::byte* record_constant(const Node& node, Frame& frame) {
   const auto hit = evaluate_as<shader::HitObject>(*node.operands[0], frame);
   const auto offset = evaluate_as<uint32_t>(*node.operands[1], frame);
   shader::Invocation& invocation = *frame.context->invocation;
+  if (offset == shader::kDebuggingEnabled) {
+    return keep(node, frame, shader::is_debugging_enabled(invocation));
+  }
   return keep(node, frame, invocation.dispatch->services->record_constant(invocation, hit, offset));
+}
+
+const std::byte* triangle_positions(const Node& node, Frame& frame) {
+  const auto table = evaluate_as<shader::uint2>(*node.operands[0], frame);
+  const auto geometry = evaluate_as<uint32_t>(*node.operands[1], frame);
+  const auto primitive = evaluate_as<uint32_t>(*node.operands[2], frame);
+  if (frame.context->program->checked) {
+    return keep(
+        node, frame,
+        shader::checked::triangle_positions(
+            *frame.context->invocation, site_of(node.expr->location), table, geometry, primitive));
+  }
+  return keep(node, frame, shader::triangle_positions(table, geometry, primitive));
 }
 
 }  // namespace
@@ -358,6 +380,9 @@ Evaluate evaluate_same_bytes() {
 }
 Evaluate evaluate_record_constant() {
   return record_constant;
+}
+Evaluate evaluate_triangle_positions() {
+  return triangle_positions;
 }
 Evaluate evaluate_binding() {
   return binding;

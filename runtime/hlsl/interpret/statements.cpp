@@ -4,6 +4,7 @@
 // shader by a jump, so nothing here may rely on a destructor.
 #include <alloca.h>
 #include <kaamos/shader/checked.h>
+#include <kaamos/shader/debugging.h>
 #include <kaamos/shader/prelude.h>
 
 #include <cstring>
@@ -379,6 +380,13 @@ Flow run(const Action& action, Frame& frame) {
     case StmtKind::kRemoveDevice:
       context.invocation->dispatch->services->remove_device(
           *context.invocation, static_cast<shader::RemovalReason>(stmt.removal));
+      return Flow::kNext;
+    case StmtKind::kDebugBreak:
+      if (shader::is_debugging_enabled(*context.invocation) != 0) {
+        KAAMOS_BREAKPOINT();
+      } else if (context.program->checked) {
+        shader::report_break(*context.invocation, site_of(stmt.location));
+      }
       return Flow::kNext;
     case StmtKind::kDiscard:  // the assignment before it is enough
       return Flow::kNext;

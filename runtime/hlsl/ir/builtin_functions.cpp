@@ -267,6 +267,8 @@ constexpr Family kUnsupported[] = {
     {"MaybeReorderThread", "shader execution reordering", true},
     {"ReorderThread", "shader execution reordering", true},
     {"GetRemainingRecursionLevels", "node shaders", true},
+    {"GetGroupWaveIndex", "waves of a group, Shader Model 6.10", true},
+    {"GetGroupWaveCount", "waves of a group, Shader Model 6.10", true},
     {"__builtin_LinAlg_", "linear algebra, Shader Model 6.10", false},
     {"__builtin_MatVecMul", "linear algebra, Shader Model 6.10", false},
     {"__builtin_OuterProductAccumulate", "linear algebra, Shader Model 6.10", true},
@@ -326,7 +328,10 @@ constexpr std::string_view kByName[] = {"mul",
                                         "unpack_s8s32",
                                         "unpack_u8u16",
                                         "unpack_s8s16",
-                                        "AcceptHitAndEndSearch"};
+                                        "AcceptHitAndEndSearch",
+                                        "TriangleObjectPositions",
+                                        "ClusterID",
+                                        "DebugBreak"};
 
 template <class Rule, size_t N>
 const Rule* find_rule(const Rule (&rules)[N], std::string_view name) {

@@ -159,6 +159,9 @@ const BuiltinConstant kBuiltinConstants[] = {
     {"GROUP_SCOPE", kGroupScope, 8},
     {"DEVICE_SCOPE", kDeviceScope, 8},
     {"REORDER_SCOPE", kReorderScope, 9},
+    {"RAYTRACING_PIPELINE_FLAG_ALLOW_CLUSTERED_GEOMETRY", 0x800, 10},
+    {"RAYQUERY_FLAG_ALLOW_CLUSTERED_GEOMETRY", 0x02, 10},
+    {"CLUSTER_ID_INVALID", 0xFFFFFFFF, 10},
 };
 const size_t kBuiltinConstantCount = std::size(kBuiltinConstants);
 

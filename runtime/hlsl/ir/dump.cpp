@@ -38,7 +38,8 @@ constexpr const char* kSystemValueNames[] = {"DispatchRaysIndex",
                                              "ObjectToWorld4x3",
                                              "WorldToObject3x4",
                                              "WorldToObject4x3",
-                                             "HitKind"};
+                                             "HitKind",
+                                             "PositionTable"};
 
 std::string name_of_variable(const ir::Variable& variable) {
   return (variable.name.empty() ? "t" : variable.name) + "$" + std::to_string(variable.id);
@@ -174,6 +175,8 @@ class Dumper {
         return call("same_bytes_" + dump(*of->type), *of);
       case ir::ExprKind::kRecordConstant:
         return call("record_constant", *of);
+      case ir::ExprKind::kTrianglePositions:
+        return call("triangle_positions", *of);
       case ir::ExprKind::kQuad:
         return call(std::string(wave_function_name(of->wave)), *of);
     }
@@ -285,6 +288,9 @@ class Dumper {
         break;
       case ir::StmtKind::kRemoveDevice:
         line("remove_device " + std::to_string(static_cast<int>(of.removal)));
+        break;
+      case ir::StmtKind::kDebugBreak:
+        line("debug_break");
         break;
       case ir::StmtKind::kIf:
         line("if ");

@@ -185,7 +185,9 @@ enum class ExprKind : uint8_t {
                 // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
   kSameBytes,   // operands: a value whose bytes in memory are read as another type; without
                 // resources, zero beyond its bytes. The attributes of a hit object
-  kRecordConstant,  // operands: a hit object, byte offset (uint32). uint32
+  kRecordConstant,     // operands: a hit object, byte offset (uint32). uint32
+  kTrianglePositions,  // operands: position table (uint2), geometry, primitive. float3x3, a row for
+                       // each vertex [kaamos/shader/triangle_positions.h]
   kQuad,  // only while a module is made (quad_functions.h): operands[0] combined over the quad
           // of a pixel shader, by `wave`
 };
@@ -243,6 +245,7 @@ enum class SystemValue : uint8_t {
   kWorldToObject3x4,
   kWorldToObject4x3,
   kHitKind,
+  kPositionTable,  // of the hit's bottom level, for kTrianglePositions
 };
 
 // The values that can be read from a RayQuery: about the candidate, or about the committed hit if
@@ -264,7 +267,8 @@ enum class QueryValue : uint8_t {
   kBarycentrics,
   kFrontFace,
   kProceduralNonOpaque,  // for the candidate only
-  kRayFlags,             // from here on: about the ray
+  kPositionTable,
+  kRayFlags,  // from here on: about the ray
   kRayTMin,
   kWorldRayOrigin,
   kWorldRayDirection,
@@ -331,6 +335,7 @@ enum class StmtKind : uint8_t {
   kWave,          // wave: what the active lanes of a wave do together. operands: those of
                   // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
   kRemoveDevice,  // removal: why. What follows may or may not run
+  kDebugBreak,    // a debugger that is attached stops here
   kDiscard,  // the pixel writes nothing from here on, and goes on for the derivatives of others.
              // Does nothing where the assignment before it (quad_functions.h) is enough
 };

@@ -270,6 +270,13 @@ class Verifier {
             is_hit_object(operands[0]->type) && is_scalar(operands[1]->type, ir::Scalar::kUint32),
             "a record's constant", of);
         break;
+      case ExprKind::kTrianglePositions:
+        operand_count(of, 3, 3);
+        require(components(operands[0]->type) == 2 &&
+                    is_scalar(operands[1]->type, ir::Scalar::kUint32) &&
+                    is_scalar(operands[2]->type, ir::Scalar::kUint32),
+                "a triangle's positions", of);
+        break;
       default:
         break;
     }

@@ -43,6 +43,18 @@ void visit(const Block& block, const ExprVisitor& on_expr, const StmtVisitor& on
   for (const Stmt* stmt : block) visit(*stmt, on_expr, on_stmt);
 }
 
+// Returns whether it is the number, written out.
+inline bool is_literal(const Expr* expr, uint32_t number) {
+  return expr->kind == ExprKind::kLiteral && static_cast<uint32_t>(expr->literal[0]) == number;
+}
+
+// Returns whether it is where the positions of a bottom level are.
+inline bool is_position_table(const Expr& expr) {
+  return (expr.kind == ExprKind::kSystemValue &&
+          expr.system_value == SystemValue::kPositionTable) ||
+         (expr.kind == ExprKind::kQueryValue && expr.query_value == QueryValue::kPositionTable);
+}
+
 // The variable that a place is part of.
 inline const Variable* root_of(const Expr* place) {
   while (place != nullptr && place->kind != ExprKind::kVariable) {

@@ -370,6 +370,7 @@ DispatchBlock dispatch_block(const runtime::RootBindings& state, const SceneTabl
   range(state.view_heap, block.view_heap_begin, block.view_heap_end);
   range(state.sampler_heap, block.sampler_heap_begin, block.sampler_heap_end);
   block.instances = scene.instances;
+  block.position_tables = scene.position_tables;
   block.top_levels = scene.top_levels;
   block.top_level_mask = scene.top_level_mask;
   block.empty_top_level = scene.empty_top_level;

@@ -175,6 +175,7 @@ rtapi::Result<SceneTables> Structures::tables() {
   }
   SceneTables result;
   result.instances = instances_->address();
+  result.position_tables = instances_->position_tables();
   result.top_levels = table_->address();
   result.top_level_mask = table_mask_;
   result.empty_top_level = empty_->address();

@@ -19,6 +19,7 @@ namespace kaamos::vulkan {
 // valid until the next call that changes structures.
 struct SceneTables {
   uint64_t instances = 0;
+  uint64_t position_tables = 0;
   uint64_t top_levels = 0;
   uint32_t top_level_mask = 0;
   uint64_t empty_top_level = 0;

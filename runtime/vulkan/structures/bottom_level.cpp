@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/structures/bottom_level.h"
 
+#include <kaamos/shader/spirv_interface.h>
+
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -52,6 +55,8 @@ class BottomLevelBuilder {
   StructureGeometry describe(size_t g) const;
   rtapi::Status build();
   void keep_inputs();
+  std::vector<uint32_t> position_words() const;
+  uint64_t position_table(bool is_missing, uint64_t offset_bytes) const;
 
   std::shared_ptr<Gpu> gpu_;
   std::span<const RaytracingGeometryDesc> geometries_;
@@ -169,7 +174,10 @@ StructureGeometry BottomLevelBuilder::describe(size_t g) const {
 rtapi::Status BottomLevelBuilder::build() {
   std::vector<StructureGeometry> geometries;
   for (size_t g = 0; g < geometries_.size(); ++g) geometries.push_back(describe(g));
-  const std::vector<uint32_t> words = list_.remap_words();
+  const std::vector<uint32_t> remap = list_.remap_words();
+  std::vector<uint32_t> words = remap;
+  const std::vector<uint32_t> positions = position_words();
+  words.insert(words.end(), positions.begin(), positions.end());
   auto structure =
       VulkanStructure::build(gpu_, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, level_.flags_,
                              geometries, words.size() * sizeof(uint32_t));
@@ -178,12 +186,37 @@ rtapi::Status BottomLevelBuilder::build() {
   level_.held_bytes_ = level_.structure_->size_bytes() + words.size() * sizeof(uint32_t);
   if (!words.empty()) {
     std::memcpy(level_.structure_->extra_host(), words.data(), words.size() * sizeof(uint32_t));
-    level_.remap_ = level_.structure_->extra_address();
   }
+  if (!remap.empty()) level_.remap_ = level_.structure_->extra_address();
+  level_.position_table_ = position_table(positions.empty(), remap.size() * sizeof(uint32_t));
   level_.empty_ = list_.empty();
   level_.bounds_ = list_.bounds();
   keep_inputs();
   return {};
+}
+
+// spirv_interface.h: position tables. Empty if shaders may not read them.
+std::vector<uint32_t> BottomLevelBuilder::position_words() const {
+  std::vector<uint32_t> words;
+  if (!HasAny(level_.flags_, runtime::BuildFlags::kAllowDataAccess)) return words;
+  if (geometries_.empty() || procedural(0)) return words;
+  words.resize(geometries_.size());
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    words[g] = static_cast<uint32_t>(words.size());
+    const Decoded& in = decoded_[g];
+    for (const uint32_t vertex : in.indices) {
+      for (int axis = 0; axis < 3; ++axis) {
+        words.push_back(std::bit_cast<uint32_t>(in.xyz[3 * size_t{vertex} + axis]));
+      }
+    }
+  }
+  return words;
+}
+
+uint64_t BottomLevelBuilder::position_table(bool is_missing, uint64_t offset_bytes) const {
+  if (!is_missing) return level_.structure_->extra_address() + offset_bytes;
+  const bool has_triangles = !geometries_.empty() && !procedural(0);
+  return has_triangles ? shader::spirv::kPositionsNotKept : 0;
 }
 
 void BottomLevelBuilder::keep_inputs() {

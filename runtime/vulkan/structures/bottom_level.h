@@ -37,6 +37,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
   uint64_t address() const { return structure_->address(); }
   uint64_t primitive_remap() const { return remap_; }  // spirv::InstanceEntry::primitive_remap
+  uint64_t position_table() const { return position_table_; }  // spirv::kPositionsNotKept
   uint64_t held_bytes() const { return held_bytes_; }
   uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }
   std::span<const runtime::GeometryShape> shapes() const { return shapes_; }
@@ -49,6 +50,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
   std::unique_ptr<VulkanStructure> structure_;
   uint64_t remap_ = 0;
+  uint64_t position_table_ = 0;
   uint64_t held_bytes_ = 0;
   uint64_t out_of_range_triangles_ = 0;
   bool empty_ = true;

@@ -31,7 +31,13 @@ uint64_t InstanceTable::address() const {
   return buffer_->address();
 }
 
-rtapi::Result<InstanceTable::Range> InstanceTable::add(std::span<const InstanceEntry> entries) {
+uint64_t InstanceTable::position_tables() const {
+  const std::lock_guard lock(mutex_);
+  return buffer_->address() + uint64_t{capacity_} * sizeof(InstanceEntry);
+}
+
+rtapi::Result<InstanceTable::Range> InstanceTable::add(std::span<const InstanceEntry> entries,
+                                                       std::span<const uint64_t> position_tables) {
   const auto count = static_cast<uint32_t>(entries.size());
   if (count == 0) return Range();
   const std::lock_guard lock(mutex_);
@@ -46,6 +52,9 @@ rtapi::Result<InstanceTable::Range> InstanceTable::add(std::span<const InstanceE
   if (available > count) free_[first + count] = available - count;
   std::memcpy(buffer_->host() + uint64_t{first} * sizeof(InstanceEntry), entries.data(),
               entries.size_bytes());
+  std::memcpy(buffer_->host() + uint64_t{capacity_} * sizeof(InstanceEntry) +
+                  uint64_t{first} * sizeof(uint64_t),
+              position_tables.data(), position_tables.size_bytes());
   return Range(shared_from_this(), first, count);
 }
 
@@ -60,10 +69,14 @@ rtapi::Status InstanceTable::grow(uint32_t entries) {
   }
   const uint32_t capacity =
       std::min(std::max(capacity_ + entries, 2 * capacity_), kLargestCapacity);
-  auto buffer = gpu_->create_buffer(uint64_t{capacity} * sizeof(InstanceEntry), "instance table");
+  auto buffer = gpu_->create_buffer(uint64_t{capacity} * (sizeof(InstanceEntry) + sizeof(uint64_t)),
+                                    "instance table");
   if (!buffer) return buffer.error();
   if (buffer_ != nullptr) {
-    std::memcpy((*buffer)->host(), buffer_->host(), uint64_t{capacity_} * sizeof(InstanceEntry));
+    const uint64_t old_bytes = uint64_t{capacity_} * sizeof(InstanceEntry);
+    std::memcpy((*buffer)->host(), buffer_->host(), old_bytes);
+    std::memcpy((*buffer)->host() + uint64_t{capacity} * sizeof(InstanceEntry),
+                buffer_->host() + old_bytes, uint64_t{capacity_} * sizeof(uint64_t));
   }
   buffer_ = std::move(*buffer);
   const uint32_t added = capacity - capacity_;

@@ -47,9 +47,12 @@ class InstanceTable : public std::enable_shared_from_this<InstanceTable> {
   };
   // Must not be called while a dispatch runs, because the table may move. Errors: KA0794 more than
   // 2^24 entries in all live top levels, KA0990 out of memory.
-  rtapi::Result<Range> add(std::span<const shader::spirv::InstanceEntry> entries);
+  // `position_tables` has one for each entry.
+  rtapi::Result<Range> add(std::span<const shader::spirv::InstanceEntry> entries,
+                           std::span<const uint64_t> position_tables);
 
   uint64_t address() const;
+  uint64_t position_tables() const;  // DispatchBlock::position_tables
 
  private:
   explicit InstanceTable(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}
@@ -58,7 +61,7 @@ class InstanceTable : public std::enable_shared_from_this<InstanceTable> {
 
   std::shared_ptr<Gpu> gpu_;
   mutable std::mutex mutex_;
-  std::unique_ptr<GpuBuffer> buffer_;
+  std::unique_ptr<GpuBuffer> buffer_;  // the entries, then the position tables
   uint32_t capacity_ = 0;
   std::map<uint32_t, uint32_t> free_;  // first -> count; adjacent ranges are always merged
 };

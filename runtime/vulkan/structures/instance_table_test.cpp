@@ -39,15 +39,17 @@ TEST(InstanceTable, RangesKeepTheirEntriesWhileOthersComeAndGo) {
       continue;
     }
     const uint32_t count = random() % 700;
-    auto range = table->add(entries_of(count, round));
+    auto range = table->add(entries_of(count, round), std::vector<uint64_t>(count, round));
     ASSERT_TRUE(range) << range.error().message;
     living.push_back({std::move(*range), round, count});
   }
   const auto* all = reinterpret_cast<const InstanceEntry*>(table->address());
+  const auto* positions = reinterpret_cast<const uint64_t*>(table->position_tables());
   for (const Living& l : living) {
     for (uint32_t i = 0; i < l.count; ++i) {
       ASSERT_EQ(all[l.range.first() + i].instance_id, l.id);
       ASSERT_EQ(all[l.range.first() + i].instance_index, i);
+      ASSERT_EQ(positions[l.range.first() + i], l.id);
     }
   }
 }
@@ -58,7 +60,8 @@ TEST(InstanceTable, WhatIsFreedIsUsedAgain) {
   const uint64_t address = table->address();
   for (uint32_t i = 0; i < 50; ++i) {
     std::vector<InstanceTable::Range> ranges;
-    for (uint32_t j = 0; j < 10; ++j) ranges.push_back(*table->add(entries_of(100, j)));
+    for (uint32_t j = 0; j < 10; ++j)
+      ranges.push_back(*table->add(entries_of(100, j), std::vector<uint64_t>(100)));
     std::swap(ranges[i % 10], ranges[(7 * i) % 10]);
   }
   EXPECT_EQ(table->address(), address);  // the table never had to grow
@@ -70,11 +73,11 @@ TEST(InstanceTable, MoreThanItsIndexHasBitsIsAnError) {
   constexpr size_t kTooMany = (size_t{1} << 24) + 1;
   void* zeros = std::calloc(kTooMany, sizeof(InstanceEntry));
   ASSERT_NE(zeros, nullptr);
-  const auto range = table->add({static_cast<const InstanceEntry*>(zeros), kTooMany});
+  const auto range = table->add({static_cast<const InstanceEntry*>(zeros), kTooMany}, {});
   std::free(zeros);
   ASSERT_FALSE(range);
   EXPECT_EQ(range.error().id.text(), "KA0794");
-  EXPECT_TRUE(table->add(entries_of(10, 1)));
+  EXPECT_TRUE(table->add(entries_of(10, 1), std::vector<uint64_t>(10)));
 }
 
 }  // namespace

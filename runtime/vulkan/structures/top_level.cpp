@@ -47,6 +47,15 @@ InstanceEntry entry_of(const runtime::Instance& instance, uint32_t index) {
   return entry;
 }
 
+std::vector<uint64_t> position_tables_of(std::span<const runtime::Instance> instances) {
+  std::vector<uint64_t> tables(instances.size());
+  for (size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].bottom_level == nullptr) continue;
+    tables[i] = static_cast<const BottomLevel&>(*instances[i].bottom_level).position_table();
+  }
+  return tables;
+}
+
 uint64_t largest_record_of(const runtime::Instance& instance) {
   const auto& level = static_cast<const BottomLevel&>(*instance.bottom_level);
   const uint64_t geometries = level.shapes().size();
@@ -91,7 +100,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   for (const auto& instance : instances) {
     entries.push_back(entry_of(instance, static_cast<uint32_t>(entries.size())));
   }
-  auto range = table.add(entries);
+  auto range = table.add(entries, position_tables_of(instances));
   if (!range) return range.error();
   level->entries_ = std::move(*range);
 

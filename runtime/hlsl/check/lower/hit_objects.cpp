@@ -79,7 +79,8 @@ std::optional<Value> HitObjects::call_function(const QualifiedName& name, const 
       return call_static(name.last(), values, call->location);
     }
   }
-  if (name.last().identifier != "MaybeReorderThread") return std::nullopt;
+  const bool asks_debugger = name.last().identifier == "IsDebuggingEnabled";
+  if (!asks_debugger && name.last().identifier != "MaybeReorderThread") return std::nullopt;
   const Symbol* symbol = names_.resolve_name(name, body_.scope, true);
   if (!symbol || symbol->kind != SymbolKind::kFunctions || !symbol->functions.empty()) {
     return std::nullopt;
@@ -87,6 +88,7 @@ std::optional<Value> HitObjects::call_function(const QualifiedName& name, const 
   std::vector<Value> values = arguments();
   if (any_failed(values)) return error_value();
   at(call->location);
+  if (asks_debugger) return lower_.debugging.call_is_enabled(values, call->location);
   return call_reorder(values, call->location);
 }
 
@@ -221,7 +223,8 @@ Value HitObjects::from_query(std::vector<Value>& arguments, SourceLocation locat
   const ir::Expr* barycentrics =
       read(ir::QueryValue::kBarycentrics, build_.vector_type(Scalar::kFloat32, 2), true);
   fields[ir::kHitHitKind] = build_.conditional(of_triangle, facing, kind);
-  fields[ir::kHitAttributes] = build_.conditional(of_triangle, as_words(barycentrics), attributes);
+  fields[ir::kHitAttributes] = build_.conditional(
+      of_triangle, lower_.triangle_positions.attributes_of(query, barycentrics, words), attributes);
   const ir::Expr* hit = build_.construct(type->ir, std::move(fields));
   const ir::Expr* is_nothing = build_.binary(ir::BinaryOp::kEqual, status, build_.uint32(0));
   // The query may change before the value is read.
@@ -266,6 +269,9 @@ Value HitObjects::call_method(const Value& object, const NamePart& part,
         lower_.conversions.convert(arguments[0], number, arguments[0].location);
     if (!offset) return error_value();
     return rvalue(build_.expr(ir::ExprKind::kRecordConstant, number->ir, {hit, offset}), number);
+  }
+  if (auto result = lower_.triangle_positions.call_hit_object(name, hit, arguments, location)) {
+    return *result;
   }
   if (auto result = getter(hit, name)) return has(0, 0) ? *result : error_value();
   report(CheckId::kNoSuchMethod, location, {to_string(object.type), name});

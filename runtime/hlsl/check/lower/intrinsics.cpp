@@ -158,6 +158,10 @@ std::optional<Value> Intrinsics::call_builtin(const NamePart& part, std::vector<
         build_.binary(ir::BinaryOp::kMultiply, build_.swizzle(value, {2, 1, 0, 3}), scale);
     return rvalue(build_.convert(scaled, Scalar::kInt32), types_.vector(Scalar::kInt32, 4));
   }
+  if (auto value = lower_.triangle_positions.call_function(name, arguments, location)) {
+    return *value;
+  }
+  if (name == "DebugBreak") return lower_.debugging.call_break(arguments, location);
   if (name == "TraceRay") return lower_.ray_intrinsics.call_trace_ray(arguments, location);
   if (name == "ReportHit") return lower_.ray_intrinsics.call_report_hit(arguments, location);
   if (name == "CallShader") return lower_.ray_intrinsics.call_call_shader(arguments, location);

@@ -14,6 +14,7 @@
 #include "runtime/hlsl/check/lower/calls.h"
 #include "runtime/hlsl/check/lower/conversions.h"
 #include "runtime/hlsl/check/lower/counters.h"
+#include "runtime/hlsl/check/lower/debugging.h"
 #include "runtime/hlsl/check/lower/elements.h"
 #include "runtime/hlsl/check/lower/expressions.h"
 #include "runtime/hlsl/check/lower/hit_objects.h"
@@ -32,6 +33,7 @@
 #include "runtime/hlsl/check/lower/short_circuits.h"
 #include "runtime/hlsl/check/lower/statements.h"
 #include "runtime/hlsl/check/lower/textures.h"
+#include "runtime/hlsl/check/lower/triangle_positions.h"
 #include "runtime/hlsl/check/lower/vk_names.h"
 #include "runtime/hlsl/check/lower/waves.h"
 #include "runtime/hlsl/check/names/evaluator.h"
@@ -75,6 +77,8 @@ class Lowerer final : public Evaluator {
   RayIntrinsics ray_intrinsics{*this};
   RayQueries ray_queries{*this};
   HitObjects hit_objects{*this};
+  TrianglePositions triangle_positions{*this};
+  Debugging debugging{*this};
   Resources resources{*this};
   Textures textures{*this};
   Multisampled multisampled{*this};

@@ -188,6 +188,9 @@ Value RayQueries::call_query_method(const Value& object, const NamePart& part,
     node->index = rule->of_committed ? 1 : 0;
     return rvalue(node, type);
   }
+  if (auto value = lower_.triangle_positions.call_query(name, query, arguments, location)) {
+    return *value;
+  }
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kQuery);
   statement->place = query;
   const Value nothing = rvalue(build_.int32(0), types_.void_type());

@@ -35,6 +35,9 @@ void Declarations::declare_hit_object() {
   Scope* dx = scopes_.make_scope(ScopeKind::kNamespace, program_.global, "dx");
   scopes_.add_symbol(program_.global, SymbolKind::kNamespace, "dx", {})->scope = dx;
   scopes_.add_symbol(dx, SymbolKind::kFunctions, "MaybeReorderThread", {});
+  if (shader_model_minor(program_.options->target) >= 10) {
+    scopes_.add_symbol(dx, SymbolKind::kFunctions, "IsDebuggingEnabled", {});
+  }
   StructInfo* info = program_.hit_object = declare_builtin_struct(dx, "HitObject", {});
   info->is_hit_object = true;
   bench_.module.hit_object = info->ir;
@@ -69,6 +72,11 @@ void Declarations::declare_builtins() {
   declare_builtin_struct(program_.global, "BuiltInTriangleIntersectionAttributes",
                          {{"barycentrics", types_.vector(Scalar::kFloat32, 2)}});
   if (shader_model_minor(program_.options->target) >= 9) declare_hit_object();
+  if (shader_model_minor(program_.options->target) >= 10) {
+    program_.triangle_positions =
+        declare_builtin_struct(program_.global, "BuiltInTrianglePositions",
+                               {{"p0", vector}, {"p1", vector}, {"p2", vector}});
+  }
   const Type* flags = types_.scalar(Scalar::kUint32);
   for (size_t i = 0; i < kBuiltinConstantCount; ++i) {
     if (kBuiltinConstants[i].minor > shader_model_minor(program_.options->target)) continue;

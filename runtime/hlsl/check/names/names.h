@@ -57,7 +57,8 @@ class Names {
                                    std::string_view name) = 0;
   virtual void check_payload_use(const Type* type, SourceLocation location) = 0;
   virtual const Type* ray_desc() const = 0;
-  virtual const Type* hit_object() const = 0;  // not before Shader Model 6.9
+  virtual const Type* hit_object() const = 0;          // not before Shader Model 6.9
+  virtual const Type* triangle_positions() const = 0;  // not before Shader Model 6.10
 
   // -- Declarations
   virtual void declare(const Decl* declaration, Scope* scope) = 0;

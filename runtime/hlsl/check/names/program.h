@@ -54,7 +54,8 @@ struct Program {
   std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>
       instance_arguments;
   StructInfo* ray_desc = nullptr;
-  StructInfo* hit_object = nullptr;  // null before Shader Model 6.9
+  StructInfo* hit_object = nullptr;          // null before Shader Model 6.9
+  StructInfo* triangle_positions = nullptr;  // null before Shader Model 6.10
   ModuleFacts facts;
 };
 

@@ -432,8 +432,10 @@ const Type* Resolver::resolve_ray_query(const NamePart& part, Scope* scope) {
              {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", "6.9"});
       return types_.error();
     }
-    allows_micromaps = *query_flags == 1;
-    if (*query_flags != 0 && !allows_micromaps) {
+    allows_micromaps = (*query_flags & 1) != 0;
+    // Clusters are allowed where there are none.
+    const int64_t known = shader_model_minor(program_.options->target) >= 10 ? 3 : 1;
+    if (*query_flags < 0 || *query_flags > known) {
       report(CheckId::kRayQuerySecondFlags, arguments[1].location, {std::to_string(*query_flags)});
       return types_.error();
     }

@@ -102,10 +102,13 @@ struct DispatchBlock {
   uint32_t reserved = 0;  // makes root_arguments a multiple of 16
   uint8_t root_arguments[512] = {};
   uint64_t twin_tables = 0;  // TwinTables, if a shader of the pipeline uses hit objects
+  // uint64_t[], indexed by gl_InstanceCustomIndexEXT: the position table of each instance.
+  uint64_t position_tables = 0;
 };
 static_assert(offsetof(DispatchBlock, root_arguments) == 112);
 static_assert(offsetof(DispatchBlock, twin_tables) == 624);
-static_assert(sizeof(DispatchBlock) == 632);
+static_assert(offsetof(DispatchBlock, position_tables) == 632);
+static_assert(sizeof(DispatchBlock) == 640);
 
 // Maps the HLSL value of an acceleration structure to Vulkan's. A hash table with open addressing:
 // look at slot hash(address) & top_level_mask and at the following slots until you find `address`,
@@ -131,6 +134,13 @@ struct InstanceEntry {
   uint32_t instance_index = 0;
 };
 static_assert(sizeof(InstanceEntry) == 16);
+
+// The position table of an instance whose bottom level was built with ALLOW_DATA_ACCESS is the
+// address of uint32_t words:
+//   p0, p1 and p2 of a triangle = the 9 floats from words[words[GeometryIndex] + 9 *
+//   PrimitiveIndex]
+// with the application's numbers. 0: its primitives are no triangles.
+inline constexpr uint64_t kPositionsNotKept = 1;  // it was built without ALLOW_DATA_ACCESS
 
 // The shader record as the driver sees it: this and nothing else, after the driver's handle. So the
 // application's record can stay where it is, and the driver is free in its sizes and alignments.

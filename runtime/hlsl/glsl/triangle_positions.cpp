@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// TriangleObjectPositions. The driver's own position fetch ignores the geometry, so the backend
+// keeps the positions (spirv_interface.h: position tables).
+#include "kaamos/shader/triangle_positions.h"
+
+#include "kaamos/shader/spirv_interface.h"
+#include "runtime/hlsl/glsl/emitter.h"
+
+namespace kaamos::hlsl {
+
+using namespace ir;
+
+static_assert(shader::kHitPositionTable == 6 && shader::kLeastTriangleHitKind == 254);
+static_assert(shader::spirv::kPositionsNotKept == 1);
+static_assert(offsetof(shader::spirv::DispatchBlock, position_tables) == 632);
+
+void GlslEmitter::declare_address() {
+  generated("g_Address",
+            "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
+            "g_Address { uint64_t v; };\n");
+}
+
+// The name of the function that gives the position table of an instance.
+std::string GlslEmitter::position_table() {
+  declare_address();
+  return generated("g_position_table",
+                   "uvec2 g_position_table(uint instance) {\n"
+                   "  uint64_t tables = g_Address(k_dispatch_address + 632UL).v;\n"
+                   "  return unpackUint2x32(g_Address(tables + uint64_t(instance) * 8UL).v);\n"
+                   "}\n");
+}
+
+std::string GlslEmitter::triangle_positions(const Expr& expr) {
+  declare_instance_entry();
+  const std::string result = type(expr.type);
+  const bool checked = module_.check_access;
+  const std::string missing =
+      checked
+          ? "k_tell(words == 0UL ? " + glsl::number(static_cast<uint32_t>(shader::kNoTriangle)) +
+                " : " + glsl::number(static_cast<uint32_t>(shader::kNoDataAccess)) +
+                ", site, 0u, 0u, uint64_t(geometry), uint64_t(primitive), 0UL, 0UL);\n    "
+          : "";
+  const std::string name = generated(
+      "g_triangle_positions",
+      result + " g_triangle_positions(uvec2 table, uint geometry, uint primitive" +
+          (checked ? ", uint site" : "") +
+          ") {\n"
+          "  uint64_t words = packUint2x32(table);\n"
+          "  if (words < 2UL) {\n    " +
+          missing + "return " + zero(expr.type) +
+          ";\n"
+          "  }\n"
+          "  uint64_t at = words + 4UL * (uint64_t(g_Word(words + 4UL * uint64_t(geometry)).v) + "
+          "9UL * uint64_t(primitive));\n"
+          "  vec3 p[3];\n"
+          "  for (int i = 0; i < 9; ++i) p[i / 3][i % 3] = "
+          "uintBitsToFloat(g_Word(at + 4UL * uint64_t(i)).v);\n"
+          "  return " +
+          result + "(vec3[3](p[0], p[1], p[2]));\n}\n");
+  std::string text = call(name, expr.operands);
+  if (!checked) return text;
+  text.pop_back();
+  return text + ", " + site(expr.location) + ")";
+}
+
+}  // namespace kaamos::hlsl
