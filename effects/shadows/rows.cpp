@@ -74,12 +74,18 @@ std::vector<EffectStep> adaptive_steps() {
 constexpr std::uint32_t kPlane = kShadowMapReceiverPlane;
 constexpr std::uint32_t kEdgeSamples = 16;
 
+// Settings of maps whose lookups follow the receiver's plane.
+ShadowMapConstants on_plane(std::uint32_t method, float radius, std::uint32_t taps) {
+  return {.method = method,
+          .flags = kPlane,
+          .constant_bias = 0.5f,
+          .slope_bias = 0.0f,
+          .radius = radius,
+          .taps = taps};
+}
+
 Effect sun_pcf_row() {
-  const ShadowMapConstants defaults = {.method = kShadowMapPcf,
-                                       .flags = kPlane,
-                                       .constant_bias = 0.5f,
-                                       .slope_bias = 0.0f,
-                                       .radius = 0.03f};
+  const ShadowMapConstants defaults = on_plane(kShadowMapPcf, 0.03f, 16);
   Effect row = shadow_map_row("sun-pcf", "sun shadow by a map, filtered as wide everywhere",
                               "sun_pcf", defaults);
   ShadowMapConstants few = defaults, most = defaults;
@@ -95,12 +101,7 @@ Effect sun_pcf_row() {
 }
 
 Effect sun_pcss_row() {
-  const ShadowMapConstants defaults = {.method = kShadowMapPcss,
-                                       .flags = kPlane,
-                                       .constant_bias = 0.5f,
-                                       .slope_bias = 0.0f,
-                                       .radius = 0.25f,
-                                       .taps = 32};
+  const ShadowMapConstants defaults = on_plane(kShadowMapPcss, 0.25f, 32);
   Effect row = shadow_map_row("sun-pcss", "sun shadow by a map, filtered as wide as the penumbra",
                               "sun_pcss", defaults);
   ShadowMapConstants few = defaults, most = defaults;
@@ -117,12 +118,7 @@ Effect sun_pcss_row() {
 
 Effect sun_backprojection_row() {
   const auto backprojection = [](std::uint32_t rows) {
-    return ShadowMapConstants{.method = kShadowMapBackprojection,
-                              .flags = kPlane,
-                              .constant_bias = 0.5f,
-                              .slope_bias = 0.0f,
-                              .radius = 0.25f,
-                              .taps = rows};
+    return on_plane(kShadowMapBackprojection, 0.25f, rows);
   };
   Effect row =
       shadow_map_row("sun-backprojection", "sun shadow by what a map's texels hide of the sun",
@@ -162,12 +158,7 @@ Effect sun_cascades_row() {
 
 Effect sun_hybrid_row() {
   HybridShadowConstants defaults;
-  defaults.map = {.method = kShadowMapPcss,
-                  .flags = kPlane,
-                  .constant_bias = 0.5f,
-                  .slope_bias = 0.0f,
-                  .radius = 0.25f,
-                  .taps = 32};
+  defaults.map = on_plane(kShadowMapPcss, 0.25f, 32);
   Effect row =
       shadow_map_row("sun-hybrid", "sun shadow by a ray, and far from what casts it by a map",
                      "sun_hybrid", defaults.map);
@@ -189,12 +180,7 @@ Effect sun_hybrid_row() {
 
 Effect sun_edges_row() {
   EdgeShadowConstants defaults;
-  defaults.map = {.method = kShadowMapPcf,
-                  .flags = kPlane,
-                  .constant_bias = 0.5f,
-                  .slope_bias = 0.0f,
-                  .radius = 0.25f,
-                  .taps = 32};
+  defaults.map = on_plane(kShadowMapPcf, 0.25f, 32);
   Effect row = shadow_map_row("sun-edges", "sun shadow by rays where a map finds its edges",
                               "sun_edges", defaults.map);
   row.library = {"shadows/edge_shadow/edge_shadow", edge_shadow_library};

@@ -53,8 +53,7 @@ std::string descriptor_name(uint64_t kind, uint64_t access) {
                                     : " to write (UAV)");
 }
 
-// The first of ERR-18's rules that `flags` break; empty if none, as checked code does not know the
-// flags of micromaps.
+// The first of ERR-18's rules that `flags` break.
 std::string flags_problem(uint32_t flags, bool query) {
   if (query) flags &= ~shader::kRayQueryAllowsMicromaps;
   if ((flags & ~runtime::kAllRayFlags) != 0) {
@@ -69,7 +68,6 @@ std::string flags_problem(uint32_t flags, bool query) {
   if ((flags & 0x30u) == 0x30u) {
     return "CULL_BACK_FACING_TRIANGLES and CULL_FRONT_FACING_TRIANGLES cannot both be set";
   }
-  if ((flags & 0x100u) == 0 || (flags & 0x230u) == 0) return {};
   return "SKIP_TRIANGLES cannot be combined with the facing culls or SKIP_PROCEDURAL_PRIMITIVES";
 }
 
@@ -311,11 +309,6 @@ std::string where(const CodePlace& place, const CheckReport& r) {
 
 void report_finding(Reporter& reporter, const runtime::AddressMap& addresses,
                     const CodePlace& place, const CheckReport& report, uint64_t count) {
-  const bool query = report.finding == Finding::kQueryFlags;
-  if ((query || report.finding == Finding::kRayFlags) &&
-      flags_problem(static_cast<uint32_t>(report.values[0]), query).empty()) {
-    return;
-  }
   const uint64_t order =
       place.index[0] + uint64_t{place.dimensions[0]} *
                            (place.index[1] + uint64_t{place.dimensions[1]} * place.index[2]);

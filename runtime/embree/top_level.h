@@ -45,7 +45,7 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
-  // Of the instance's bottom level, by geometry.
+  // Returns an array with the positions of each geometry of the instance's bottom level.
   const shader::GeometryPositions* positions(uint32_t index) const {
     return world_to_object_[index].positions;
   }

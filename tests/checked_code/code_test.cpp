@@ -543,7 +543,7 @@ TEST_P(CheckedCode, RayFlags) {
     run("Trace", {0, flags});
     expect("KA0403", {"flags 0x"});
   }
-  for (const uint32_t flags : {0x1u, 0x8u, 0x24u, 0x214u}) {
+  for (const uint32_t flags : {0x1u, 0x8u, 0x24u, 0x214u, 0x400u}) {
     run("Trace", {0, flags});
     EXPECT_EQ(all(), "") << flags;
   }

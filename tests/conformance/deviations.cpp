@@ -42,7 +42,7 @@ constexpr char kNanTimesZero[] =
     "NANB: fault of Mesa 25.0's blending: a factor of zero leaves NaN out";
 constexpr char kSnormBlend[] = "SNORMB: Mesa 25.0 blends SNORM wrongly, so that it is refused";
 
-// Of every rule of micromaps that needs some.
+// Explains each rule of micromaps that fails there.
 constexpr Deviation kMicromapsOnVulkan = {
     "OMM", "vulkan", "",
     "by design: builds refuse micromaps (KA0547): lavapipe has none, and the opacity of candidates "

@@ -17,7 +17,8 @@ namespace kaamos::effects {
 struct BakedAoConstants {
   float texel = 0.1f;       ///< metres between texels along a triangle's edges, above 0
   std::uint32_t rays = 64;  ///< of a texel
-  /// Of a scene, besides one for each triangle; where it had more, `texel` is doubled.
+  /// Texels that a scene has at most, besides one for each triangle. `texel` is doubled until that
+  /// holds.
   std::uint32_t most_texels = 1 << 18;
 };
 

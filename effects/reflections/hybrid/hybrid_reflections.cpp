@@ -6,24 +6,11 @@
 #include <utility>
 
 #include "effects/engine/ray_pass.h"
+#include "effects/reflections/traced/reflections.h"
 
 namespace kaamos::effects {
 
 namespace {
-
-RayPassDesc hybrid_pass(rtapi::ShaderLibrary library) {
-  RayPassDesc desc;
-  desc.name = "hybrid reflections";
-  desc.library = std::move(library);
-  desc.ray_generation = "HybridRayGen";
-  desc.miss[kRayTypeSurface] = "ReflectionMiss";
-  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
-  desc.hit[kRayTypeSurface] = {"ReflectionAnyHit", "ReflectionClosestHit"};
-  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 28;
-  desc.max_recursion_depth = 2;
-  return desc;
-}
 
 class HybridReflections : public EffectPass {
  public:
@@ -68,7 +55,9 @@ rtapi::Result<std::unique_ptr<EffectPass>> make_hybrid_reflections(const EffectS
   auto masks = bind_instance_masks(scope);
   if (!masks) return masks.error();
   const auto& library = scope.library("reflections/hybrid/hybrid_reflections");
-  auto pass = RayPass::create(scope.device, scope.frame, scope.gpu, hybrid_pass(library));
+  auto pass =
+      RayPass::create(scope.device, scope.frame, scope.gpu,
+                      reflection_shading_pass("hybrid reflections", library, "HybridRayGen"));
   if (!pass) return pass.error();
   return std::unique_ptr<EffectPass>(
       std::make_unique<HybridReflections>(scope, std::move(*pass), std::move(*masks)));

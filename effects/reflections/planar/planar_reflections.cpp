@@ -15,6 +15,7 @@
 #include "effects/engine/scene_draws.h"
 #include "effects/reflections/environment_map/environment_map.h"
 #include "effects/reflections/planar/mirrored_draws.h"
+#include "effects/reflections/traced/reflections.h"
 
 namespace kaamos::effects {
 
@@ -37,17 +38,8 @@ std::uint32_t level_size(std::uint32_t size, std::uint32_t level) {
 }
 
 RayPassDesc mirrored_pass(const rtapi::ShaderLibrary& library, PlanarSource source) {
-  RayPassDesc desc;
-  desc.name = "mirrored scene";
-  desc.library = library;
-  desc.ray_generation = source == PlanarSource::kDraws ? "ShadeDrawn" : "PlanarRayGen";
-  desc.miss[kRayTypeSurface] = "ReflectionMiss";
-  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
-  desc.hit[kRayTypeSurface] = {"ReflectionAnyHit", "ReflectionClosestHit"};
-  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 28;
-  desc.max_recursion_depth = 2;
-  return desc;
+  return reflection_shading_pass("mirrored scene", library,
+                                 source == PlanarSource::kDraws ? "ShadeDrawn" : "PlanarRayGen");
 }
 
 class PlanarReflections : public EffectPass {

@@ -10,6 +10,7 @@
 #include "effects/engine/compute_pass.h"
 #include "effects/engine/ray_pass.h"
 #include "effects/reflections/hybrid/hybrid_reflections.h"
+#include "effects/reflections/traced/reflections.h"
 
 namespace kaamos::effects {
 
@@ -19,20 +20,6 @@ constexpr std::uint32_t kTile = 8;                      // pixels along a side
 constexpr std::uint32_t kTiles = 3, kDispatchRays = 4;  // u, space3
 constexpr const char* kLibrary = "reflections/tiled/tiled_reflections";
 static_assert(offsetof(rtapi::DispatchRaysDesc, Height) == 4 * 23);  // kHeightWord
-
-RayPassDesc tiled_pass(rtapi::ShaderLibrary library) {
-  RayPassDesc desc;
-  desc.name = "tiled reflections";
-  desc.library = std::move(library);
-  desc.ray_generation = "TiledRayGen";
-  desc.miss[kRayTypeSurface] = "ReflectionMiss";
-  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
-  desc.hit[kRayTypeSurface] = {"ReflectionAnyHit", "ReflectionClosestHit"};
-  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 28;
-  desc.max_recursion_depth = 2;
-  return desc;
-}
 
 class TiledReflections : public EffectPass {
  public:
@@ -47,7 +34,9 @@ class TiledReflections : public EffectPass {
     auto classify = ComputePass::create(device_, frame_, scope.library(kLibrary), "ClassifyTiles");
     if (!classify) return classify.error();
     classify_ = std::move(*classify);
-    auto rays = RayPass::create(device_, frame_, scope.gpu, tiled_pass(scope.library(kLibrary)));
+    auto rays = RayPass::create(
+        device_, frame_, scope.gpu,
+        reflection_shading_pass("tiled reflections", scope.library(kLibrary), "TiledRayGen"));
     if (!rays) return rays.error();
     rays_ = std::move(*rays);
     auto signature = device_.CreateCommandSignature(

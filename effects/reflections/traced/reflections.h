@@ -8,6 +8,10 @@
 
 namespace kaamos::effects {
 
+/// A pass whose rays are shaded as reflections by what reflection_shading.hlsli has: a library
+/// with that file and a ray generation shader of its own.
+RayPassDesc reflection_shading_pass(const char* name, rtapi::ShaderLibrary library,
+                                    const char* ray_generation);
 /// The pass. Register u0 of space3 is R32G32B32A32_FLOAT, to which the samples are added: radiance
 /// over the specular albedo of brdf.hlsli, and the rays' length. Lighting::bind and GpuVolume::bind
 /// are needed too.

@@ -14,8 +14,7 @@ namespace kaamos::effects {
 
 /// Constants b0, space3: mirrors ShadowMapConstants and EdgeConstants of edge_shadow.hlsl.
 struct EdgeShadowConstants {
-  /// Of the map. `radius` is how far from a surface its texels are asked at most, metres, and
-  /// `taps` how many of them in a row.
+  /// The map. The pass asks `taps` x `taps` of its texels, at most `radius` metres from a surface.
   ShadowMapConstants map;
   float margin = 1.5f;  ///< texels that the map may be wrong, 0 to 64
 };

@@ -40,7 +40,7 @@ bool is_pcss(const FilteredShadowMapConstants& constants) {
          constants.map.method == kFilteredPcssConvolution;
 }
 
-// Of a map. [SliceCount in filtered_shadow_map.hlsl]
+// Returns how many slices a map has. [SliceCount in filtered_shadow_map.hlsl]
 std::uint32_t slice_count(const FilteredShadowMapConstants& constants) {
   const std::uint32_t series = (constants.terms + 1) / 2;
   if (constants.map.method == kFilteredPcssConvolution) return 2 * series + 1;

@@ -150,6 +150,10 @@ class GlslEmitter {
   std::string payload_block(const char* qualifier, int location, const ir::Type* type,
                             const std::string& name);
   std::string header(const std::string& payload, const ir::Type* type) const;
+  // The statements of checked code ahead of a ray; `ray` has the arguments of its RayDesc, `out` is
+  // the name of its payload block.
+  std::string trace_checks(const std::string& ray, const std::string& out,
+                           const ir::Type* payload) const;
   std::string trace_function(const ir::Type* payload);
   void declare_top_level();
   void trace_ray(const ir::Stmt& stmt);

@@ -46,7 +46,7 @@ constexpr char kSearch[] =
     "uint miss, vec3 origin, float t_min, vec3 direction, float t_max) {\n"
     "  @ hit = g_no_hit;\n"
     "  hit.$state = 2u;\n"
-    "  hit.$flags = flags & 0x3FFu;\n"
+    "  hit.$flags = flags & 0x7FFu;\n"
     "  hit.$origin = origin;\n"
     "  hit.$t_min = t_min;\n"
     "  hit.$direction = direction;\n"
@@ -288,13 +288,7 @@ std::string GlslEmitter::trace_hit_function(const Type* payload) {
       "miss, " +
       ray + " ray, inout " + type(payload) + " payload" +
       (checked ? ", uint site, bool unknown" : "") + ") {\n" +
-      (checked
-           ? "  if (unknown) k_reached(0u, site, k_structure_of(scene), flags, (mask & 0xFFu) | "
-             "(contribution & 15u) << 8 | (multiplier & 15u) << 12 | miss << 16);\n"
-             "  k_check_ray(" +
-                 of_ray + ", flags, false, site);\n  k_check_depth(g_depths & 0xFFFFu, site);\n" +
-                 header("g_twin", payload)
-           : "") +
+      trace_checks(of_ray, "g_twin", payload) +
       "  if ((g_depths & 0xFFFFu) >= g_max_trace_depth) {\n"
       "    g_remove_device(0u);\n"
       "    return g_no_hit;\n"

@@ -194,6 +194,18 @@ std::string GlslEmitter::header(const std::string& payload, const Type* t) const
          ".bytes = " + glsl::number(4 * glsl::words(t)) + ";\n";
 }
 
+std::string GlslEmitter::trace_checks(const std::string& ray, const std::string& out,
+                                      const Type* payload) const {
+  if (!module_.check_access) return "";
+  return "  if (unknown) k_reached(0u, site, k_structure_of(scene), flags, (mask & 0xFFu) | "
+         "(contribution & 15u) << 8 | (multiplier & 15u) << 12 | miss << 16);\n"
+         "  k_check_ray(" +
+         ray +
+         ", flags, false, site);\n"
+         "  k_check_depth(g_depths & 0xFFFFu, site);\n" +
+         header(out, payload);
+}
+
 // Declares the function that finds the acceleration structure to which a resource refers.
 void GlslEmitter::declare_top_level() {
   declare_status();
@@ -238,22 +250,14 @@ std::string GlslEmitter::trace_function(const Type* payload) {
   declare_remove_device();
   declare_top_level();
   const auto member = [&](uint32_t i) { return "ray." + field(module_.ray_desc, i); };
+  const std::string of_ray = member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3);
   const bool checked = module_.check_access;
   helpers_ +=
       "void " + function +
       "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "
       "uint miss, " +
       ray + " ray, inout " + type(payload) + " payload" +
-      (checked ? ", uint site, bool unknown" : "") + ") {\n" +
-      (checked
-           ? "  if (unknown) k_reached(0u, site, k_structure_of(scene), flags, (mask & 0xFFu) | "
-             "(contribution & 15u) << 8 | (multiplier & 15u) << 12 | miss << 16);\n"
-             "  k_check_ray(" +
-                 member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) +
-                 ", flags, false, site);\n"
-                 "  k_check_depth(g_depths & 0xFFFFu, site);\n" +
-                 header(out, payload)
-           : "") +
+      (checked ? ", uint site, bool unknown" : "") + ") {\n" + trace_checks(of_ray, out, payload) +
       "  if ((g_depths & 0xFFFFu) >= g_max_trace_depth) {\n"
       "    g_remove_device(0u);\n"
       "    return;\n"
@@ -273,7 +277,7 @@ std::string GlslEmitter::trace_function(const Type* payload) {
       "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x7FFu, "
       "mask & 0xFFu, "
       "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
-      member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number + ");\n" +
+      of_ray + ", " + number + ");\n" +
       (checked ? "  if (" + out + ".type != 0u && (flags & 8u) == 0u) k_ran_nothing(1u);\n" : "") +
       "  payload = " + from + "(" + out +
       ".data);\n"

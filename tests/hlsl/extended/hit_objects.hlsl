@@ -8,7 +8,7 @@
 // EXPECT f32 68 19.5 19.5 0 0 0
 // EXPECT u32 88 33 5 4 38 5 0 0
 // EXPECT u32 116 99 1 0 1
-// EXPECT u32 132 4
+// EXPECT u32 132 4 1024
 #include "scene.hlsli"
 
 struct BoxAttributes {
@@ -73,7 +73,8 @@ void main() {
 
   payload = (Payload)0;
   const dx::HitObject box =
-      dx::HitObject::TraceRay(scene, RAY_FLAG_NONE, 0xF0, 0, 0, 0, test_ray(z), payload);
+      dx::HitObject::TraceRay(scene, RAY_FLAG_FORCE_OMM_2_STATE, 0xF0, 0, 0, 0, test_ray(z), payload);
+  results.Store(136, box.GetRayFlags());
   dx::HitObject::Invoke(box, payload);
   const uint seen = payload.numbers.x;
   results.Store<float>(68, box.GetRayTCurrent());

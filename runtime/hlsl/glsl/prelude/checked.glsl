@@ -271,7 +271,7 @@ k_Window k_element_window_checked(k_Descriptor d, uint index, uint offset, uint 
 //@ k_legal_ray_flags
 bool k_legal_ray_flags(uint flags) {
   return bitCount(flags & 0xC3u) <= 1 && (flags & 0x30u) != 0x30u &&
-         ((flags & 0x100u) == 0u || (flags & 0x230u) == 0u) && (flags & ~0x3FFu) == 0u;
+         ((flags & 0x100u) == 0u || (flags & 0x230u) == 0u) && (flags & ~0x7FFu) == 0u;
 }
 //@ k_check_ray
 void k_check_ray(vec3 origin, float t_min, vec3 direction, float t_max, uint flags, bool inline_ray,
@@ -283,7 +283,9 @@ void k_check_ray(vec3 origin, float t_min, vec3 direction, float t_max, uint fla
            packUint2x32(floatBitsToUint(direction.xy)),
            packUint2x32(floatBitsToUint(vec2(direction.z, t_max))));
   }
-  if (!k_legal_ray_flags(flags) || (inline_ray && (flags & 8u) != 0u)) {
+  // A query's flags may have kRayQueryAllowsMicromaps of kaamos/shader/micromaps.h.
+  uint own = inline_ray ? flags & 0x7FFFFFFFu : flags;
+  if (!k_legal_ray_flags(own) || (inline_ray && (flags & 8u) != 0u)) {
     k_tell(inline_ray ? 10u : 9u, site, 0u, 0u, uint64_t(flags), 0UL, 0UL, 0UL);
   }
 }

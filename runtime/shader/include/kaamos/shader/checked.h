@@ -9,6 +9,7 @@
 #include "kaamos/shader/bindings.h"
 #include "kaamos/shader/hit_object.h"
 #include "kaamos/shader/memory.h"
+#include "kaamos/shader/micromaps.h"
 #include "kaamos/shader/ray_query.h"
 #include "kaamos/shader/stage.h"
 #include "kaamos/shader/views.h"
@@ -223,7 +224,7 @@ constexpr bool legal_ray_flags(uint32_t flags) {
   if ((opacity & (opacity - 1)) != 0) return false;
   if ((flags & 0x30u) == 0x30u) return false;
   if ((flags & 0x100u) != 0 && (flags & 0x230u) != 0) return false;
-  return (flags & ~0x3FFu) == 0;
+  return (flags & ~0x7FFu) == 0;
 }
 
 inline void check_ray(Invocation& invocation, uint32_t site, const RayDesc& ray) {
@@ -377,7 +378,7 @@ inline void check_query_trace(Invocation& invocation, uint32_t site, uint32_t fl
                               const RayDesc& ray) {
   check_ray(invocation, site, ray);
   constexpr uint32_t kSkipClosestHitShader = 8;
-  if (!legal_ray_flags(flags) || (flags & kSkipClosestHitShader) != 0) {
+  if (!legal_ray_flags(flags & ~kRayQueryAllowsMicromaps) || (flags & kSkipClosestHitShader) != 0) {
     report(invocation, Finding::kQueryFlags, site, 0, 0, flags);
   }
 }
