@@ -47,6 +47,7 @@ class Device final : public runtime::BackendDevice {
   uint64_t timestamp_frequency() const override { return vulkan::timestamp_frequency(*gpu_); }
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       const runtime::BuildCommand& inputs) const override;
+  bool has_micromaps() const override { return vulkan::has_micromaps(*gpu_); }
   rtapi::Status execute(std::span<const runtime::Command> commands) override;
   std::shared_ptr<const runtime::AccelerationStructure> find_structure(
       uint64_t address) const override {

@@ -73,6 +73,7 @@ TEST_P(Micromaps, ReplacedAfterTheyWereLinked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Embree, Micromaps, ::testing::Values("embree"));
+INSTANTIATE_TEST_SUITE_P(Vulkan, Micromaps, ::testing::Values("vulkan"));
 
 }  // namespace
 }  // namespace kaamos::checks::test

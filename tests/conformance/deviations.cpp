@@ -42,12 +42,6 @@ constexpr char kNanTimesZero[] =
     "NANB: fault of Mesa 25.0's blending: a factor of zero leaves NaN out";
 constexpr char kSnormBlend[] = "SNORMB: Mesa 25.0 blends SNORM wrongly, so that it is refused";
 
-// Explains each rule of micromaps that fails there.
-constexpr Deviation kMicromapsOnVulkan = {
-    "OMM", "vulkan", "",
-    "by design: builds refuse micromaps (KA0547): lavapipe has none, and the opacity of candidates "
-    "is not decided in any-hit shaders yet"};
-
 constexpr Deviation kDeviations[] = {
     {"TRV-03", "embree/fast", "", kEmbreesT},     {"TRV-70", "embree/fast", "", kEmbreesEdges},
     {"TRV-71", "embree/fast", "", kEmbreesEdges}, {"TRV-72", "embree/fast", "", kEmbreesEdges},
@@ -68,7 +62,6 @@ const Deviation* find_deviation(std::string_view rule, std::string_view target,
       return &each;
     }
   }
-  if (rule.starts_with("OMM-") && target == kMicromapsOnVulkan.target) return &kMicromapsOnVulkan;
   return nullptr;
 }
 

@@ -215,16 +215,92 @@ void queries(Context& t) {
     t.equal(what + " status", words[4 * i], expected == kFoundNothing ? 0u : 1u);
     t.equal(what + " candidates", words[4 * i + 1], expected == kFoundByAnyHit ? 1u : 0u);
     t.equal(what + " flags", words[4 * i + 2], rays[i].flags);
+    t.equal(what + " hit object", words[4 * i + 3], words[4 * i]);
+  }
+}
+
+// What has no micromaps keeps its opacity, in a top level with something that has.
+std::vector<RaytracingInstanceDesc> neighbours(Context& t) {
+  std::vector<RaytracingInstanceDesc> instances = {instance(special(t, -3))};
+  for (const auto flags : {kNonOpaque, kOpaque}) {
+    for (const uint32_t instance_flags : {0u, uint32_t{kOpaqueHere}, uint32_t{kNonOpaqueHere}}) {
+      const float x = 4.0f * static_cast<float>(instances.size());
+      instances.push_back(instance(t.bottom_level({triangle(5, 0, flags)}), x, 0, instance_flags));
+      instances.push_back(instance(t.bottom_level({box(5, 0, flags)}), x + 4, 4, instance_flags));
+    }
+  }
+  return instances;
+}
+// The rays meet neighbour 1 to 12, with each of these flags.
+constexpr uint32_t kOpacityFlags[] = {0,           kForceOpaque,   kForceNonOpaque,
+                                      kCullOpaque, kCullNonOpaque, kForceTwoStates};
+std::vector<Ray> rays_at_neighbours() {
+  std::vector<Ray> rays;
+  for (uint32_t i = 1; i <= 12; ++i) {
+    for (const uint32_t flags : kOpacityFlags) {
+      Ray ray;
+      ray.origin[0] = 4.0f * static_cast<float>(i);
+      ray.flags = flags;
+      ray.extra[0] = 1;
+      rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+Found expected_of_neighbour(uint32_t ray) {
+  const uint32_t i = ray / std::size(kOpacityFlags);
+  const uint32_t instance_flags[] = {0, kOpaqueHere, kNonOpaqueHere};
+  return outcome(0, i >= 6, instance_flags[i / 2 % 3] | kDisabled,
+                 kOpacityFlags[ray % std::size(kOpacityFlags)]);
+}
+
+void others_keep_their_opacity(Context& t) {
+  const auto rays = rays_at_neighbours();
+  MicromapProgram program(t);
+  program.record("BoxCounted", 4.5f, 17);
+  program.scene = t.top_level(neighbours(t));
+  const auto seen = program.trace(rays);
+  for (uint32_t i = 0; i < rays.size(); ++i) {
+    const std::string what = "ray " + std::to_string(i);
+    t.equal(what, static_cast<uint32_t>(found_by(seen[i])),
+            static_cast<uint32_t>(expected_of_neighbour(i)));
+    t.equal(what + " RayFlags()", seen[i].flags, rays[i].flags);
+  }
+}
+
+void queries_of_others(Context& t) {
+  const auto rays = rays_at_neighbours();
+  Program program(t, kaamos_shaders_omm());
+  program.raygen("AskOfMicromaps");
+  program.scene = t.top_level(neighbours(t));
+  program.rays = t.upload(rays);
+  const auto words = program.run(static_cast<uint32_t>(rays.size()));
+  for (uint32_t i = 0; i < rays.size(); ++i) {
+    const bool is_box = i / std::size(kOpacityFlags) % 2 == 1;
+    const Found expected = expected_of_neighbour(i);
+    const uint32_t status = expected == kFoundNothing ? 0 : is_box ? 2 : 1;
+    const uint32_t candidates = expected == kFoundByAnyHit           ? (is_box ? 0x101 : 1)
+                                : expected == kFoundOpaque && is_box ? 1
+                                                                     : 0;
+    const std::string what = "query " + std::to_string(i);
+    t.equal(what + " status", words[4 * i], status);
+    t.equal(what + " candidates", words[4 * i + 1], candidates);
+    t.equal(what + " flags", words[4 * i + 2], rays[i].flags);
+    t.equal(what + " hit object", words[4 * i + 3], uint32_t{status != 0});
   }
 }
 
 void ray_flags_show_it(Context& t) {
   MicromapProgram program(t);
   Ray ray = ray_in(0, 0.2, 0.2);
-  ray.flags = kForceTwoStates;
-  const Seen seen = program.trace(t.top_level({instance(special(t, -4))}), ray);
-  t.equal("RayFlags()", seen.flags, uint32_t{kForceTwoStates});
-  t.equal("found", static_cast<uint32_t>(found_by(seen)), static_cast<uint32_t>(kFoundOpaque));
+  const Buffer top = t.top_level({instance(special(t, -4))});
+  for (const uint32_t others : {0u, uint32_t{kForceOpaque}, uint32_t{kCullOpaque}}) {
+    ray.flags = kForceTwoStates | others;
+    const Seen seen = program.trace(top, ray);
+    t.equal("RayFlags()", seen.flags, ray.flags);
+    t.equal("found", static_cast<uint32_t>(found_by(seen)),
+            static_cast<uint32_t>(outcome(3, false, 0, ray.flags)));
+  }
 }
 
 void what_the_compiler_refuses(Context& t) {
@@ -308,6 +384,18 @@ void without_any_hit_shader_unknown_is_opaque(Context& t) {
   }
 }
 
+void through_hit_objects(Context& t) {
+  t.trace_through_hit_objects(true);
+  all_states_with_all_flags(t);
+  others_keep_their_opacity(t);
+  ray_flags_show_it(t);
+  the_first_accepted_hit_ends_the_search(t);
+  one_any_hit_call(t);
+  without_any_hit_shader_unknown_is_opaque(t);
+  without_permission_they_are_ignored(t);
+  t.trace_through_hit_objects(false);
+}
+
 void inactive_triangles_stay_so(Context& t) {
   Geometry geometry = row_of_triangles(1, kNonOpaque);
   geometry.vertices[0] = std::numeric_limits<float>::quiet_NaN();
@@ -325,10 +413,14 @@ void inactive_triangles_stay_so(Context& t) {
 std::vector<RuleTest> omm_tests() {
   return {{"OMM-04, OMM-16, OMM-17, OMM-33, OMM-34, OMM-35, OMM-36, OMM-37, OMM-38, OMM-39",
            all_states_with_all_flags},
+          {"OMM-39", others_keep_their_opacity},
+          {"OMM-33, OMM-34, OMM-35, OMM-36, OMM-37, OMM-38, OMM-39, OMM-40, OMM-42, OMM-46, OMM-48",
+           through_hit_objects, "KA0493"},
           {"OMM-28", the_order_of_micro_triangles},
           {"OMM-32", both_sides_show_the_same},
           {"OMM-40", without_permission_they_are_ignored, "KA0493"},
           {"OMM-41", queries},
+          {"OMM-39, OMM-41", queries_of_others},
           {"OMM-42", ray_flags_show_it},
           {"OMM-43", what_the_compiler_refuses},
           {"OMM-14, OMM-45", system_values_are_the_triangles},

@@ -209,6 +209,7 @@ void GlslEmitter::emit_main() {
          "(g_in.data);");
   }
   count_invocation();
+  start_ = micromap_start() + start_;
   if (entry_.is_graphics()) {
     graphics_main();
     out_ = std::move(functions) + "void main() {\n" + start_ + out_ + "}\n";

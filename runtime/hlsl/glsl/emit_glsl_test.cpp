@@ -138,8 +138,11 @@ TEST(EmitCheckedGlsl, CheckedCode) {
   sweep("tests/checked_code", 20, true);
 }
 
-std::string glsl_of(const std::string& text, const std::string& entry = "main") {
-  Compilation compilation(text);
+std::string glsl_of(const std::string& text, const std::string& entry = "main",
+                    const std::string& target = FrontendOptions().target) {
+  FrontendOptions options;
+  options.target = target;
+  Compilation compilation(text, options);
   if (!compilation.module) return compilation.messages();
   for (const ir::EntryPoint& one : compilation.module->entry_points) {
     if (one.name != entry) continue;
@@ -236,7 +239,29 @@ TEST(EmitGlsl, OnlyOneFormOfTheTransformsIsUsed) {
 
 TEST(EmitGlsl, APayloadIsWrittenBackBeforeAHitIsIgnored) {
   const std::string text = glsl_of(kScene, "Test");
-  EXPECT_LT(text.find("g_in.data = "), text.find("ignoreIntersectionEXT"));
+  EXPECT_LT(text.find("g_in.data = "), text.rfind("ignoreIntersectionEXT"));
+}
+
+TEST(EmitGlsl, OnlyQueriesWithPermissionLookMicromapsUp) {
+  const auto query = [](const std::string& arguments) {
+    return glsl_of(kernel("RayQuery<" + arguments +
+                              "> query;\n"
+                              "RayDesc ray = {float3(0, 0, 0), 0, float3(0, 0, 1), 9};\n"
+                              "query.TraceRayInline(scene, 0, 255, ray);\n"
+                              "while (query.Proceed()) query.CommitNonOpaqueTriangleHit();",
+                          "RaytracingAccelerationStructure scene : register(t7);"),
+                   "main", "lib_6_9");
+  };
+  EXPECT_THAT(query("0, RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS"), HasSubstr("g_opacity("));
+  EXPECT_THAT(query("0"), Not(HasSubstr("g_opacity(")));
+}
+
+TEST(EmitGlsl, AnyHitShadersBeginWithTheMicromapWherePipelinesAllowIt) {
+  const std::string text = glsl_of(kScene, "Test");
+  const size_t main = text.find("void main()");
+  const size_t lookup = text.find("if (g_micromaps_allowed != 0u) {", main);
+  ASSERT_NE(lookup, std::string::npos);
+  EXPECT_LT(lookup, text.find("g_in", main));
 }
 
 TEST(EmitGlsl, AttributesAreWordsUnlessTwoFloats) {

@@ -2,8 +2,8 @@
 //
 // The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
 // stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
-// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp,
-// graphics.cpp (vertex and pixel shaders), hit_objects.cpp and twins.cpp (HitObject),
+// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, micromaps.cpp,
+// waves.cpp, graphics.cpp (vertex and pixel shaders), hit_objects.cpp and twins.cpp (HitObject),
 // system_values.cpp, emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
@@ -195,6 +195,14 @@ class GlslEmitter {
   std::string twin_object_ray(bool origin);
   std::string twin_system_value(const ir::Expr& expr);
 
+  // micromaps.cpp
+  void declare_opacity();
+  void declare_query_opacity();
+  void declare_micromap_top_level();
+  std::string micromaps_allowed();
+  std::string ray_flags();
+  std::string micromap_start();
+
   // waves.cpp
   std::string multi_prefix_function(shader::WaveOp op, const ir::Type* type);
   std::string match_function(const ir::Type* type);
@@ -219,7 +227,7 @@ class GlslEmitter {
   void declare_query();
   bool uses_queries() const;
   std::string query_arguments(const ir::Expr* object);
-  std::string query_trace_function();
+  std::string query_trace_function(bool micromaps);
   void query(const ir::Stmt& stmt);
   std::string query_result(const ir::Expr& expr);
   std::string query_value(const ir::Expr& expr);

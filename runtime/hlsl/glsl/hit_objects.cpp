@@ -53,7 +53,10 @@ constexpr char kSearch[] =
     "  hit.$t = t_max;\n"
     "  hit.$bound = 1u;\n"
     "  hit.$record = miss & 0xFFFFu;\n"
-    "  uint64_t top = g_top_level(scene);\n"
+    "  uint driver_flags = hit.$flags | g_twin_tables().ray_flags;\n"
+    "  uint64_t top;\n"
+    "  if (g_micromaps_allowed != 0u) top = g_micromap_top_level(scene, driver_flags);\n"
+    "  else top = g_top_level(scene);\n"
     // A ray that Vulkan does not allow is a miss.
     "  if (any(isnan(origin)) || any(isinf(origin)) || any(isnan(direction)) || "
     "any(isinf(direction)) || !(t_min <= t_max)) return hit;\n"
@@ -61,12 +64,22 @@ constexpr char kSearch[] =
     "  uint first = tables.first;\n"
     "  uint last = tables.last_hit;\n"
     "  rayQueryEXT q;\n"
-    "  rayQueryInitializeEXT(q, accelerationStructureEXT(top), hit.$flags | tables.ray_flags, "
+    "  rayQueryInitializeEXT(q, accelerationStructureEXT(top), driver_flags & 0x7FFu, "
     "mask & 0xFFu, origin, max(t_min, 0.0), direction, t_max);\n"
     "  uint kind = 0u;\n"
     "  uint attributes[8] = uint[8](0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);\n"
     "  bool ended = false;\n"
     "  while (!ended && rayQueryProceedEXT(q)) {\n"
+    "    uint seen = 2u;\n"
+    "    if (g_micromaps_allowed != 0u) {\n"
+    "      seen = g_query_opacity(q, hit.$flags);\n"
+    "      if (seen == 0u) continue;\n"
+    "      if (seen == 1u && rayQueryGetIntersectionTypeEXT(q, false) == 0u) {\n"
+    "        rayQueryConfirmIntersectionEXT(q);\n"
+    "        ended = (flags & 4u) != 0u;\n"
+    "        continue;\n"
+    "      }\n"
+    "    }\n"
     "    g_twin.hit = hit;\n"
     "    g_twin.hit.$state = 1u;\n"
     "    g_candidate(q, g_twin.hit, contribution, multiplier);\n"
@@ -91,7 +104,8 @@ constexpr char kSearch[] =
     "      if (rayQueryGetIntersectionTypeEXT(q, true) != 0u) {\n"
     "        g_twin.hit.$t = rayQueryGetIntersectionTEXT(q, true);\n"
     "      }\n"
-    "      g_twin.control = rayQueryGetIntersectionCandidateAABBOpaqueEXT(q) ? 8u : 0u;\n"
+    "      g_twin.control = seen == 1u || rayQueryGetIntersectionCandidateAABBOpaqueEXT(q) ? 8u "
+    "          : 0u;\n"
     "      executeCallableEXT(record + 1u, $location);\n"
     "      if ((g_twin.control & 4u) != 0u) {\n"
     "        rayQueryGenerateIntersectionEXT(q, g_twin.hit.$t);\n"
@@ -123,7 +137,7 @@ constexpr char kSearch[] =
 constexpr char kInstance[] =
     "void $name(rayQueryEXT q, inout @ hit, uint contribution, uint multiplier) {\n"
     "  g_InstanceEntry entry = g_InstanceEntry(k_dispatch.instances + "
-    "uint64_t(rayQueryGetIntersectionInstanceCustomIndexEXT(q, #)) * 16UL);\n"
+    "uint64_t(rayQueryGetIntersectionInstanceCustomIndexEXT(q, #)) * 32UL);\n"
     "  uint geometry = uint(rayQueryGetIntersectionGeometryIndexEXT(q, #));\n"
     "  hit.$instance = entry.instance_index;\n"
     "  hit.$id = entry.instance_id;\n"
@@ -244,6 +258,9 @@ std::string GlslEmitter::search_function() {
   declare_top_level();
   declare_instance_entry();
   position_table();
+  micromaps_allowed();
+  declare_micromap_top_level();
+  declare_query_opacity();
   if (made_.insert("g_search").second) {
     made_.insert("g_Query");  // the extension
     Type hit;

@@ -3,6 +3,7 @@
 // RayQuery. Each rayQueryEXT is accompanied by what GLSL does not return, or not at any time: the
 // ray, and whether the query is running and has a candidate. The driver is never asked for a value
 // that does not exist.
+#include "kaamos/shader/micromaps.h"
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
@@ -19,6 +20,7 @@ constexpr char kState[] =
     "const uint g_query_runs = 1u;\n"
     "const uint g_query_has_candidate = 2u;\n"
     "const uint g_query_begun = 4u;\n"
+    "const uint g_query_opaque = 8u;\n"  // the candidate is, though the driver does not know
     "struct g_Query { uint state; uint flags; float t_min; float t_max; vec3 origin; "
     "vec3 direction; };\n";
 
@@ -27,6 +29,25 @@ constexpr char kProceed[] =
     "  bool more = (s.state & g_query_runs) != 0u && rayQueryProceedEXT(q);\n"
     "  s.state = more ? 7u : s.state & g_query_begun;\n"
     "  return more;\n"
+    "}\n";
+
+// Where the shader decides the opacity, it does what the driver does with transparent and opaque
+// candidates: it passes them by and commits them.
+constexpr char kProceedMicromaps[] =
+    "bool g_query_proceed_micromaps(rayQueryEXT q, inout g_Query s) {\n"
+    "  while ((s.state & g_query_runs) != 0u && rayQueryProceedEXT(q)) {\n"
+    "    uint seen = g_query_opacity(q, s.flags);\n"
+    "    if (seen == 0u) continue;\n"
+    "    if (seen == 1u && rayQueryGetIntersectionTypeEXT(q, false) == 0u) {\n"
+    "      rayQueryConfirmIntersectionEXT(q);\n"
+    "      if ((s.flags & 4u) != 0u) s.state &= ~g_query_runs;\n"
+    "      continue;\n"
+    "    }\n"
+    "    s.state = seen == 1u ? 7u | g_query_opaque : 7u;\n"
+    "    return true;\n"
+    "  }\n"
+    "  s.state &= g_query_begun;\n"
+    "  return false;\n"
     "}\n";
 
 constexpr char kAbort[] =
@@ -77,6 +98,11 @@ constexpr char kCheckCommit[] =
     "uint64_t(floatBitsToUint(t_max)), 0UL);\n"
     "}\n";
 
+// Whether a RayQuery uses micromaps.
+bool allows_micromaps(const Expr* object) {
+  return (object->type->ray_query_flags & shader::kRayQueryAllowsMicromaps) != 0;
+}
+
 }  // namespace
 
 void GlslEmitter::declare_query() {
@@ -95,8 +121,12 @@ std::string GlslEmitter::query_arguments(const Expr* object) {
   return name + ", g_s_" + name;
 }
 
-std::string GlslEmitter::query_trace_function() {
-  declare_top_level();
+std::string GlslEmitter::query_trace_function(bool micromaps) {
+  if (micromaps) {
+    declare_micromap_top_level();
+  } else {
+    declare_top_level();
+  }
   Type desc;
   desc.kind = TypeKind::kStruct;
   desc.structure = module_.ray_desc;
@@ -107,33 +137,37 @@ std::string GlslEmitter::query_trace_function() {
   const std::string direction = member(2);
   const std::string t_max = member(3);
   // A ray that Vulkan does not allow is a miss.
+  const std::string name = micromaps ? "g_query_trace_micromaps" : "g_query_trace";
   return generated(
-      "g_query_trace",
-      "void g_query_trace(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
-      "mask, " +
-          ray + " ray" +
-          (module_.check_access ? ", uint site, bool unknown) {\n  if (unknown) "
-                                  "k_reached(1u, site, k_structure_of(scene), flags, mask & "
-                                  "0xFFu);\n  k_check_ray(" +
-                                      origin + ", " + t_min + ", " + direction + ", " + t_max +
-                                      ", flags, true, site);\n"
-                                : std::string(") {\n")) +
-          "  s = g_Query(5u, flags & 0x7FFu, " + t_min + ", " + t_max + ", " + origin + ", " +
-          direction +
-          ");\n"
-          "  uint64_t top = g_top_level(scene);\n"
-          "  vec3 o = " +
-          origin + ";\n  vec3 d = " + direction + ";\n  float t0 = " + t_min +
-          ";\n  float t1 = " + t_max +
-          ";\n"
-          "  if (any(isnan(o)) || any(isinf(o)) || any(isnan(d)) || any(isinf(d)) || "
-          "!(t0 <= t1)) {\n"
-          "    top = k_dispatch.empty_top_level;\n"
-          "    o = vec3(0.0);\n    d = vec3(0.0, 0.0, 1.0);\n    t0 = 0.0;\n    t1 = 1.0;\n"
-          "  }\n"
-          "  rayQueryInitializeEXT(q, accelerationStructureEXT(top), flags & 0x7FFu, "
-          "mask & 0xFFu, o, max(t0, 0.0), d, t1);\n"
-          "}\n");
+      name, "void " + name +
+                "(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
+                "mask, " +
+                ray + " ray" +
+                (module_.check_access ? ", uint site, bool unknown) {\n  if (unknown) "
+                                        "k_reached(1u, site, k_structure_of(scene), flags, mask & "
+                                        "0xFFu);\n  k_check_ray(" +
+                                            origin + ", " + t_min + ", " + direction + ", " +
+                                            t_max + ", flags, true, site);\n"
+                                      : std::string(") {\n")) +
+                "  s = g_Query(5u, flags & 0x7FFu, " + t_min + ", " + t_max + ", " + origin + ", " +
+                direction +
+                ");\n"
+                "  uint driver_flags = flags & 0x7FFu;\n"
+                "  uint64_t top = " +
+                (micromaps ? "g_micromap_top_level(scene, driver_flags)" : "g_top_level(scene)") +
+                ";\n"
+                "  vec3 o = " +
+                origin + ";\n  vec3 d = " + direction + ";\n  float t0 = " + t_min +
+                ";\n  float t1 = " + t_max +
+                ";\n"
+                "  if (any(isnan(o)) || any(isinf(o)) || any(isnan(d)) || any(isinf(d)) || "
+                "!(t0 <= t1)) {\n"
+                "    top = k_dispatch.empty_top_level;\n"
+                "    o = vec3(0.0);\n    d = vec3(0.0, 0.0, 1.0);\n    t0 = 0.0;\n    t1 = 1.0;\n"
+                "  }\n"
+                "  rayQueryInitializeEXT(q, accelerationStructureEXT(top), driver_flags & 0x7FFu, "
+                "mask & 0xFFu, o, max(t0, 0.0), d, t1);\n"
+                "}\n");
 }
 
 void GlslEmitter::query(const Stmt& stmt) {
@@ -141,7 +175,7 @@ void GlslEmitter::query(const Stmt& stmt) {
   const std::string object = query_arguments(stmt.place);
   switch (stmt.query) {
     case QueryOp::kTrace: {
-      std::string text = query_trace_function() + "(" + object;
+      std::string text = query_trace_function(allows_micromaps(stmt.place)) + "(" + object;
       for (const Expr* operand : stmt.operands) {
         text += ", " + value(operand);
       }
@@ -150,9 +184,15 @@ void GlslEmitter::query(const Stmt& stmt) {
       }
       return line(text + ");");
     }
-    case QueryOp::kProceed:
-      return line((stmt.result != nullptr ? variable(stmt.result) + " = " : "") +
-                  generated("g_query_proceed", kProceed) + "(" + object + ");");
+    case QueryOp::kProceed: {
+      const bool micromaps = allows_micromaps(stmt.place);
+      if (micromaps) declare_query_opacity();
+      const std::string proceed = micromaps
+                                      ? generated("g_query_proceed_micromaps", kProceedMicromaps)
+                                      : generated("g_query_proceed", kProceed);
+      return line((stmt.result != nullptr ? variable(stmt.result) + " = " : "") + proceed + "(" +
+                  object + ");");
+    }
     case QueryOp::kAbort:
       return line(generated("g_query_abort", kAbort) + "(" + object + ");");
     case QueryOp::kCommitTriangle:
@@ -182,7 +222,7 @@ std::string GlslEmitter::query_result(const Expr& expr) {
   const auto entry = [&] {
     declare_instance_entry();
     return "g_InstanceEntry(k_dispatch.instances + uint64_t(" + get("InstanceCustomIndex") +
-           ") * 16UL)";
+           ") * 32UL)";
   };
   const auto transform = [&](const char* which, bool transposed) {
     const std::string result = type(expr.type);
@@ -237,7 +277,9 @@ std::string GlslEmitter::query_result(const Expr& expr) {
     case QueryValue::kFrontFace:
       return "return " + get("FrontFace") + ";";
     case QueryValue::kProceduralNonOpaque:
-      return "return !rayQueryGetIntersectionCandidateAABBOpaqueEXT(q);";
+      return std::string("return ") +
+             (allows_micromaps(expr.operands[0]) ? "(s.state & g_query_opaque) == 0u && " : "") +
+             "!rayQueryGetIntersectionCandidateAABBOpaqueEXT(q);";
     case QueryValue::kPositionTable:
       return "return " + position_table() + "(uint(" + get("InstanceCustomIndex") + "));";
     default:
@@ -261,8 +303,11 @@ std::string GlslEmitter::query_value(const Expr& expr) {
       break;
   }
   const bool committed = expr.index == 1;
-  const std::string name = std::string(committed ? "g_committed_" : "g_candidate_") +
-                           std::to_string(static_cast<int>(expr.query_value));
+  std::string name = std::string(committed ? "g_committed_" : "g_candidate_") +
+                     std::to_string(static_cast<int>(expr.query_value));
+  if (expr.query_value == QueryValue::kProceduralNonOpaque && allows_micromaps(expr.operands[0])) {
+    name += "_micromaps";
+  }
   std::string guard =
       committed ? "(s.state & g_query_begun) != 0u" : "(s.state & g_query_has_candidate) != 0u";
   const std::string kind =

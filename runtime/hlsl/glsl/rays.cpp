@@ -211,21 +211,24 @@ void GlslEmitter::declare_top_level() {
   declare_status();
   generated("g_top_level",
             "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
-            "g_TopLevelEntry { uint64_t address; uint64_t vulkan; };\n"
-            "uint64_t g_top_level(k_Descriptor scene) {\n"
-            "  uint64_t empty = k_dispatch.empty_top_level;\n"
-            "  if ((scene.kind_access & 0xFFFFu) != 7u || scene.address == 0UL) return empty;\n"
+            "g_TopLevelEntry { uint64_t address; uint64_t vulkan; uint64_t with_micromaps; "
+            "uint64_t all_candidates; };\n"
+            "uint64_t g_top_level_entry(k_Descriptor scene) {\n"
+            "  if ((scene.kind_access & 0xFFFFu) != 7u || scene.address == 0UL) return 0UL;\n"
             "  uint mask = k_dispatch.top_level_mask;\n"
             "  uint slot = uint(scene.address >> 8) * 0x9E3779B1u >> 7;\n"
             "  for (uint i = 0u; i <= mask; ++i, ++slot) {\n"
-            "    g_TopLevelEntry entry =\n"
-            "        g_TopLevelEntry(k_dispatch.top_levels + uint64_t(slot & mask) * 16UL);\n"
-            "    uint64_t found = entry.address;\n"
-            "    if (found == scene.address) return entry.vulkan;\n"
+            "    uint64_t at = k_dispatch.top_levels + uint64_t(slot & mask) * 32UL;\n"
+            "    uint64_t found = g_TopLevelEntry(at).address;\n"
+            "    if (found == scene.address) return at;\n"
             "    if (found == 0UL) break;\n"
             "  }\n"
             "  g_Status(k_dispatch.status).unknown_structure = scene.address;\n"
-            "  return empty;\n"
+            "  return 0UL;\n"
+            "}\n"
+            "uint64_t g_top_level(k_Descriptor scene) {\n"
+            "  uint64_t at = g_top_level_entry(scene);\n"
+            "  return at == 0UL ? k_dispatch.empty_top_level : g_TopLevelEntry(at).vulkan;\n"
             "}\n");
 }
 
@@ -248,10 +251,11 @@ std::string GlslEmitter::trace_function(const Type* payload) {
   const std::string ray = type(&desc);
   constant(kMaxTraceDepthConstant, "g_max_trace_depth");
   declare_remove_device();
-  declare_top_level();
+  declare_micromap_top_level();
   const auto member = [&](uint32_t i) { return "ray." + field(module_.ray_desc, i); };
   const std::string of_ray = member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3);
   const bool checked = module_.check_access;
+  const std::string allowed = micromaps_allowed();
   helpers_ +=
       "void " + function +
       "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "
@@ -274,8 +278,13 @@ std::string GlslEmitter::trace_function(const Type* payload) {
       "  " +
       out + ".data = " + to +
       "(payload);\n"
-      "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x7FFu, "
-      "mask & 0xFFu, "
+      "  uint driver_flags = flags & 0x7FFu;\n"
+      "  uint64_t top;\n"
+      "  if (" +
+      allowed +
+      ") top = g_micromap_top_level(scene, driver_flags);\n"
+      "  else top = g_top_level(scene);\n"
+      "  traceRayEXT(accelerationStructureEXT(top), driver_flags, mask & 0xFFu, "
       "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
       of_ray + ", " + number + ");\n" +
       (checked ? "  if (" + out + ".type != 0u && (flags & 8u) == 0u) k_ran_nothing(1u);\n" : "") +

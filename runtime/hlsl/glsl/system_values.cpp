@@ -118,7 +118,7 @@ std::string GlslEmitter::system_value(const Expr& expr) {
     case SystemValue::kRayTCurrent:
       return if_has(ray, [&] { return ray_t_current(); });
     case SystemValue::kRayFlags:
-      return if_has(ray, [] { return "gl_IncomingRayFlagsEXT"; });
+      return if_has(ray, [&] { return ray_flags(); });
     case SystemValue::kInstanceIndex:
       return if_has(hit, [&] { return instance_entry() + ".instance_index"; });
     case SystemValue::kInstanceId:
@@ -160,7 +160,7 @@ void GlslEmitter::declare_instance_entry() {
   generated("g_InstanceEntry",
             "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
             "g_InstanceEntry { uint64_t primitive_remap; uint instance_id; "
-            "uint instance_index; };\n"
+            "uint instance_index; uint64_t micromaps; uint flags; };\n"
             "layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer "
             "g_Word { uint v; };\n"
             "uint g_remapped(uint64_t words, uint geometry, uint id) {\n"
@@ -178,7 +178,7 @@ std::string GlslEmitter::instance_entry() {
   generated("g_instance_entry",
             "g_InstanceEntry g_instance_entry() {\n"
             "  return g_InstanceEntry(k_dispatch.instances + uint64_t(" +
-                custom + ") * 16UL);\n}\n");
+                custom + ") * 32UL);\n}\n");
   return "g_instance_entry()";
 }
 

@@ -160,7 +160,8 @@ rtapi::Result<VkPipeline> GraphicsPipeline::create_variant(const GraphicsVariant
     if (!added) return added.error();
   }
   if (!geometry_code_.empty()) {
-    auto added = stages.add(geometry_code_, VK_SHADER_STAGE_GEOMETRY_BIT, wanted.layers);
+    const StageConstant layers = {0, wanted.layers};
+    auto added = stages.add(geometry_code_, VK_SHADER_STAGE_GEOMETRY_BIT, std::span(&layers, 1));
     if (!added) return added.error();
   }
   const VertexInputState vertices(inputs_, wanted);

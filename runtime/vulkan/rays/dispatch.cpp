@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "runtime/backend/errors.h"
+#include "runtime/backend/ray_flags.h"
 #include "runtime/errors/text.h"
 #include "runtime/vulkan/memory/fault_guard.h"
 #include "runtime/vulkan/rays/checks.h"
@@ -17,12 +18,6 @@ namespace {
 using shader::spirv::DispatchBlock;
 using shader::spirv::DispatchFeedback;
 using shader::spirv::TwinTables;
-
-// The flags of a pipeline that are flags of its rays as well.
-constexpr uint32_t kSkipFlags =
-    static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipTriangles) |
-    static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipProceduralPrimitives);
-static_assert(kSkipFlags == 0x300);
 
 // One of the application's tables, where its copy in the driver's form goes, and how many records
 // it has.
@@ -182,7 +177,7 @@ void RaysDispatch::place_twins() {
   twins.first = static_cast<uint32_t>(callables.records);
   twins.last_hit = static_cast<uint32_t>(last(hits));
   twins.last_miss = static_cast<uint32_t>(last(misses));
-  twins.ray_flags = static_cast<uint32_t>(pipeline_.linked().flags) & kSkipFlags;
+  twins.ray_flags = runtime::ray_flags_of(pipeline_.linked().flags) & runtime::kAllRayFlags;
   for (int i = 0; i < 2; ++i) {
     const ApplicationTable& source = (i == 0 ? hits : misses).source;
     twins.address[i] = source.address;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/rays/state_object.h"
 
+#include <kaamos/shader/spirv_interface.h>
+#include <shaders/micromap_any_hit.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -9,6 +12,7 @@
 #include "runtime/vulkan/rays/callable_frame.h"
 #include "runtime/vulkan/rays/pipeline_stack.h"
 #include "runtime/vulkan/spirv/shader_stage.h"
+#include "runtime/vulkan/structures/acceleration_structure.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -90,6 +94,26 @@ rtapi::Result<std::vector<const runtime::LinkedShader*>> add_twins(
     }
   }
   return twins;
+}
+
+// Where micromaps are allowed, gives hit groups of triangles without an any-hit shader one that
+// lets them decide.
+rtapi::Status add_micromap_any_hit(const Gpu& gpu, StageList& stages, Groups& groups) {
+  const auto lacks_one = [](const VkRayTracingShaderGroupCreateInfoKHR& info) {
+    return info.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR &&
+           info.anyHitShader == VK_SHADER_UNUSED_KHR;
+  };
+  if (std::none_of(groups.infos.begin(), groups.infos.end(), lacks_one)) return {};
+  const auto code = shader::spirv::spirv_pair(kaamos_shaders_micromap_any_hit()->exports[0]);
+  const StageConstant constants[] = {
+      {shader::spirv::kWorkaroundsConstant, gpu.workarounds().shader_bits()},
+      {shader::spirv::kAllowMicromapsConstant, 1}};
+  auto stage = stages.add({code.words, code.count}, VK_SHADER_STAGE_ANY_HIT_BIT_KHR, constants);
+  if (!stage) return stage.error();
+  for (auto& info : groups.infos) {
+    if (lacks_one(info)) info.anyHitShader = *stage;
+  }
+  return {};
 }
 
 bool uses_hit_objects(const runtime::LinkedPipeline& linked) {
@@ -192,8 +216,11 @@ rtapi::Status RaytracingPipeline::start() {
   }
   max_callable_depth = std::min(max_callable_depth, frame.depth - twins.count);
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
+  const bool allow_micromaps =
+      has_micromaps(gpu) &&
+      HasAny(linked_->flags, rtapi::RaytracingPipelineFlags::kAllowOpacityMicromaps);
   StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics(), 0,
-                         twins.payload_words});
+                         twins.payload_words, allow_micromaps});
   const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
   Groups groups;
   bool runs = false;
@@ -208,9 +235,14 @@ rtapi::Status RaytracingPipeline::start() {
     twin_shaders = std::move(*added);
   }
   if (frame.words != 0) {
-    auto stage = stages.add(callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, frame.words);
+    const StageConstant words = {0, frame.words};
+    auto stage =
+        stages.add(callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, std::span(&words, 1));
     if (!stage) return stage.error();
     groups.infos.push_back(general_group(*stage));
+  }
+  if (allow_micromaps) {
+    if (auto s = add_micromap_any_hit(gpu, stages, groups); !s) return s;
   }
   stage_shaders_ = stages.shaders();
   if (!runs) return {};

@@ -105,6 +105,7 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
   if (options.twin_payload_words != 0) {
     constants.add(shader::spirv::kTwinPayloadConstant, options.twin_payload_words);
   }
+  if (options.allow_micromaps) constants.add(shader::spirv::kAllowMicromapsConstant, 1);
   for (const StageConstant& constant : more) constants.add(constant.id, constant.value);
   return std::move(constants.result);
 }
@@ -220,11 +221,11 @@ rtapi::Result<uint32_t> StageList::add_twin(const runtime::LinkedShader& shader)
 }
 
 rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
-                                       uint32_t constant) {
+                                       std::span<const StageConstant> given) {
   auto made = create_module(spirv, "a module of the backend's own");
   if (!made) return made.error();
   Constants constants;
-  constants.add(0, constant);
+  for (const StageConstant& constant : given) constants.add(constant.id, constant.value);
   return push(stage, *made, std::move(constants.result));
 }
 

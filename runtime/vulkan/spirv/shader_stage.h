@@ -22,6 +22,7 @@ struct StageOptions {
   bool count = false;               // for statistics
   uint32_t shader = 0;              // CheckEntry::shader
   uint32_t twin_payload_words = 0;  // kTwinPayloadConstant; 0: no shader uses hit objects
+  bool allow_micromaps = false;
 };
 
 // A specialization constant of a stage.
@@ -65,10 +66,9 @@ class StageList {
   // Adds the twin of a hit or miss shader, a callable shader (spirv_interface.h). Errors: KA0968 it
   // has none, and as above.
   rtapi::Result<uint32_t> add_twin(const runtime::LinkedShader& shader);
-  // Adds one of the backend's own shaders, after all others; `constant` is its specialization
-  // constant 0.
+  // Adds one of the backend's own shaders, after all others.
   rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
-                              uint32_t constant);
+                              std::span<const StageConstant> constants);
   const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
   // The shader of each stage, without the backend's own stages.
   const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }

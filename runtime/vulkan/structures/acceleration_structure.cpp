@@ -28,7 +28,7 @@ const TopLevel& top_level_of(const AccelerationStructure& structure) {
 class Structures final : public AccelerationStructures {
  public:
   Structures(std::shared_ptr<Gpu> gpu, const runtime::Context& context)
-      : gpu_(std::move(gpu)), context_(context) {}
+      : gpu_(std::move(gpu)), context_(context), micromaps_(gpu_) {}
   // Buffers may outlive the device, but the structures in them may not.
   ~Structures() override { map_->evict(0, UINT64_MAX); }
   rtapi::Status start(Memory& memory);
@@ -49,7 +49,9 @@ class Structures final : public AccelerationStructures {
   rtapi::Result<SceneTables> tables() override;
 
  private:
-  runtime::StructureEnvironment environment() { return {context_, *map_, "Vulkan"}; }
+  runtime::StructureEnvironment environment() {
+    return {context_, *map_, "Vulkan", has_micromaps(*gpu_)};
+  }
   rtapi::Status build_top_level(const runtime::BuildCommand& command,
                                 AccelerationStructure& result);
   rtapi::Status build_bottom_level(const runtime::BuildCommand& command,
@@ -62,6 +64,7 @@ class Structures final : public AccelerationStructures {
   runtime::Context context_;
   std::shared_ptr<runtime::StructureMap> map_ = std::make_shared<runtime::StructureMap>();
   std::shared_ptr<InstanceTable> instances_;
+  MicromapBuffers micromaps_;
   std::shared_ptr<TopLevel> empty_;
   // Those in the table. They stay alive at least until tables() is called again, because shaders
   // may still trace against them.
@@ -113,8 +116,10 @@ rtapi::Status Structures::build_bottom_level(const runtime::BuildCommand& comman
   const BottomLevel* update_of = nullptr;
   if (source != nullptr) {
     update_of = &static_cast<const BottomLevel&>(*source->bottom_level);
+    std::vector<bool> linked;
+    for (const auto& linkage : command.linkages) linked.push_back(linkage.has_value());
     if (auto s = runtime::check_update(update_of->shapes(), update_of->flags(), command.geometries,
-                                       command.flags);
+                                       command.flags, linked);
         !s) {
       return s;
     }
@@ -124,7 +129,7 @@ rtapi::Status Structures::build_bottom_level(const runtime::BuildCommand& comman
   for (const auto& geometry : command.geometries) {
     geometries.push_back(runtime::as_host_sees(geometry, *context_.addresses));
   }
-  auto level = BottomLevel::build(gpu_, geometries, command.flags, update_of);
+  auto level = BottomLevel::build(gpu_, geometries, command.flags, result.linkages, update_of);
   if (!level) return level.error();
   runtime::warn_out_of_range(environment(), command.dest, (*level)->out_of_range_triangles());
   result.compacted_bytes = (*level)->held_bytes();
@@ -143,7 +148,8 @@ runtime::RebuildLevel Structures::rebuild_level() {
   rebuild.bottom_level = [this](std::span<const rtapi::RaytracingGeometryDesc> geometries,
                                 std::span<const runtime::GeometryShape> shapes,
                                 AccelerationStructure& result) -> rtapi::Status {
-    auto level = BottomLevel::build(gpu_, geometries, result.flags, nullptr, shapes);
+    auto level =
+        BottomLevel::build(gpu_, geometries, result.flags, result.linkages, nullptr, shapes);
     if (!level) return level.error();
     result.compacted_bytes = (*level)->held_bytes();
     result.bottom_level = std::move(*level);
@@ -172,6 +178,10 @@ rtapi::Result<SceneTables> Structures::tables() {
   if (top_levels != listed_) {
     listed_ = std::move(top_levels);
     if (auto s = write_table(); !s) return s.error();
+    micromaps_.release_unused();
+  }
+  for (const auto& structure : listed_) {
+    if (auto s = top_level_of(*structure).link_micromaps(micromaps_); !s) return s.error();
   }
   SceneTables result;
   result.instances = instances_->address();
@@ -203,13 +213,17 @@ rtapi::Status Structures::write_table() {
     const TopLevel& level = top_level_of(*structure);
     uint32_t slot = shader::spirv::top_level_hash(structure->address) & table_mask_;
     while (entries[slot].address != 0) slot = (slot + 1) & table_mask_;
-    entries[slot] = {structure->address, level.address()};
+    entries[slot] = level.entry(structure->address);
     max_hit_record_ = std::max(max_hit_record_, level.largest_hit_record());
   }
   return {};
 }
 
 }  // namespace
+
+bool has_micromaps(const Gpu& gpu) {
+  return gpu.is_lavapipe();
+}
 
 rtapi::Result<std::unique_ptr<AccelerationStructures>> AccelerationStructures::create(
     std::shared_ptr<Gpu> gpu, std::shared_ptr<Memory> memory, const runtime::Context& context) {

@@ -29,6 +29,10 @@ struct SceneTables {
   uint64_t max_hit_record = 15;
 };
 
+// Shaders decide the opacity of what has micromaps, and need a driver that gives them all bits of a
+// ray's flags.
+bool has_micromaps(const Gpu& gpu);
+
 class AccelerationStructures {
  public:
   static rtapi::Result<std::unique_ptr<AccelerationStructures>> create(

@@ -54,6 +54,7 @@ class BottomLevelBuilder {
   rtapi::Status copy_inputs();
   StructureGeometry describe(size_t g) const;
   rtapi::Status build();
+  rtapi::Status copy_micromap_indices();
   void keep_inputs();
   std::vector<uint32_t> position_words() const;
   uint64_t position_table(bool is_missing, uint64_t offset_bytes) const;
@@ -192,6 +193,30 @@ rtapi::Status BottomLevelBuilder::build() {
   level_.empty_ = list_.empty();
   level_.bounds_ = list_.bounds();
   keep_inputs();
+  return copy_micromap_indices();
+}
+
+rtapi::Status BottomLevelBuilder::copy_micromap_indices() {
+  uint64_t count = 0;
+  bool linked = false;
+  for (const auto& linkage : level_.linkages_) {
+    if (linkage == nullptr) continue;
+    count += linkage->indices.size();
+    linked = true;
+  }
+  if (!linked) return {};
+  auto buffer = gpu_->create_buffer(std::max<uint64_t>(count, 1) * sizeof(int32_t),
+                                    "micromap indices of a bottom level");
+  if (!buffer) return buffer.error();
+  uint8_t* out = (*buffer)->host();
+  for (const auto& linkage : level_.linkages_) {
+    if (linkage == nullptr) continue;
+    const uint64_t bytes = linkage->indices.size() * sizeof(int32_t);
+    if (bytes != 0) std::memcpy(out, linkage->indices.data(), bytes);
+    out += bytes;
+  }
+  level_.held_bytes_ += count * sizeof(int32_t);
+  level_.micromap_indices_ = std::move(*buffer);
   return {};
 }
 
@@ -232,15 +257,26 @@ void BottomLevelBuilder::keep_inputs() {
   }
 }
 
+uint64_t BottomLevel::micromap_indices(size_t geometry) const {
+  if (linkage(geometry) == nullptr) return 0;
+  uint64_t before = 0;
+  for (size_t g = 0; g < geometry; ++g) {
+    if (linkages_[g] != nullptr) before += linkages_[g]->indices.size();
+  }
+  return micromap_indices_->address() + before * sizeof(int32_t);
+}
+
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
     const std::shared_ptr<Gpu>& gpu, std::span<const RaytracingGeometryDesc> geometries,
-    runtime::BuildFlags flags, const BottomLevel* update_of,
-    std::span<const runtime::GeometryShape> shapes) {
+    runtime::BuildFlags flags, std::span<const std::shared_ptr<runtime::MicromapLinkage>> linkages,
+    const BottomLevel* update_of, std::span<const runtime::GeometryShape> shapes) {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags & ~runtime::BuildFlags::kPerformUpdate;
   for (uint32_t g = 0; g < geometries.size(); ++g) {
     level->shapes_.push_back(runtime::shape_of(geometries[g], g));
+    level->shapes_.back().linked = g < linkages.size() && linkages[g] != nullptr;
   }
+  level->linkages_.assign(linkages.begin(), linkages.end());
   if (auto s = BottomLevelBuilder(gpu, geometries, update_of, *level).run(); !s) return s.error();
   if (!shapes.empty()) level->shapes_.assign(shapes.begin(), shapes.end());
   return level;

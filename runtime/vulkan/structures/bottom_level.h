@@ -20,20 +20,30 @@ class BottomLevel final : public runtime::BottomLevelBase {
  public:
   // `geometries` must have passed check_inputs, and have host addresses. With `update_of`, the
   // indices are those of its build. [DXR: Acceleration structure update constraints] `shapes`, if
-  // given (for a deserialized structure), are what updates are checked against. Errors: KA0794 too
-  // many primitives or geometries, KA0990 out of memory.
+  // given (for a deserialized structure), are what updates are checked against. `linkages`: by
+  // geometry, null for those without micromaps; empty if none has any. Errors: KA0794 too many
+  // primitives or geometries, KA0990 out of memory.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const std::shared_ptr<Gpu>& gpu, std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      runtime::BuildFlags flags, const BottomLevel* update_of = nullptr,
-      std::span<const runtime::GeometryShape> shapes = {});
+      runtime::BuildFlags flags,
+      std::span<const std::shared_ptr<runtime::MicromapLinkage>> linkages,
+      const BottomLevel* update_of = nullptr, std::span<const runtime::GeometryShape> shapes = {});
 
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override { return bounds_; }
   std::vector<runtime::GeometryShape> geometry_shapes() const override { return shapes_; }
   runtime::GeometryContents geometry_contents(uint32_t geometry) const override {
     const Inputs& inputs = inputs_[geometry];
-    return {inputs.xyz, inputs.indices, inputs.boxes};
+    return {inputs.xyz, inputs.indices, inputs.boxes, linkage(geometry)};
   }
+  // Whether a geometry has opacity micromaps.
+  bool has_micromaps() const { return micromap_indices_ != nullptr; }
+  // Null for a geometry without.
+  const runtime::MicromapLinkage* linkage(size_t geometry) const {
+    return linkages_.empty() ? nullptr : linkages_[geometry].get();
+  }
+  // spirv::GeometryMicromaps::indices
+  uint64_t micromap_indices(size_t geometry) const;
 
   uint64_t address() const { return structure_->address(); }
   uint64_t primitive_remap() const { return remap_; }  // spirv::InstanceEntry::primitive_remap
@@ -66,7 +76,9 @@ class BottomLevel final : public runtime::BottomLevelBase {
     std::vector<uint32_t> indices;  // empty: 0, 1, 2, ...
     std::vector<rtapi::RaytracingAabb> boxes;
   };
-  std::vector<Inputs> inputs_;  // one per geometry
+  std::vector<Inputs> inputs_;                                             // one per geometry
+  std::vector<std::shared_ptr<const runtime::MicromapLinkage>> linkages_;  // likewise, or empty
+  std::unique_ptr<GpuBuffer> micromap_indices_;  // of all linked geometries; null: there are none
 };
 
 }  // namespace kaamos::vulkan

@@ -34,7 +34,7 @@ layout(constant_id = 2002) const uint MAX_CALLABLE_DEPTH = 0;
 
 constexpr char kRays[] = R"(#extension GL_EXT_ray_tracing : require
 void remove_device(uint reason) { Words(block.status).w[0] = 1 + reason; }
-struct TopLevelEntry { uint64_t address; uint64_t vulkan; };
+struct TopLevelEntry { uint64_t address; uint64_t vulkan; uint64_t rest[2]; };
 layout(buffer_reference, scalar) buffer TopLevels { TopLevelEntry e[]; };
 uint64_t find_top_level(uint64_t address) {
   uint slot = (uint(address >> 8) * 0x9E3779B1u) >> 7;

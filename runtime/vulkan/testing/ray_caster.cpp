@@ -17,7 +17,12 @@ constexpr char kCommon[] = R"(#version 460
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 struct Ray { vec3 origin; float t_min; vec3 direction; float t_max; };
 struct Hit { float t; uint instance, instance_id, geometry, primitive, kind; };
-struct Entry { uint64_t primitive_remap; uint instance_id, instance_index; };
+struct Entry {
+  uint64_t primitive_remap;
+  uint instance_id, instance_index;
+  uint64_t micromaps;
+  uint flags, reserved;
+};
 layout(buffer_reference, scalar) buffer Rays { Ray of[]; };
 layout(buffer_reference, scalar) buffer Hits { Hit of[]; };
 layout(buffer_reference, scalar) buffer Entries { Entry of[]; };
@@ -36,7 +41,7 @@ uint primitive() {
 )";
 constexpr char kRayGeneration[] = R"(
 layout(location = 0) rayPayloadEXT Hit hit;
-struct TopLevel { uint64_t address, vulkan; };
+struct TopLevel { uint64_t address, vulkan, rest[2]; };
 layout(buffer_reference, scalar) buffer TopLevels { TopLevel of[]; };
 uint64_t find_top_level() {
   uint slot = (uint(top_level >> 8) * 0x9E3779B1u >> 7) & top_level_mask;

@@ -51,6 +51,8 @@ inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
 // How many words of payload the data of twins has (TwinData); at least 1.
 inline constexpr uint32_t kTwinPayloadConstant = 0xFFFF0005u;
+// If not 0, the pipeline allows opacity micromaps.
+inline constexpr uint32_t kAllowMicromapsConstant = 0xFFFF0006u;
 // Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's
 // format differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it
 // does not. The bits of an integer component, to whose range values are clamped; of a UNORM
@@ -117,8 +119,13 @@ static_assert(sizeof(DispatchBlock) == 640);
 //   hash(address) = uint32_t(address >> 8) * 0x9E3779B1u >> 7
 struct TopLevelEntry {
   uint64_t address = 0;  // as rtapi knows it
-  uint64_t vulkan = 0;   // for accelerationStructureEXT()
+  uint64_t vulkan = 0;   // for accelerationStructureEXT(), of rays without opacity micromaps
+  // The same for rays that use them; 0: there are none. Shaders decide the opacity of candidates,
+  // so instances with micromaps have nothing that is opaque for the driver,
+  uint64_t with_micromaps = 0;
+  uint64_t all_candidates = 0;  // and no instance has, for rays with flags that depend on opacity
 };
+static_assert(sizeof(TopLevelEntry) == 32);
 constexpr uint32_t top_level_hash(uint64_t address) {
   return (static_cast<uint32_t>(address >> 8) * 0x9E3779B1u) >> 7;
 }
@@ -132,8 +139,29 @@ struct InstanceEntry {
   uint64_t primitive_remap = 0;
   uint32_t instance_id = 0;
   uint32_t instance_index = 0;
+  // GeometryMicromaps[] of the bottom level; 0 in top levels without opacity micromaps. Otherwise
+  // shaders decide the opacity of every candidate.
+  uint64_t micromaps = 0;
+  uint32_t flags = 0;  // of the instance, as the application gave them
+  uint32_t reserved = 0;
 };
-static_assert(sizeof(InstanceEntry) == 16);
+static_assert(sizeof(InstanceEntry) == 32);
+
+// The opacity of a geometry's triangles or boxes.
+struct GeometryMicromaps {
+  uint64_t indices = 0;  // int32_t[] by PrimitiveIndex: a micromap, or a special index; 0: none
+  // uint32_t count, 0; MicromapEntry[count]; the states, from multiples of 4 on. 0: there is none.
+  uint64_t array = 0;
+  uint32_t opaque = 0;  // the geometry's flag
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(GeometryMicromaps) == 24);
+struct MicromapEntry {
+  uint32_t offset_bytes = 0;  // of its states, from the array's start
+  uint16_t level = 0;
+  uint16_t format = 0;  // runtime::MicromapFormat
+};
+static_assert(sizeof(MicromapEntry) == 8);
 
 // The position table of an instance whose bottom level was built with ALLOW_DATA_ACCESS is the
 // address of uint32_t words:
