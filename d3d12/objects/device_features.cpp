@@ -46,12 +46,26 @@ D3D_SHADER_MODEL model_of(const rtapi::Device& device) {
   return static_cast<D3D_SHADER_MODEL>(device.GetDesc().ShaderModel);
 }
 
-// 1.2 requires opacity micromaps, which Vulkan does not have here.
+// A backend without opacity micromaps does not tell the size of their arrays (KA0547).
+bool has_micromaps(const rtapi::Device& device) {
+  const rtapi::RaytracingOpacityMicromapHistogramEntry one = {1};
+  rtapi::RaytracingOpacityMicromapArrayDesc array;
+  array.NumOmmHistogramEntries = 1;
+  array.pOmmHistogram = &one;
+  rtapi::BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = rtapi::RaytracingAccelerationStructureType::kOpacityMicromapArray;
+  inputs.NumDescs = 1;
+  inputs.pOpacityMicromapArrayDesc = &array;
+  return bool(device.GetRaytracingAccelerationStructurePrebuildInfo(inputs));
+}
+
+// 1.2 requires opacity micromaps, which Vulkan has on lavapipe only.
 D3D12_RAYTRACING_TIER highest_tier(const rtapi::Device& device) {
-  const auto& desc = device.GetDesc();
-  const auto highest =
-      desc.Backend == "vulkan" ? rtapi::RaytracingTier::kTier1_1 : rtapi::kHighestRaytracingTier;
-  return static_cast<D3D12_RAYTRACING_TIER>(std::min(desc.Tier, highest));
+  auto tier = device.GetDesc().Tier;
+  if (tier > rtapi::RaytracingTier::kTier1_1 && !has_micromaps(device)) {
+    tier = rtapi::RaytracingTier::kTier1_1;
+  }
+  return static_cast<D3D12_RAYTRACING_TIER>(tier);
 }
 
 // The options behind D3D12_FEATURE_D3D12_OPTIONS15. E_INVALIDARG if there is no such feature.

@@ -7,6 +7,7 @@
 
 #include "d3d12/objects/d3d12_fixture.h"
 #include "d3d12/objects/newer_features.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -234,6 +235,19 @@ ComPtr<ID3D12Device> device_of_level(const char* tier, const char* model) {
   unsetenv("KAAMOS_RAYTRACING_TIER");
   unsetenv("KAAMOS_SHADER_MODEL");
   return device;
+}
+
+TEST_F(DeviceCalls, VulkanHasTheSameTier) {
+  KAAMOS_NEED_VULKAN();
+  setenv("KAAMOS_BACKEND", "vulkan", 1);
+  ComPtr<ID3D12Device> device;
+  D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(device.GetAddressOf()));
+  unsetenv("KAAMOS_BACKEND");
+  ASSERT_NE(device, nullptr);
+  D3D12_FEATURE_DATA_D3D12_OPTIONS5 five = {};
+  ASSERT_EQ(device->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS5, &five, sizeof(five)), S_OK);
+  EXPECT_EQ(five.RaytracingTier, static_cast<D3D12_RAYTRACING_TIER>(12));
+  EXPECT_TRUE(messages().empty());
 }
 
 TEST_F(DeviceCalls, VariablesChooseTheLevel) {
