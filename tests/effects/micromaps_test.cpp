@@ -10,6 +10,7 @@
 #include "effects/assets/built_in/foliage.h"
 #include "effects/assets/built_in/lounge.h"
 #include "effects/northlight/frame_renderer.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::test {
 namespace {
@@ -23,10 +24,11 @@ struct Frame {
 };
 
 Frame render(const Scene& scene, const std::vector<std::string>& effects, std::uint32_t states,
-             bool moving = false) {
+             bool moving = false, const std::string& backend = "embree") {
   rtapi::DeviceDesc device;
+  device.Backend = backend;
   device.CollectStatistics = true;
-  device.Checked = true;
+  device.Checked = backend != "vulkan";  // lavapipe takes long to compile what is checked
   device.OnMessage = [](const rtapi::Message& message) { ADD_FAILURE() << message.Text; };
   FrameSettings settings;
   settings.width = 64;
@@ -58,12 +60,12 @@ void expect_equal(const Frame& with, const Frame& without) {
 }
 
 // Each any-hit call that is left is one that there was before, too.
-TEST(Micromaps, FourStatesLeaveTheHedgeAsItIs) {
+void expect_the_hedge_as_it_is(const std::string& backend) {
   const Scene scene = make_foliage({.twigs = 12});
-  const Frame without = render(scene, {"ao", "sun"}, 0);
+  const Frame without = render(scene, {"ao", "sun"}, 0, false, backend);
   ASSERT_GT(without.any_hit_calls, 1000u);
   for (const bool moving : {false, true}) {
-    const Frame with = render(scene, {"ao", "sun"}, 4, moving);
+    const Frame with = render(scene, {"ao", "sun"}, 4, moving, backend);
     expect_equal(with, without);
     EXPECT_LT(with.any_hit_calls, without.any_hit_calls / 2);
     EXPECT_EQ(with.micromaps.geometries, 1u);
@@ -73,9 +75,10 @@ TEST(Micromaps, FourStatesLeaveTheHedgeAsItIs) {
 }
 
 // With two states no any-hit shader runs, and only the leaves' edges are elsewhere.
-TEST(Micromaps, TwoStatesNeedNoAnyHitShaders) {
+void expect_no_any_hit_shaders(const std::string& backend) {
   const Scene scene = make_foliage({.twigs = 12});
-  const Frame without = render(scene, {"sun"}, 0), with = render(scene, {"sun"}, 2);
+  const Frame without = render(scene, {"sun"}, 0, false, backend);
+  const Frame with = render(scene, {"sun"}, 2, false, backend);
   EXPECT_EQ(with.any_hit_calls, 0u);
   const std::vector<float>& a = with.layers.at("view_z").values;
   const std::vector<float>& b = without.layers.at("view_z").values;
@@ -83,6 +86,24 @@ TEST(Micromaps, TwoStatesNeedNoAnyHitShaders) {
   for (std::size_t i = 0; i < a.size(); ++i) others += a[i] != b[i] ? 1 : 0;
   EXPECT_GT(others, 0u);
   EXPECT_LT(others, a.size() / 20);
+}
+
+TEST(Micromaps, FourStatesLeaveTheHedgeAsItIs) {
+  expect_the_hedge_as_it_is("embree");
+}
+
+TEST(VulkanMicromaps, FourStatesLeaveTheHedgeAsItIs) {
+  KAAMOS_NEED_VULKAN();
+  expect_the_hedge_as_it_is("vulkan");
+}
+
+TEST(Micromaps, TwoStatesNeedNoAnyHitShaders) {
+  expect_no_any_hit_shaders("embree");
+}
+
+TEST(VulkanMicromaps, TwoStatesNeedNoAnyHitShaders) {
+  KAAMOS_NEED_VULKAN();
+  expect_no_any_hit_shaders("vulkan");
 }
 
 // Every effect of the registry that a frame has, glass among them, which keeps its any-hit shaders.
