@@ -4,6 +4,7 @@
 #include "tests/conformance/omm.h"
 
 #include <shaders/omm.h>
+#include <shaders/standard.h>
 
 #include <algorithm>
 #include <limits>
@@ -384,6 +385,52 @@ void without_any_hit_shader_unknown_is_opaque(Context& t) {
   }
 }
 
+// Records 0 and 1 are hit groups without and with an any-hit shader.
+void looks_micromaps_up(Context& t, const std::string& what, Standard& program) {
+  for (const uint32_t record : {0u, 1u}) {
+    for (const int32_t index : {-1, -2, -4}) {
+      const Buffer top = t.top_level({instance(special(t, index), 0, record)});
+      const Found found = found_by(program.trace(top, ray_in(0, 0.2, 0.2)));
+      const Found expected = index == -1                  ? kFoundNothing
+                             : index == -2 || record == 0 ? kFoundOpaque
+                                                          : kFoundByAnyHit;
+      t.equal(what + ", record " + std::to_string(record) + ", index " + std::to_string(index),
+              static_cast<uint32_t>(found), static_cast<uint32_t>(expected));
+    }
+  }
+}
+
+void collections_and_additions(Context& t) {
+  constexpr auto kAllow = RaytracingPipelineFlags::kAllowOpacityMicromaps;
+  Standard collected(t);
+  collected.set_pipeline_flags(kAllow);
+  collected.desc.Type = StateObjectType::kCollection;
+  const StateObject collection = collected.try_create().value();
+  collected.desc = {};
+  collected.desc.Add(ExistingCollectionDesc::Of(collection));
+  collected.record("Plain");
+  collected.record("Counted");
+  looks_micromaps_up(t, "a collection", collected);
+
+  Standard parent(t);
+  parent.set_pipeline_flags(kAllow);
+  parent.desc.Add(StateObjectConfig{StateObjectFlags::kAllowStateObjectAdditions});
+  parent.create();
+  Program late(t, kaamos_shaders_standard(), {});
+  auto& library = std::get<DxilLibraryDesc>(late.desc.Subobjects[0]);
+  library.Exports = {{"LateClosest", "Closest"}, {"LateCount", "Count"}};
+  std::get<RaytracingPipelineConfig1>(late.desc.Subobjects[2]).Flags = kAllow;
+  late.desc.Add(StateObjectConfig{StateObjectFlags::kAllowStateObjectAdditions});
+  late.group("LatePlain", "LateClosest");
+  late.group("LateCounted", "LateClosest", "LateCount");
+  late.local(kRecordSignature, {"LatePlain", "LateCounted"});
+  parent.pipeline = t.device().AddToStateObject(late.desc, parent.pipeline).value();
+  for (ShaderTable& table : parent.shader_tables) table = ShaderTable(parent.pipeline, "table");
+  parent.record("LatePlain");
+  parent.record("LateCounted");
+  looks_micromaps_up(t, "an addition", parent);
+}
+
 void through_hit_objects(Context& t) {
   t.trace_through_hit_objects(true);
   all_states_with_all_flags(t);
@@ -427,6 +474,7 @@ std::vector<RuleTest> omm_tests() {
           {"OMM-46", the_first_accepted_hit_ends_the_search},
           {"OMM-47", one_any_hit_call},
           {"OMM-48", without_any_hit_shader_unknown_is_opaque},
+          {"OMM-33, OMM-34, OMM-35, OMM-48", collections_and_additions},
           {"OMM-49", inactive_triangles_stay_so}};
 }
 
