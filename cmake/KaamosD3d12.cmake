@@ -12,7 +12,9 @@ set(KAAMOS_D3D12_COMPILE_OPTIONS
   -fms-extensions -fms-compatibility -fms-compatibility-version=19.30 -U_MSC_VER
   -Wno-unknown-pragmas -Wno-microsoft -Wno-nonportable-include-path
   # `&CD3DX12_RESOURCE_BARRIER::Transition(...)`: the temporary lives until the call returns.
-  -Wno-address-of-temporary)
+  -Wno-address-of-temporary
+  # Nor is there a return at the end of every WinMain.
+  -fno-strict-return)
 
 # Writes a header with the macros that clang defines for Linux and leaves out in MS mode, without
 # which the system's headers do not compile.
@@ -57,10 +59,16 @@ function(kaamos_write_header_overlay file root)
   set(seen)
   foreach(folder IN LISTS ARGN)
     file(GLOB_RECURSE headers RELATIVE "${folder}" "${folder}/*.h" "${folder}/*.hpp" "${folder}/*.inl")
+    get_filename_component(folder_name "${folder}" NAME)
     foreach(header IN LISTS headers)
       string(FIND "${folder}/${header}" "${CMAKE_BINARY_DIR}/" in_build)
       if(in_build EQUAL 0)
         continue()
+      endif()
+      if(folder_name STREQUAL "directx")
+        # As DirectX-Headers' own users include it, and the headers that add to Microsoft's.
+        string(APPEND entries
+          "  {'name': 'directx/${header}', 'type': 'file', 'external-contents': '${folder}/${header}'},\n")
       endif()
       string(TOLOWER "${header}" key)
       if(key IN_LIST seen)

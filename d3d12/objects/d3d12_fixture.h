@@ -4,7 +4,7 @@
 
 #include <windows.h>
 
-#include <directx/d3d12.h>
+#include <d3d12.h>
 #include <dxguids/dxguids.h>
 #include <gtest/gtest.h>
 #include <wrl/client.h>

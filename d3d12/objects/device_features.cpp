@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CheckFeatureSupport: what rtapi has, and no more.
+#include <d3d12.h>
+
 #include <cstring>
 
 #include "d3d12/objects/device.h"
@@ -72,13 +74,13 @@ D3D12_RAYTRACING_TIER highest_tier(const rtapi::Device& device) {
 HRESULT newer_feature(const Query& query, D3D12_FEATURE feature) {
   switch (static_cast<newer::Feature>(feature)) {
     case newer::Feature::kOptions16:
-      return options<newer::Options16>(query, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS16>(query, [](auto&) {});
     case newer::Feature::kOptions17:
-      return options<newer::Options17>(query, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS17>(query, [](auto&) {});
     case newer::Feature::kOptions18:
-      return options<newer::Options18>(query, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS18>(query, [](auto&) {});
     case newer::Feature::kOptions19:
-      return options<newer::Options19>(query, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS19>(query, [](auto& out) {
         out.SupportedSampleCountsWithNoOutputs = 1;  // one bit for each: a single sample
         out.MaxSamplerDescriptorHeapSize = rtapi::kMaxShaderVisibleSamplerHeapSize;
         out.MaxSamplerDescriptorHeapSizeWithStaticSamplers =
@@ -86,18 +88,20 @@ HRESULT newer_feature(const Query& query, D3D12_FEATURE feature) {
         out.MaxViewDescriptorHeapSize = rtapi::kMaxViewHeapSize;
       });
     case newer::Feature::kOptions20:
-      return options<newer::Options20>(query, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS20>(query, [](auto&) {});
     case newer::Feature::kPredication:
+      return options<D3D12_FEATURE_DATA_PREDICATION>(query, [](auto&) {});
     case newer::Feature::kHardwareCopy:
+      return options<D3D12_FEATURE_DATA_HARDWARE_COPY>(query, [](auto&) {});
     case newer::Feature::kTightAlignment:
-      return options<newer::Support>(query, [](auto&) {});
+      return options<D3D12_FEATURE_DATA_TIGHT_ALIGNMENT>(query, [](auto&) {});
     case newer::Feature::kOptions21:
-      return options<newer::Options21>(query, [](auto& out) {
-        out.ExecuteIndirectTier = newer::kExecuteIndirectTier1_0;
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS21>(query, [](auto& out) {
+        out.ExecuteIndirectTier = D3D12_EXECUTE_INDIRECT_TIER_1_0;
         out.SampleCmpGradientAndBiasSupported = TRUE;
       });
     case newer::Feature::kOptions22:
-      return options<newer::Options22>(query, [](auto& out) {
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS22>(query, [](auto& out) {
         out.Max1DDispatchSize = rtapi::kCsDispatchMaxThreadGroupsPerDimension;
       });
     default:

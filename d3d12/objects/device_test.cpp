@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "d3d12/objects/d3d12_fixture.h"
-#include "d3d12/objects/newer_features.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::d3d12 {
@@ -281,20 +280,27 @@ TEST_F(DeviceCalls, VariablesChooseTheLevel) {
 }
 
 TEST_F(DeviceCalls, FeaturesOfNewerHeadersAreAnswered) {
-  const auto ask = [this](newer::Feature feature, auto& data) {
-    return device_->CheckFeatureSupport(static_cast<D3D12_FEATURE>(feature), &data, sizeof(data));
+  const auto ask = [this](D3D12_FEATURE feature, auto& data) {
+    return device_->CheckFeatureSupport(feature, &data, sizeof(data));
   };
-  newer::Options22 reorder = {TRUE, TRUE, 1, 1};
-  ASSERT_EQ(ask(newer::Feature::kOptions22, reorder), S_OK);
+  D3D12_FEATURE_DATA_D3D12_OPTIONS16 depth_bias = {TRUE, TRUE};
+  ASSERT_EQ(ask(D3D12_FEATURE_D3D12_OPTIONS16, depth_bias), S_OK);
+  EXPECT_FALSE(depth_bias.GPUUploadHeapSupported);
+  D3D12_FEATURE_DATA_D3D12_OPTIONS19 heaps = {};
+  ASSERT_EQ(ask(D3D12_FEATURE_D3D12_OPTIONS19, heaps), S_OK);
+  EXPECT_EQ(heaps.MaxSamplerDescriptorHeapSize, 2048u);
+  D3D12_FEATURE_DATA_D3D12_OPTIONS21 indirect = {};
+  ASSERT_EQ(ask(D3D12_FEATURE_D3D12_OPTIONS21, indirect), S_OK);
+  EXPECT_EQ(indirect.ExecuteIndirectTier, D3D12_EXECUTE_INDIRECT_TIER_1_0);
+  D3D12_FEATURE_DATA_TIGHT_ALIGNMENT alignment = {D3D12_TIGHT_ALIGNMENT_TIER_1};
+  ASSERT_EQ(ask(D3D12_FEATURE_D3D12_TIGHT_ALIGNMENT, alignment), S_OK);
+  EXPECT_EQ(alignment.SupportTier, D3D12_TIGHT_ALIGNMENT_TIER_NOT_SUPPORTED);
+  D3D12_FEATURE_DATA_D3D12_OPTIONS22 reorder = {TRUE, TRUE, 1, 1};
+  ASSERT_EQ(ask(D3D12_FEATURE_D3D12_OPTIONS22, reorder), S_OK);
   EXPECT_FALSE(reorder.ShaderExecutionReorderingActuallyReorders);
   EXPECT_EQ(reorder.Max1DDispatchSize, 65535u);
-  newer::Options19 heaps = {};
-  ASSERT_EQ(ask(newer::Feature::kOptions19, heaps), S_OK);
-  EXPECT_EQ(heaps.MaxSamplerDescriptorHeapSize, 2048u);
-  newer::Options21 indirect = {};
-  ASSERT_EQ(ask(newer::Feature::kOptions21, indirect), S_OK);
-  EXPECT_EQ(indirect.ExecuteIndirectTier, newer::kExecuteIndirectTier1_0);
-  EXPECT_EQ(ask(newer::Feature::kOptions22, indirect.WorkGraphsTier), E_INVALIDARG);  // too small
+  EXPECT_EQ(ask(D3D12_FEATURE_D3D12_OPTIONS22, indirect.WorkGraphsTier),
+            E_INVALIDARG);  // too small
 }
 
 TEST_F(DeviceCalls, FormatsSupportWhatCanBeMade) {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Tiers, shader models and features of CheckFeatureSupport that the included d3d12.h is too old
+// for, as in Agility SDK 1.619. Its enumerations cannot grow, so that these values are constants.
+#pragma once
+
+#ifndef KAAMOS_D3D12_HEADER_VERSION
+#define KAAMOS_D3D12_HEADER_VERSION D3D12_SDK_VERSION
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 608
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS16 = (D3D12_FEATURE)45;
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS16 {
+  BOOL DynamicDepthBiasSupported;
+  BOOL GPUUploadHeapSupported;
+};
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 610
+static const D3D12_HEAP_TYPE D3D12_HEAP_TYPE_GPU_UPLOAD = (D3D12_HEAP_TYPE)5;
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS17 = (D3D12_FEATURE)46;
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS17 {
+  BOOL NonNormalizedCoordinateSamplersSupported;
+  BOOL ManualWriteTrackingResourceSupported;
+};
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS18 = (D3D12_FEATURE)47;
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS18 {
+  BOOL RenderPassesValid;
+};
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS19 = (D3D12_FEATURE)48;
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS19 {
+  BOOL MismatchingOutputDimensionsSupported;
+  UINT SupportedSampleCountsWithNoOutputs;
+  BOOL PointSamplingAddressesNeverRoundUp;
+  BOOL RasterizerDesc2Supported;
+  BOOL NarrowQuadrilateralLinesSupported;
+  BOOL AnisoFilterWithPointMipSupported;
+  UINT MaxSamplerDescriptorHeapSize;
+  UINT MaxSamplerDescriptorHeapSizeWithStaticSamplers;
+  UINT MaxViewDescriptorHeapSize;
+  BOOL ComputeOnlyCustomHeapSupported;
+};
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 611
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS20 = (D3D12_FEATURE)49;
+enum D3D12_RECREATE_AT_TIER {
+  D3D12_RECREATE_AT_TIER_NOT_SUPPORTED = 0,
+  D3D12_RECREATE_AT_TIER_1 = 1
+};
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS20 {
+  BOOL ComputeOnlyWriteWatchSupported;
+  D3D12_RECREATE_AT_TIER RecreateAtTier;
+};
+static const D3D12_FEATURE D3D12_FEATURE_PREDICATION = (D3D12_FEATURE)50;
+struct D3D12_FEATURE_DATA_PREDICATION {
+  BOOL Supported;
+};
+static const D3D12_FEATURE D3D12_FEATURE_HARDWARE_COPY = (D3D12_FEATURE)52;
+struct D3D12_FEATURE_DATA_HARDWARE_COPY {
+  BOOL Supported;
+};
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 613
+static const D3D_SHADER_MODEL D3D_SHADER_MODEL_6_9 = (D3D_SHADER_MODEL)0x69;
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS21 = (D3D12_FEATURE)53;
+enum D3D12_WORK_GRAPHS_TIER {
+  D3D12_WORK_GRAPHS_TIER_NOT_SUPPORTED = 0,
+  D3D12_WORK_GRAPHS_TIER_1_0 = 10
+};
+enum D3D12_EXECUTE_INDIRECT_TIER {
+  D3D12_EXECUTE_INDIRECT_TIER_1_0 = 10,
+  D3D12_EXECUTE_INDIRECT_TIER_1_1 = 11
+};
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS21 {
+  D3D12_WORK_GRAPHS_TIER WorkGraphsTier;
+  D3D12_EXECUTE_INDIRECT_TIER ExecuteIndirectTier;
+  BOOL SampleCmpGradientAndBiasSupported;
+  BOOL ExtendedCommandInfoSupported;
+};
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 616
+static const D3D12_RAYTRACING_TIER D3D12_RAYTRACING_TIER_1_2 = (D3D12_RAYTRACING_TIER)12;
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 618
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_TIGHT_ALIGNMENT = (D3D12_FEATURE)54;
+enum D3D12_TIGHT_ALIGNMENT_TIER {
+  D3D12_TIGHT_ALIGNMENT_TIER_NOT_SUPPORTED = 0,
+  D3D12_TIGHT_ALIGNMENT_TIER_1 = 1
+};
+struct D3D12_FEATURE_DATA_TIGHT_ALIGNMENT {
+  D3D12_TIGHT_ALIGNMENT_TIER SupportTier;
+};
+#endif
+
+#if KAAMOS_D3D12_HEADER_VERSION < 619
+static const D3D12_FEATURE D3D12_FEATURE_D3D12_OPTIONS22 = (D3D12_FEATURE)65;
+struct D3D12_FEATURE_DATA_D3D12_OPTIONS22 {
+  BOOL ShaderExecutionReorderingActuallyReorders;
+  BOOL CreateByteOffsetViewsSupported;
+  UINT Max1DDispatchSize;
+  UINT Max1DDispatchMeshSize;
+};
+#endif
