@@ -180,6 +180,24 @@ int run_scan(const C* format, va_list arguments, const Call& call) {
               p[22], p[23]);
 }
 
+// What swprintf would write into a buffer that is large enough, of up to 2^20 characters.
+std::optional<std::wstring> print_whole(const wchar_t* format, va_list arguments) {
+  if (format == nullptr) return std::nullopt;
+  std::wstring text(256, L'\0');
+  for (;;) {
+    va_list again;
+    va_copy(again, arguments);
+    const int length = kaamos_vprint_wide(text.data(), text.size(), format, again);
+    va_end(again);
+    if (length >= 0) {
+      text.resize(static_cast<size_t>(length));
+      return text;
+    }
+    if (text.size() > (1u << 20)) return std::nullopt;
+    text.resize(4 * text.size());
+  }
+}
+
 }  // namespace
 
 // For the constructor of std::exception that kaamos_add_d3d12_program adds.
@@ -215,17 +233,22 @@ int kaamos_vfprint(FILE* file, const char* format, va_list arguments) {
 
 // A stream has one width: this is narrow, so that it mixes with printf.
 int kaamos_vfprint_wide(FILE* file, const wchar_t* format, va_list arguments) {
-  if (file == nullptr || format == nullptr) return -1;
-  std::vector<wchar_t> text(256);
-  for (;;) {
-    va_list again;
-    va_copy(again, arguments);
-    const int length = kaamos_vprint_wide(text.data(), text.size(), format, again);
-    va_end(again);
-    if (length >= 0) return std::fputs(kaamos::d3d12::to_utf8(text.data()).c_str(), file);
-    if (text.size() > (1u << 20)) return -1;
-    text.resize(4 * text.size());
-  }
+  if (file == nullptr) return -1;
+  const auto text = print_whole(format, arguments);
+  if (!text) return -1;
+  const bool written = std::fputs(kaamos::d3d12::to_utf8(text->c_str()).c_str(), file) >= 0;
+  return written ? static_cast<int>(text->size()) : -1;
+}
+
+int kaamos_vlength(const char* format, va_list arguments) {
+  if (format == nullptr) return -1;
+  const Utf8 utf8;
+  return std::vsnprintf(nullptr, 0, translate_format(format).c_str(), arguments);
+}
+
+int kaamos_vlength_wide(const wchar_t* format, va_list arguments) {
+  const auto text = print_whole(format, arguments);
+  return text ? static_cast<int>(text->size()) : -1;
 }
 
 int kaamos_vprint(char* out, size_t count, const char* format, va_list arguments) {

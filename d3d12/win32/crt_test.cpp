@@ -103,6 +103,26 @@ TEST(CrtText, ScanCallsTakeTheSizesOfTexts) {
   EXPECT_EQ(number, 7);
 }
 
+TEST(CrtText, WideStreamsHaveMsvcsFormats) {
+  FILE* file = std::tmpfile();
+  ASSERT_NE(file, nullptr);
+  EXPECT_EQ(fwprintf(file, L"%s and %S, %u\n", L"wide", "narrow", 7u), 19);
+  std::rewind(file);
+  char text[64] = {};
+  ASSERT_NE(std::fgets(text, sizeof(text), file), nullptr);
+  EXPECT_STREQ(text, "wide and narrow, 7\n");
+  std::fclose(file);
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(wprintf(L"%s", L"wide"), 4);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "wide");
+}
+
+TEST(CrtText, LengthsAreThoseOfTheWholeText) {
+  EXPECT_EQ(_scprintf("%s %I64u", "abc", UINT64_C(5000000000)), 14);
+  const std::wstring longer(1000, L'x');
+  EXPECT_EQ(_scwprintf(L"%s!", longer.c_str()), 1001);
+}
+
 TEST(CrtText, NarrowAndWideTextConvertWithoutALocale) {
   char text[32];
   EXPECT_EQ(sprintf_s(text, "%S", L"Gr\u00f6\u00dfe"), 7);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <kaamos_crt.h>
+#include <shlwapi.h>
 #include <windows.h>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,12 @@ TEST_F(FileTest, FopenTakesBackslashes) {
   EXPECT_TRUE(fs::exists(folder_ / "b.txt"));
   EXPECT_EQ(fopen_s(&file, path("none").c_str(), "r"), ENOENT);
   EXPECT_EQ(file, nullptr);
+}
+
+TEST(File, PathsExistOrNot) {
+  EXPECT_TRUE(PathFileExistsA("/"));
+  EXPECT_TRUE(PathFileExistsW(L"\\"));
+  EXPECT_FALSE(PathFileExistsA("/no/such/file"));
 }
 
 }  // namespace

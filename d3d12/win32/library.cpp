@@ -70,9 +70,9 @@ const Export kExports[] = {
 };
 #undef KAAMOS_EXPORT
 
-constexpr std::string_view kModules[] = {
-    "d3d12",          "dxgi",       "dxgidebug",      "dxcore",   "d3d12core",
-    "d3d12sdklayers", "dxcompiler", "d3dcompiler_47", "kernel32", "user32"};
+constexpr std::string_view kModules[] = {"d3d12",          "dxgi",           "dxgidebug",  "dxcore",
+                                         "d3d12core",      "d3d12sdklayers", "dxcompiler", "dxil",
+                                         "d3dcompiler_47", "kernel32",       "user32"};
 
 // "C:\dir\DXGI.dll" is dxgi.
 std::string module_name(std::string path) {

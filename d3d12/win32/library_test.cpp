@@ -14,7 +14,8 @@ TEST(Module, D3d12sLibrariesAreLoaded) {
   EXPECT_EQ(GetModuleHandleA("C:\\Windows\\System32\\D3D12.DLL"), d3d12);
   EXPECT_EQ(reinterpret_cast<void*>(GetProcAddress(d3d12, "D3D12CreateDevice")),
             reinterpret_cast<void*>(&D3D12CreateDevice));
-  for (const char* name : {"dxgi.dll", "dxcore.dll", "dxcompiler.dll", "d3dcompiler_47.dll"}) {
+  for (const char* name :
+       {"dxgi.dll", "dxcore.dll", "dxcompiler.dll", "dxil.dll", "d3dcompiler_47.dll"}) {
     EXPECT_NE(LoadLibraryA(name), nullptr) << name;
   }
   for (const char* name :

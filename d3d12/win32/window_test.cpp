@@ -154,5 +154,20 @@ TEST_F(WindowTest, WrongCallsAreErrors) {
   EXPECT_THAT(listener.messages[1], testing::HasSubstr("there is no class None"));
 }
 
+TEST(Window, NamesOfOneTextTypeAreFunctions) {
+  WNDCLASSW kind = {};
+  kind.lpfnWndProc = DefWindowProcW;
+  kind.lpszClassName = L"wide names";
+  ASSERT_NE(RegisterClassW(&kind), 0);
+  const HWND window = CreateWindowW(L"wide names", L"title", WS_OVERLAPPEDWINDOW, 0, 0, 64, 64,
+                                    nullptr, nullptr, nullptr, nullptr);
+  ASSERT_NE(window, nullptr);
+  EXPECT_FALSE(IsIconic(window));
+  EXPECT_FALSE(IsZoomed(window));
+  EXPECT_EQ(MonitorFromPoint({10, 10}, MONITOR_DEFAULTTONEAREST),
+            MonitorFromWindow(window, MONITOR_DEFAULTTONEAREST));
+  EXPECT_TRUE(DestroyWindow(window));
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

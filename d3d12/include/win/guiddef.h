@@ -71,3 +71,5 @@ struct kaamos_uuid<T&> : kaamos_uuid<T> {};
 #endif
 
 #define GUID_NULL (GUID{})
+#define IID_NULL (GUID{})
+#define CLSID_NULL (GUID{})

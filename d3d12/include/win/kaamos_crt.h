@@ -3,7 +3,8 @@
 // includes it into every source, as MSVC has these names in <stdio.h>, <string.h> and so on.
 //
 // Formats of the functions here are MSVC's: in wide ones %s is a wide string, l makes an integer
-// 32 bits wide, and I64 makes it 64. The standard's own (swprintf, wprintf) keep this system's.
+// 32 bits wide, and I64 makes it 64. wprintf and fwprintf have them too; swprintf and the narrow
+// calls of the standard keep this system's.
 #pragma once
 
 #include <errno.h>
@@ -39,6 +40,11 @@ extern "C" {
 ///@{
 int kaamos_vprint(char* out, size_t count, const char* format, va_list arguments);
 int kaamos_vprint_wide(wchar_t* out, size_t count, const wchar_t* format, va_list arguments);
+///@}
+/// The length that the text would have, or -1.
+///@{
+int kaamos_vlength(const char* format, va_list arguments);
+int kaamos_vlength_wide(const wchar_t* format, va_list arguments);
 ///@}
 /// To a stream: the length, or -1.
 int kaamos_vfprint(FILE* file, const char* format, va_list arguments);
@@ -194,6 +200,36 @@ inline int wprintf_s(const wchar_t* format, ...) {
   va_end(arguments);
   return length;
 }
+/// The length that a text would have, or -1.
+///@{
+inline int _vscprintf(const char* format, va_list arguments) {
+  return kaamos_vlength(format, arguments);
+}
+inline int _vscwprintf(const wchar_t* format, va_list arguments) {
+  return kaamos_vlength_wide(format, arguments);
+}
+inline int _scprintf(const char* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = _vscprintf(format, arguments);
+  va_end(arguments);
+  return length;
+}
+inline int _scwprintf(const wchar_t* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = _vscwprintf(format, arguments);
+  va_end(arguments);
+  return length;
+}
+///@}
+inline int kaamos_fwprintf(FILE* file, const wchar_t* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = kaamos_vfprint_wide(file, format, arguments);
+  va_end(arguments);
+  return length;
+}
 inline int sscanf_s(const char* text, const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -304,8 +340,12 @@ inline long long _ftelli64(FILE* file) {
 #include <cstring>
 #include <cwchar>
 namespace std {
+using ::kaamos_fwprintf;
 using ::kaamos_strrchr;
 using ::kaamos_wcsrchr;
+using ::wprintf_s;
 }  // namespace std
 #define strrchr kaamos_strrchr
 #define wcsrchr kaamos_wcsrchr
+#define wprintf wprintf_s
+#define fwprintf kaamos_fwprintf

@@ -244,6 +244,18 @@ inline BOOL AdjustWindowRectEx(LPRECT, DWORD, BOOL, DWORD) {
 inline HMONITOR MonitorFromWindow(HWND, DWORD) {
   return (HMONITOR)(LONG_PTR)1;
 }
+inline HMONITOR MonitorFromPoint(POINT, DWORD) {
+  return (HMONITOR)(LONG_PTR)1;
+}
+/// No user minimises or maximises a window.
+///@{
+inline BOOL IsIconic(HWND) {
+  return FALSE;
+}
+inline BOOL IsZoomed(HWND) {
+  return FALSE;
+}
+///@}
 
 // There is no input, cursor or icon.
 inline HCURSOR LoadCursorA(HINSTANCE, LPCSTR) {
@@ -340,15 +352,27 @@ KAAMOS_TEXT_CALL(MessageBox);
 KAAMOS_TEXT_CALL(GetMonitorInfo);
 KAAMOS_TEXT_CALL(LoadCursor);
 KAAMOS_TEXT_CALL(LoadIcon);
+inline HWND CreateWindowA(LPCSTR class_name, LPCSTR title, DWORD style, int x, int y, int width,
+                          int height, HWND parent, HMENU menu, HINSTANCE instance,
+                          LPVOID parameter) {
+  return CreateWindowExA(0, class_name, title, style, x, y, width, height, parent, menu, instance,
+                         parameter);
+}
+inline HWND CreateWindowW(LPCWSTR class_name, LPCWSTR title, DWORD style, int x, int y, int width,
+                          int height, HWND parent, HMENU menu, HINSTANCE instance,
+                          LPVOID parameter) {
+  return CreateWindowExW(0, class_name, title, style, x, y, width, height, parent, menu, instance,
+                         parameter);
+}
 inline HWND CreateWindow(LPCSTR class_name, LPCSTR title, DWORD style, int x, int y, int width,
                          int height, HWND parent, HMENU menu, HINSTANCE instance,
                          LPVOID parameter) {
-  return CreateWindowExA(0, class_name, title, style, x, y, width, height, parent, menu, instance,
-                         parameter);
+  return CreateWindowA(class_name, title, style, x, y, width, height, parent, menu, instance,
+                       parameter);
 }
 inline HWND CreateWindow(LPCWSTR class_name, LPCWSTR title, DWORD style, int x, int y, int width,
                          int height, HWND parent, HMENU menu, HINSTANCE instance,
                          LPVOID parameter) {
-  return CreateWindowExW(0, class_name, title, style, x, y, width, height, parent, menu, instance,
-                         parameter);
+  return CreateWindowW(class_name, title, style, x, y, width, height, parent, menu, instance,
+                       parameter);
 }

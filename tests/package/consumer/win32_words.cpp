@@ -2,6 +2,11 @@
 // Win32 as sample programs write it: files through handles that close themselves, the program's own
 // folder, windows, the screen's mode, and MSVC's C library. All names are in their UNICODE form.
 #include <Windows.h>
+#include <atlbase.h>
+#include <comdef.h>
+#include <d3d12.h>
+#include <d3dcompiler.h>
+#include <shlwapi.h>
 #include <wrl.h>
 #include <wrl\wrappers\corewrappers.h>
 
@@ -23,6 +28,38 @@ std::wstring ProgramFolder() {
   if (size == 0 || size == _countof(path)) return {};
   if (WCHAR* last = wcsrchr(path, L'\\')) last[1] = L'\0';
   return path;
+}
+
+// The two pointers of MSVC that hold a COM object.
+_COM_SMARTPTR_TYPEDEF(ID3DBlob, __uuidof(ID3DBlob));
+
+bool HoldsBlobs() {
+  CComPtr<ID3DBlob> blob;
+  if (FAILED(D3DCreateBlob(16, &blob))) return false;
+  ID3DBlobPtr same(blob);
+  CComPtr<IUnknown> unknown;
+  if (FAILED(blob.QueryInterface(&unknown))) return false;
+  return same->GetBufferSize() == 16 && blob.IsEqualObject(unknown);
+}
+
+// D3D12 as Agility SDK 1.619 declares it, with older headers too.
+bool AsksWhatNewHeadersHave() {
+  CComPtr<ID3D12Device> device;
+  if (FAILED(D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_1, IID_PPV_ARGS(&device))))
+    return false;
+  D3D12_FEATURE_DATA_SHADER_MODEL model = {D3D_SHADER_MODEL_6_9};
+  D3D12_FEATURE_DATA_D3D12_OPTIONS22 reorder = {};
+  return SUCCEEDED(
+             device->CheckFeatureSupport(D3D12_FEATURE_SHADER_MODEL, &model, sizeof(model))) &&
+         SUCCEEDED(device->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS22, &reorder,
+                                               sizeof(reorder))) &&
+         model.HighestShaderModel == D3D_SHADER_MODEL_6_9 &&
+         !reorder.ShaderExecutionReorderingActuallyReorders;
+}
+
+// As many a WinMain does.
+HRESULT ForgetsToReturn() {
+  wprintf(L"%s formats\n", L"Wide");
 }
 
 bool ReadWhole(const std::wstring& name, std::vector<byte>& bytes) {
@@ -62,8 +99,8 @@ bool ShowWindows() {
   kind.lpfnWndProc = Procedure;
   kind.lpszClassName = L"Words";
   if (RegisterClass(&kind) == 0) return false;
-  const HWND window = CreateWindow(L"Words", L"Words", WS_OVERLAPPEDWINDOW, CW_USEDEFAULT, 0, 320,
-                                   200, NULL, NULL, GetModuleHandle(NULL), NULL);
+  const HWND window = CreateWindowW(L"Words", L"Words", WS_OVERLAPPEDWINDOW, CW_USEDEFAULT, 0, 320,
+                                    200, NULL, NULL, GetModuleHandle(NULL), NULL);
   if (window == NULL) return false;
   SetWindowLong(window, GWL_STYLE, GetWindowLong(window, GWL_STYLE) & ~WS_CAPTION);
   DEVMODE mode = {};
@@ -95,6 +132,9 @@ int wmain(int argc, wchar_t** argv) {
       3) {
     return 5;
   }
+  if (!HoldsBlobs() || !AsksWhatNewHeadersHave()) return 7;
+  if (!PathFileExists(folder.c_str())) return 8;
+  ForgetsToReturn();
   printf_s("Win32: %ls read, %S %I64u\n", L"CMakeCache.txt", L"bytes", static_cast<UINT64>(1));
   return y == 2.0f ? 0 : 6;
 }
