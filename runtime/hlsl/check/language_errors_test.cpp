@@ -31,6 +31,12 @@ std::string closest_hit(const std::string& body) {
 
 const std::vector<LanguageCase>& language_cases() {
   static const std::vector<LanguageCase> all = {
+      {"StaticAssertFails", Id::kStaticAssert, "@_Static_assert(1 > 2, \"one is less\");"},
+      {"StaticAssertFailsInTemplate", Id::kStaticAssert,
+       kernel("f<0>();",
+              "template <int N> void f() {\n@_Static_assert(N != 0, \"N is not 0\"); }")},
+      {"StaticAssertOfAVariable", Id::kNotConstant,
+       kernel("int i = 1; _Static_assert(i @== 1, \"no constant\");")},
       {"InterfaceVariable", Id::kInterfaceObject, kernel("I @i;", "interface I { int f(); };")},
       {"InterfaceParameter", Id::kInterfaceObject,
        kernel("", "interface I { int f(); };\nvoid g(I @i) {}")},

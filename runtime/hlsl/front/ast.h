@@ -493,6 +493,7 @@ enum class DeclKind : uint8_t {
   kUsingNamespace,
   kUsing,
   kSubobject,
+  kStaticAssert,
 };
 
 struct Decl {
@@ -624,6 +625,13 @@ enum class SubobjectKind : uint8_t {
   kRaytracingPipelineConfig1,
   kTriangleHitGroup,
   kProceduralPrimitiveHitGroup,
+};
+
+// `_Static_assert(condition, "text");`
+struct StaticAssertDecl : Decl {
+  static constexpr DeclKind kKind = DeclKind::kStaticAssert;
+  const Expr* condition = nullptr;
+  std::string_view text;
 };
 
 // `TriangleHitGroup MyHitGroup = { "MyAnyHit", "MyClosestHit" };` The checker validates the

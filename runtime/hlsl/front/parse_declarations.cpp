@@ -70,6 +70,9 @@ void Parser::declaration_with(Prefix& prefix, DeclList& out) {
       return using_declaration(prefix, out);
     case Kind::kTypedef:
       return typedef_declaration(prefix, out);
+    case Kind::kReservedWord:
+      if (token().text == "_Static_assert") return static_assertion(prefix, out);
+      break;
     default:
       break;
   }
@@ -295,6 +298,22 @@ void Parser::namespace_declaration(DeclList& out) {
   }
   decl->declarations = list(inner);
   out.push_back(decl);
+}
+
+void Parser::static_assertion(const Prefix& prefix, DeclList& out) {
+  reject_attributes(prefix.attributes, "a static assertion");
+  StaticAssertDecl* decl = make<StaticAssertDecl>(here());
+  advance();
+  const size_t open = pos_;
+  if (!expect(Kind::kLeftParen, "'(' of the static assertion")) return;
+  decl->condition = conditional();
+  if (!panic_ && accept(Kind::kComma)) {
+    decl->text = token().text;
+    expect(Kind::kStringLiteral, "the text of the static assertion");
+  }
+  if (panic_) return;
+  expect_closing(Kind::kRightParen, open, "the static assertion");
+  if (!panic_ && expect_semicolon("the static assertion")) out.push_back(decl);
 }
 
 void Parser::using_declaration(const Prefix& prefix, DeclList& out) {

@@ -379,7 +379,7 @@ bool Parser::starts_declaration(size_t index) {
       const std::string_view word = token_at(index).text;
       return word == "auto" || word == "union" || word == "long" || word == "short" ||
              word == "char" || word == "signed" || word == "virtual" || word == "explicit" ||
-             word == "friend" || word == "mutable";
+             word == "friend" || word == "mutable" || word == "_Static_assert";
     }
     default:
       break;

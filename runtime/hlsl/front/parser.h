@@ -284,6 +284,7 @@ class Parser {
   void bit_field(VariableDecl& decl);
   void namespace_declaration(DeclList& out);
   void using_declaration(const Prefix& prefix, DeclList& out);
+  void static_assertion(const Prefix& prefix, DeclList& out);
   void typedef_declaration(const Prefix& prefix, DeclList& out);
   void buffer_declaration(const Prefix& prefix, DeclList& out);
   void subobject_declaration(DeclList& out);

@@ -141,6 +141,15 @@ void Declarations::declare(const Decl* declaration, Scope* scope) {
     case DeclKind::kSubobject:
       parts_.on_subobject(static_cast<const SubobjectDecl*>(declaration));
       break;
+    case DeclKind::kStaticAssert: {
+      const auto* decl = static_cast<const StaticAssertDecl*>(declaration);
+      const auto holds = parts_.evaluator.constant_integer(decl->condition, scope,
+                                                           "the condition of _Static_assert");
+      if (holds && *holds == 0) {
+        report(CheckId::kStaticAssert, decl->location, {std::string(decl->text)});
+      }
+      break;
+    }
     case DeclKind::kParameter:
       break;
   }

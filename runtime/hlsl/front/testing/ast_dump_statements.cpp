@@ -317,6 +317,12 @@ void Dumper::declaration(const Decl& decl) {
       operands("", {}, subobject.arguments);
       return end();
     }
+    case DeclKind::kStaticAssert: {
+      const auto& assertion = *as<StaticAssertDecl>(&decl);
+      put("static_assert \"", assertion.text, "\" ");
+      expression(*assertion.condition);
+      return end();
+    }
   }
 }
 
