@@ -170,7 +170,6 @@ const std::vector<Case>& cases() {
       {"RayQueryMember", Id::kRayQueryPlace, kernel("", "struct S { RayQuery<0> @q; };")},
       {"RayQueryGlobal", Id::kRayQueryPlace, kernel("", "RayQuery<0> @q;")},
       {"RayQueryStaticGlobal", Id::kRayQueryPlace, kernel("", "static RayQuery<0> @q;")},
-      {"RayQueryReturned", Id::kRayQueryPlace, kernel("", "RayQuery<0> @f();")},
       {"RayQueryMethod", Id::kNoSuchMethod, kernel("RayQuery<0> q;\nq.@Nothing();")},
       {"RayQueryArguments", Id::kArgumentCount, kernel("RayQuery<0> q;\nq.@Proceed(1);")},
       {"ReturnsArray", Id::kReturnsArray, kernel("", "typedef Buffer<int> A[3];\nA @f();")},

@@ -31,6 +31,16 @@ std::string closest_hit(const std::string& body) {
 
 const std::vector<LanguageCase>& language_cases() {
   static const std::vector<LanguageCase> all = {
+      {"QueryReturnedFromInnerBlock", Id::kRayQueryPlace,
+       kernel("f();", "typedef RayQuery<0> Q;\nQ @f() { { Q q; return q; } }")},
+      {"OneOfTwoQueriesReturned", Id::kRayQueryPlace,
+       kernel("f(true);",
+              "typedef RayQuery<0> Q;\nQ f(bool b) { Q q, r; if (b) return q; return @r; }")},
+      {"ExportedQuery", Id::kRayQueryPlace, "export RayQuery<0> @f() { RayQuery<0> q; return q; }"},
+      {"QueryOfOtherFlagsReturned", Id::kConversion,
+       kernel("f();", "RayQuery<0> f() { RayQuery<1> q; return @q; }")},
+      {"NoQueryReturned", Id::kReturnsNothing,
+       kernel("f();", "RayQuery<0> f() { RayQuery<0> q; @return; }")},
       {"StaticAssertFails", Id::kStaticAssert, "@_Static_assert(1 > 2, \"one is less\");"},
       {"StaticAssertFailsInTemplate", Id::kStaticAssert,
        kernel("f<0>();",

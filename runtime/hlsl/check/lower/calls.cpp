@@ -307,8 +307,14 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
     }
   }
   at(location);
+  const bool returns_query = function->result->is_query();
+  const ir::Variable* query = nullptr;
+  if (returns_query) {
+    if (!function->returned_query) return error_value();
+    query = lower_.ray_queries.call_result(*function, *statement);
+  }
   ir::Variable* result = nullptr;
-  if (!function->result->is_void() && !unused) {
+  if (!function->result->is_void() && !returns_query && !unused) {
     result = body_.empty_temporary(function->result->ir);
     statement->result = result;
   }
@@ -324,6 +330,7 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
     lower_.places.store(copy.target,
                         lower_.conversions.convert(value, copy.target.type, location, true));
   }
+  if (query && !unused) return lower_.places.place(query, function->result, false);
   if (function->result->is_void() || !result) {
     return rvalue(build_.int32(0),
                   function->result->is_void() || !unused ? types_.void_type() : function->result);
@@ -388,7 +395,8 @@ FunctionInfo* Calls::bind_unbounded_arrays(FunctionInfo* function,
 ir::Function* Calls::make_ir_function(FunctionInfo* function) {
   ir::Function* node = &bench_.module.function_pool.emplace_back();
   node->name = function->qualified;
-  node->result = function->result->ir;
+  const bool returns_query = function->result->is_query();
+  node->result = returns_query ? types_.void_type()->ir : function->result->ir;
   node->location = locate((function->definition ? function->definition : function->decl)->location);
   if (function->definition) node->end_location = locate(function->definition->body->end);
   if (function->owner && !function->is_static) {
@@ -424,7 +432,8 @@ void Calls::lower_function(FunctionInfo* function, SourceLocation use) {
     report(CheckId::kRecursion, use, {function->qualified});
     return;
   }
-  if (!function->definition && names_.is_importable(*function)) {
+  const bool is_importable = names_.is_importable(*function) && !function->result->is_query();
+  if (!function->definition && is_importable) {
     names_.make_import(function, use);
     return;
   }
@@ -476,9 +485,10 @@ void Calls::lower_function(FunctionInfo* function, SourceLocation use) {
              function->definition->body->end, {function->qualified});
       at(function->definition->body->end);
       ir::Stmt* end = build_.stmt(ir::StmtKind::kReturn);
-      end->value = build_.zero(function->result->ir);
+      if (!function->result->is_query()) end->value = build_.zero(function->result->ir);
       body.push_back(end);
     }
+    if (function->result->is_query()) lower_.ray_queries.pass_returned_query(*function, body);
     function->ir->body = std::move(body);
     lower_.body_rules.check_variables(*function);
   }

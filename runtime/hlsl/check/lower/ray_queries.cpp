@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/lower/ray_queries.h"
 
+#include <algorithm>
+
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 
@@ -146,6 +148,49 @@ bool RayQueries::rename_query(const AssignExpr* expr, const Value& value) {
   const ir::Expr* object = query_object(value, variable->type);
   if (object) variable->variable = const_cast<ir::Variable*>(object->variable);
   return object != nullptr;
+}
+
+void RayQueries::return_query(const Value& value, SourceLocation location) {
+  FunctionInfo& function = *body_.function;
+  const ir::Expr* object = query_object(value, function.result);
+  if (!object) return;
+  if (function.returned_query && function.returned_query != object->variable) {
+    report(CheckId::kRayQueryPlace, location,
+           {to_string(function.result), "one of several that a function returns"});
+  }
+  function.returned_query = object->variable;
+}
+
+void RayQueries::pass_returned_query(FunctionInfo& function, ir::Block& body) {
+  if (!function.returned_query) return;                                 // an error that is reported
+  auto* variable = const_cast<ir::Variable*>(function.returned_query);  // it belongs to the pool
+  if (variable->storage == ir::Storage::kParameter) return;
+  const auto declared = std::ranges::find_if(body, [&](const ir::Stmt* statement) {
+    return statement->kind == ir::StmtKind::kDeclare && statement->variable == variable;
+  });
+  if (declared == body.end()) {
+    report(CheckId::kRayQueryPlace, function.definition->location,
+           {to_string(function.result), "returned from a block inside of the function"});
+    function.returned_query = nullptr;
+    return;
+  }
+  body.erase(declared);
+  variable->storage = ir::Storage::kParameter;
+  variable->mode = ir::ParameterMode::kInOut;
+  function.ir->parameters.push_back(variable);
+}
+
+const ir::Variable* RayQueries::call_result(const FunctionInfo& function, ir::Stmt& call) {
+  const auto& parameters = function.ir->parameters;
+  const size_t index = static_cast<size_t>(std::ranges::find(parameters, function.returned_query) -
+                                           parameters.begin());
+  if (index < call.arguments.size()) return call.arguments[index]->variable;
+  const ir::Variable* object = build_.variable("query", function.result->ir, ir::Storage::kLocal);
+  ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
+  node->variable = object;
+  body_.emit(node);
+  call.arguments.push_back(build_.read(object));
+  return object;
 }
 
 Value RayQueries::trace_ray_inline(ir::Stmt* statement, const Type* query,

@@ -27,6 +27,13 @@ class RayQueries : LowerPart {
   bool rename_query(const AssignExpr* expr, const Value& value);
   void lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info);
   const ir::Expr* query_object(const Value& value, const Type* type);
+  // `return query;`: all returns of a function name the same one.
+  void return_query(const Value& value, SourceLocation location);
+  // The local variable that a lowered function returns becomes a parameter of it: the caller's
+  // object. Not if it is a parameter already.
+  void pass_returned_query(FunctionInfo& function, ir::Block& body);
+  // What a call gives: an argument, or a new object that the call is passed.
+  const ir::Variable* call_result(const FunctionInfo& function, ir::Stmt& call);
 
  private:
   Value trace_ray_inline(ir::Stmt* statement, const Type* query, std::vector<Value>& arguments);

@@ -395,7 +395,10 @@ void Statements::lower_return(const ReturnStmt* statement) {
       report(CheckId::kReturnsThis, statement->value->location);
     }
     Value given = lower_.expressions.lower(statement->value);
-    if (result->is_void()) {
+    if (result->is_query()) {
+      given.location = statement->value->location;
+      lower_.ray_queries.return_query(given, statement->value->location);
+    } else if (result->is_void()) {
       const bool is_void = !given.failed() && given.type && given.type->is_void();
       if (!given.failed() && !is_void) report(CheckId::kReturnsValue, statement->location);
     } else {
@@ -404,7 +407,7 @@ void Statements::lower_return(const ReturnStmt* statement) {
     }
   } else if (!result->is_void()) {
     report(CheckId::kReturnsNothing, statement->location, {to_string(result)});
-    value = build_.zero(result->ir);
+    if (!result->is_query()) value = build_.zero(result->ir);
   }
   at(statement->location);
   ir::Stmt* node = build_.stmt(ir::StmtKind::kReturn);

@@ -25,9 +25,9 @@ void Functions::resolve_signature(FunctionInfo* function) {
   const FunctionDecl* decl = function->decl;
   function->result = parts_.resolver.resolve_type(decl->return_type, function->scope);
   if (function->result->is_error()) function->signature_failed = true;
-  if (function->result->is_query()) {
+  if (function->result->is_query() && function->is_exported) {
     report(CheckId::kRayQueryPlace, decl->location,
-           {to_string(function->result), "what a function returns"});
+           {to_string(function->result), "what an exported function returns"});
     function->result = types_.error();
     function->signature_failed = true;
   }
