@@ -466,6 +466,7 @@ inline constexpr ErrorId kThisOutside{2408};  ///< 'this' can only be used insid
 inline constexpr ErrorId kMethodWithoutObject{2409};  ///< method '{0}' is called without an object
 inline constexpr ErrorId kUnsupported{2410};  ///< {0} is not supported yet
 inline constexpr ErrorId kStaticAssert{2411};  ///< static assertion failed: {0}
+inline constexpr ErrorId kConstArgument{2412};  ///< {0} is a constant variable, which the function changes, as in DXC
 inline constexpr ErrorId kVoidVariable{2420};  ///< {0} is not allowed
 inline constexpr ErrorId kIncomplete{2421};  ///< '{0}' is declared but not yet defined
 inline constexpr ErrorId kNeeds16Bit{2422};  ///< '{0}' needs the option -enable-16bit-types; half and min16 types do not

@@ -13,6 +13,16 @@
 namespace kaamos::hlsl {
 namespace {
 
+// A whole local variable or parameter. DXC's types of such parameters are no references, so that it
+// does not see that they change a constant. [DXC issue 5377]
+bool is_constant_struct(const Value& value) {
+  const ir::Expr* expr = value.kind == ValueKind::kExpr ? value.expr : nullptr;
+  return value.is_const && value.type && value.type->is_struct() && expr &&
+         expr->kind == ir::ExprKind::kVariable &&
+         (expr->variable->storage == ir::Storage::kLocal ||
+          expr->variable->storage == ir::Storage::kParameter);
+}
+
 constexpr int kMaxFunctionDepth = 200;
 
 bool names_a_resource(const Value& value) {
@@ -277,7 +287,7 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
   }
   for (size_t i = 0; i < arguments.size(); ++i) {
     const ParameterInfo& parameter = function->parameters[i];
-    const Value& argument = arguments[i];
+    Value& argument = arguments[i];
     if (parameter.binding) continue;
     if (parameter.type->is_query()) {
       // The parameter is a second name for the same object, whatever its direction. [DXR: RayQuery]
@@ -294,6 +304,10 @@ Value Calls::call(FunctionInfo* function, const Value* object, std::vector<Value
       const std::string purpose = std::string("an argument of ") +
                                   (parameter.is_in ? "inout" : "out") + " parameter '" +
                                   std::string(parameter.name) + "'";
+      if (is_constant_struct(argument)) {
+        report(CheckId::kConstArgument, argument.location, {purpose});
+        argument.is_const = false;
+      }
       if (!lower_.bit_fields.require_whole_field(argument, argument.location, purpose) ||
           !lower_.places.require_target(argument, argument.location, purpose)) {
         return error_value();
