@@ -17,6 +17,9 @@ struct NameOf {
   const char* operator()(const CopyAccelerationStructureCommand&) const {
     return "CopyRaytracingAccelerationStructure";
   }
+  const char* operator()(const RtasOperationsCommand&) const {
+    return "ExecuteIndirectRTASOperations";
+  }
   const char* operator()(const CopyBufferCommand&) const { return "CopyBufferRegion"; }
   const char* operator()(const CopyTextureCommand&) const { return "CopyTextureRegion"; }
   const char* operator()(const ClearUavCommand&) const { return "ClearUnorderedAccessView"; }

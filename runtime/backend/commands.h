@@ -17,6 +17,7 @@
 #include <rtapi/raytracing.h>
 #include <rtapi/resource.h>
 #include <rtapi/root_signature.h>
+#include <rtapi/rtas_operations.h>
 
 #include "runtime/backend/draw_commands.h"
 #include "runtime/backend/queries.h"
@@ -127,6 +128,18 @@ struct CopyAccelerationStructureCommand {
       rtapi::RaytracingAccelerationStructureCopyMode::kClone;
 };
 
+// An operation of ExecuteIndirectRTASOperations, with the desc that its inputs pointed to.
+struct RtasOperation {
+  rtapi::RtasPartitionedTlasInputsDesc inputs = {};
+  rtapi::RtasPartitionedTlasOperationData data = {};
+};
+
+// EXPERIMENTAL. Operations whose arguments are in GPU memory; runtime/operations reads them when
+// the command executes.
+struct RtasOperationsCommand {
+  std::vector<RtasOperation> operations;
+};
+
 struct CopyBufferCommand {
   std::shared_ptr<BackendBuffer> dest;
   uint64_t dest_offset = 0;
@@ -185,9 +198,10 @@ struct EventCommand {
 
 using Command =
     std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
-                 EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, CopyBufferCommand,
-                 CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand, DrawCommand,
-                 ClearTargetCommand, TimestampCommand, ResolveTimestampsCommand>;
+                 EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, RtasOperationsCommand,
+                 CopyBufferCommand, CopyTextureCommand, ClearUavCommand, BarrierCommand,
+                 EventCommand, DrawCommand, ClearTargetCommand, TimestampCommand,
+                 ResolveTimestampsCommand>;
 
 // Names the application's call, for messages: "DispatchRays".
 const char* command_name(const Command& command);

@@ -33,6 +33,9 @@ class Executor {
   rtapi::Status operator()(const CopyAccelerationStructureCommand& command) {
     return target_.copy_structure(command);
   }
+  rtapi::Status operator()(const RtasOperationsCommand& command) {
+    return target_.execute_operations(command, label("ExecuteIndirectRTASOperations"));
+  }
   rtapi::Status operator()(const CopyBufferCommand& command) {
     return target_.copy_buffer(command, label("CopyBufferRegion"));
   }

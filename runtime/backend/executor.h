@@ -43,6 +43,8 @@ class CommandTarget {
   virtual rtapi::Status build(const BuildCommand& command) = 0;
   virtual rtapi::Status emit_postbuild_info(const EmitPostbuildInfoCommand& command) = 0;
   virtual rtapi::Status copy_structure(const CopyAccelerationStructureCommand& command) = 0;
+  virtual rtapi::Status execute_operations(const RtasOperationsCommand& command,
+                                           const std::string& label) = 0;
   virtual rtapi::Status copy_buffer(const CopyBufferCommand& command, const std::string& label) = 0;
   virtual rtapi::Status copy_texture(const CopyTextureCommand& command) = 0;
   virtual rtapi::Status clear(const ClearUavCommand& command) = 0;

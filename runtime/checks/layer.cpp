@@ -10,6 +10,7 @@
 #include "runtime/backend/indirect.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
+#include "runtime/operations/operation_sizes.h"
 #include "runtime/structures/structure_commands.h"
 
 namespace kaamos::checks {
@@ -404,6 +405,29 @@ void Layer::check(const runtime::CopyAccelerationStructureCommand& command) {
   hazards_.write_structure(command.dest, 256, "the copy's destination");
 }
 
+// The operations' arguments are read, and reported, by what runs them.
+void Layer::check(const runtime::RtasOperationsCommand& command) {
+  for (const runtime::RtasOperation& operation : command.operations) {
+    const rtapi::RtasPartitionedTlasOperationData& data = operation.data;
+    const auto sizes = runtime::operation_sizes(operation.inputs);
+    hazards_.use(data.IndirectPartitionedTlasOpCount, ResourceStates::kNonPixelShaderResource,
+                 "the number of operations");
+    if (data.IndirectPartitionedTlasOps != 0) {
+      hazards_.use(data.IndirectPartitionedTlasOps, ResourceStates::kNonPixelShaderResource,
+                   "the operations");
+    }
+    const uint64_t scratch = data.ScratchAccelerationStructureData;
+    hazards_.use(scratch, ResourceStates::kUnorderedAccess, "the operation's scratch memory");
+    hazards_.use_scratch(scratch, sizes.ScratchDataSizeInBytes);
+    const uint64_t source = data.SourceAccelerationStructureData;
+    const uint64_t dest = data.DestAccelerationStructureData;
+    if (const uint64_t bytes = bytes_at(source); bytes != 0 && source != dest) {
+      hazards_.read_structure(source, bytes, "the operation's source");
+    }
+    hazards_.write_structure(dest, sizes.ResultDataMaxSizeInBytes, "the operation's destination");
+  }
+}
+
 void Layer::check(const runtime::CopyBufferCommand& command) {
   if (command.size_bytes == 0) return;
   hazards_.use(command.source->address() + command.source_offset, ResourceStates::kCopySource,
@@ -449,6 +473,13 @@ void Layer::note(const runtime::CopyAccelerationStructureCommand& command) {
   // Only the backend knows what size compaction leaves; the first 256 bytes are there in any case.
   const bool compact = command.mode == rtapi::RaytracingAccelerationStructureCopyMode::kCompact;
   structures_.copied(command, compact ? 256 : 0);
+}
+
+void Layer::note(const runtime::RtasOperationsCommand& command) {
+  for (const runtime::RtasOperation& operation : command.operations) {
+    structures_.partitioned(operation,
+                            runtime::operation_sizes(operation.inputs).ResultDataMaxSizeInBytes);
+  }
 }
 
 void Layer::note(const runtime::CopyBufferCommand& command) {

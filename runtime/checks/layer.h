@@ -64,6 +64,7 @@ class Layer : public runtime::CommandObserver {
   void check(const runtime::BuildCommand& command);
   void check(const runtime::EmitPostbuildInfoCommand& command);
   void check(const runtime::CopyAccelerationStructureCommand& command);
+  void check(const runtime::RtasOperationsCommand& command);
   void check(const runtime::CopyBufferCommand& command);
   void check(const runtime::CopyTextureCommand& command);
   void check(const runtime::ClearUavCommand& command);
@@ -80,6 +81,7 @@ class Layer : public runtime::CommandObserver {
 
   void note(const runtime::BuildCommand& command);
   void note(const runtime::CopyAccelerationStructureCommand& command);
+  void note(const runtime::RtasOperationsCommand& command);
   void note(const runtime::CopyBufferCommand& command);
   void note(const runtime::CopyTextureCommand& command);
   void note(const runtime::ClearUavCommand& command);

@@ -138,6 +138,15 @@ void Structures::copied(const runtime::CopyAccelerationStructureCommand& command
   place(std::move(structure));
 }
 
+void Structures::partitioned(const runtime::RtasOperation& operation, uint64_t size_bytes) {
+  TrackedStructure structure;
+  structure.address = operation.data.DestAccelerationStructureData;
+  structure.size_bytes = size_bytes;
+  structure.top = true;
+  structure.known = false;
+  place(std::move(structure));
+}
+
 uint64_t Structures::copied_from(uint64_t address) const {
   std::array<uint8_t, 16> bytes;
   if (!addresses_.contains(address, bytes.size())) return 0;

@@ -6,6 +6,7 @@
 
 #include "runtime/embree/device.h"
 #include "runtime/embree/parallel.h"
+#include "runtime/operations/operations.h"
 #include "runtime/structures/instances.h"
 #include "runtime/structures/structure_commands.h"
 #include "runtime/structures/structure_copies.h"
@@ -99,6 +100,22 @@ rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureComma
 
 rtapi::Status complete_top_levels(Device& device) {
   return runtime::complete_top_levels(device.structure_environment(), rebuild_level(device));
+}
+
+rtapi::Status execute_operations(Device& device, const runtime::RtasOperationsCommand& command,
+                                 const std::string& label) {
+  runtime::BuildOperationLevels build;
+  build.partitioned =
+      [&](const runtime::PartitionedTopLevel& partitioned, std::span<const uint32_t>,
+          const std::shared_ptr<const runtime::TopLevelBase>&, AccelerationStructure& result) {
+        return measured(device, result, [&]() -> rtapi::Status {
+          auto level = TopLevel::build(device.build_context(), partitioned.instances);
+          if (!level) return level.error();
+          result.top_level = *level;
+          return {};
+        });
+      };
+  return runtime::execute_operations(device.structure_environment(), command, label, build);
 }
 
 rtapi::Status build(Device& device, const runtime::BuildCommand& command) {

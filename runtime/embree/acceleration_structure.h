@@ -4,6 +4,8 @@
 // runtime/structures/structure_commands.h.
 #pragma once
 
+#include <string>
+
 #include <rtapi/result.h>
 
 #include "runtime/backend/commands.h"
@@ -15,6 +17,8 @@ class Device;
 // An error removes the device; anything harmless is a message.
 rtapi::Status build(Device& device, const runtime::BuildCommand& command);
 rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureCommand& command);
+rtapi::Status execute_operations(Device& device, const runtime::RtasOperationsCommand& command,
+                                 const std::string& label);
 // To be called before a dispatch. [runtime::complete_top_levels]
 rtapi::Status complete_top_levels(Device& device);
 

@@ -56,6 +56,11 @@ class Target final : public runtime::CommandTarget {
     if (auto s = finish(); !s) return s;
     return copy(device_, command);
   }
+  rtapi::Status execute_operations(const runtime::RtasOperationsCommand& command,
+                                   const std::string& label) override {
+    if (auto s = finish(); !s) return s;
+    return embree::execute_operations(device_, command, label);
+  }
   rtapi::Status copy_buffer(const runtime::CopyBufferCommand& command,
                             const std::string& label) override;
   rtapi::Status copy_texture(const runtime::CopyTextureCommand& command) override;

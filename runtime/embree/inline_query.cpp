@@ -28,7 +28,7 @@ RayQueryHit hit_of(const TopLevel& scene, const RayQueryFound& found, uint32_t t
   hit.type = type;
   hit.t = found.t;
   hit.instance_index = found.instance;
-  hit.instance_id = node.id;
+  hit.instance_id = scene.instance_id(found.instance);
   hit.instance_contribution = node.contribution;
   hit.geometry_index = found.geometry;
   hit.primitive_index = found.primitive;

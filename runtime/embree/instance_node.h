@@ -43,7 +43,6 @@ struct alignas(64) InstanceNode {
   RTCScene scene;                       // null: inactive
   uint32_t contribution : 24;           // InstanceContributionToHitGroupIndex
   uint32_t mask : 8;                    // InstanceMask; 0 also for inactive instances
-  uint32_t id : 24;                     // InstanceID
   uint32_t flags : 2;                   // kFacingInstanceFlags of InstanceFlags
   uint32_t micromap_flags : 2;          // NodeMicromapFlags
   OpacityOverride opacity : 2;          // from the flags

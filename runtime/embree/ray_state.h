@@ -106,7 +106,7 @@ inline void set_hit_values(const RayState& state, uint32_t instance_index, uint3
   values.t_current = t_current;
   values.hit_kind = hit_kind;
   values.instance_index = instance_index;
-  values.instance_id = instance.id;
+  values.instance_id = state.top_level->instance_id(instance_index);
   values.geometry_index = geometry;
   values.primitive_index = primitive;
   values.object_to_world = instance.object_to_world;

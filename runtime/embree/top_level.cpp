@@ -55,7 +55,7 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   node.micromap_flags = (desc.Flags >> kMicromapInstanceFlagsShift) & 3;
   node.opacity = opacity_of(desc.Flags);
   node.contribution = desc.InstanceContributionToHitGroupIndex;
-  node.id = desc.InstanceID;
+  transform.instance_id = instance.id;
   if (instance.bottom_level == nullptr) return;
   const runtime::Bounds& b = instance.bounds;
   box = {b.lower[0], b.lower[1], b.lower[2], 0, b.upper[0], b.upper[1], b.upper[2], 0};
@@ -160,7 +160,7 @@ std::vector<runtime::Instance> TopLevel::instances() const {
     const InstanceNode& node = nodes_[i];
     runtime::Instance& instance = result[i];
     std::memcpy(instance.desc.Transform, node.object_to_world, sizeof(node.object_to_world));
-    instance.desc.InstanceID = node.id;
+    instance.id = world_to_object_[i].instance_id;
     instance.desc.InstanceMask = node.mask;
     instance.desc.InstanceContributionToHitGroupIndex = node.contribution;
     instance.desc.Flags = flags_of(node);

@@ -49,6 +49,7 @@ class TopLevel final : public runtime::TopLevelBase {
   const shader::GeometryPositions* positions(uint32_t index) const {
     return world_to_object_[index].positions;
   }
+  uint32_t instance_id(uint32_t index) const { return world_to_object_[index].instance_id; }
   bool has_exact() const { return has_exact_; }
   // The level for rays that make all geometry non-opaque, and so may meet any-hit shaders
   // everywhere: the same instances with all triangles exact. Made when it is first asked for, in

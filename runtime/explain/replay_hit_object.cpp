@@ -31,7 +31,7 @@ shader::HitObject Replay::hit_object_of(const Trace& trace) const {
   out.state = shader::kHitObjectHit;
   out.t = trace.search.committed_t;
   out.instance_index = trace.hit.instance;
-  out.instance_id = instance.desc.InstanceID;
+  out.instance_id = instance.id;
   out.geometry_index = trace.hit.geometry;
   out.primitive_index = trace.hit.primitive;
   out.hit_kind = trace.hit_kind;

@@ -22,7 +22,7 @@ RayQueryHit hit_of(const Candidate& candidate, const Instance& instance, bool op
   hit.type = candidate.procedural ? shader::kQueryProcedural : shader::kQueryTriangle;
   hit.t = candidate.procedural ? 0 : static_cast<float>(candidate.t);
   hit.instance_index = candidate.instance;
-  hit.instance_id = instance.desc.InstanceID;
+  hit.instance_id = instance.id;
   hit.instance_contribution = instance.desc.InstanceContributionToHitGroupIndex;
   hit.geometry_index = candidate.geometry;
   hit.primitive_index = candidate.primitive;

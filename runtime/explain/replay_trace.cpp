@@ -47,7 +47,7 @@ rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& i
   rtapi::ExplainedCandidate out;
   out.T = static_cast<float>(candidate.t);
   out.InstanceIndex = candidate.instance;
-  out.InstanceID = instance.desc.InstanceID;
+  out.InstanceID = instance.id;
   out.GeometryIndex = candidate.geometry;
   out.PrimitiveIndex = candidate.primitive;
   out.Procedural = candidate.procedural;
@@ -213,7 +213,7 @@ void Replay::offer_box(Trace& trace, const Candidate& candidate, const Record& r
                   trace.reported_flags,
                   0,
                   candidate.instance,
-                  instance.desc.InstanceID,
+                  instance.id,
                   candidate.geometry,
                   candidate.primitive,
                   instance.object_to_world.data(),
@@ -265,7 +265,7 @@ AnyHitResult Replay::run_any_hit(Trace& trace, const Candidate& candidate, const
                   trace.reported_flags,
                   hit_kind,
                   candidate.instance,
-                  instance.desc.InstanceID,
+                  instance.id,
                   candidate.geometry,
                   candidate.primitive,
                   instance.object_to_world.data(),
@@ -355,7 +355,7 @@ void Replay::run_closest_hit(Trace& trace) {
                   trace.reported_flags,
                   trace.hit_kind,
                   trace.hit.instance,
-                  instance.desc.InstanceID,
+                  instance.id,
                   trace.hit.geometry,
                   trace.hit.primitive,
                   instance.object_to_world.data(),

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "runtime/operations/partitioned_top_level.h"
 #include "runtime/structures/build_inputs.h"
 #include "runtime/structures/instances.h"
 
@@ -224,12 +225,13 @@ const TopLevel* Scenes::find(uint64_t address) {
   if (const auto it = top_levels_.find(address); it != top_levels_.end()) return it->second.get();
   const auto structure = address == 0 ? nullptr : backend_.find_structure(address);
   auto& level = top_levels_[address];
-  if (structure == nullptr || structure->instances == nullptr) return nullptr;
+  if (structure == nullptr || structure->top_level == nullptr) return nullptr;
   level = std::make_unique<TopLevel>();
   std::vector<Box> boxes;
-  for (const rtapi::RaytracingInstanceDesc& desc : *structure->instances) {
+  const auto add = [&](const rtapi::RaytracingInstanceDesc& desc, uint32_t id) {
     Instance& instance = level->instances_.emplace_back();
     instance.desc = desc;
+    instance.id = id;
     std::memcpy(instance.object_to_world.data(), desc.Transform, sizeof desc.Transform);
     Box box;
     if (is_finite(instance.object_to_world.data(), 12) &&
@@ -242,6 +244,15 @@ const TopLevel* Scenes::find(uint64_t address) {
       }
     }
     boxes.push_back(box);
+  };
+  if (structure->partitioned != nullptr) {
+    for (const runtime::Instance& instance : structure->partitioned->instances) {
+      add(instance.desc, instance.id);
+    }
+  } else {
+    for (const rtapi::RaytracingInstanceDesc& desc : *structure->instances) {
+      add(desc, desc.InstanceID);
+    }
   }
   level->bvh_.build(std::move(boxes));
   return level.get();

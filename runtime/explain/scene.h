@@ -64,6 +64,7 @@ class BottomLevel {
 
 struct Instance {
   rtapi::RaytracingInstanceDesc desc;
+  uint32_t id = 0;  // InstanceID
   std::array<float, 12> object_to_world = {};
   shader::InstanceTransform world_to_object = {};
   std::array<double, 12> inverse = {};              // of object_to_world

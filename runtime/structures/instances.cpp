@@ -52,8 +52,9 @@ constexpr char kMissing[] =
     "there is no bottom level at its address, so it is inactive. Was one built, and not "
     "overwritten or freed?";
 
-// Why an instance is inactive; null if it is active, or inactive on purpose.
-const char* activate(const StructureMap& structures, Instance& instance) {
+}  // namespace
+
+const char* activate_instance(const StructureMap& structures, Instance& instance) {
   if (instance.desc.AccelerationStructure == 0) return nullptr;
   const auto structure = structures.find(instance.desc.AccelerationStructure);
   if (structure == nullptr || structure->bottom_level == nullptr) {
@@ -71,8 +72,6 @@ const char* activate(const StructureMap& structures, Instance& instance) {
   return nullptr;
 }
 
-}  // namespace
-
 rtapi::Result<std::vector<Instance>> read_instances(const StructureEnvironment& environment,
                                                     const BuildCommand& command) {
   auto descs = read_descs(*environment.context.addresses, command);
@@ -89,7 +88,8 @@ std::vector<Instance> activate_instances(const StructureEnvironment& environment
   uint32_t written = 0;
   for (uint32_t i = 0; i < instances.size(); ++i) {
     instances[i].desc = descs[i];
-    const char* note = activate(environment.structures, instances[i]);
+    instances[i].id = descs[i].InstanceID;
+    const char* note = activate_instance(environment.structures, instances[i]);
     if (note == nullptr || (note == kMissing && notes == InstanceNotes::kMissingMayCome)) continue;
     if (written++ >= kMostNotes) continue;
     environment.warn(Id::kInstanceInactive,

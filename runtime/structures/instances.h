@@ -30,6 +30,7 @@ enum InstanceFlags : uint32_t {
 
 struct Instance {
   rtapi::RaytracingInstanceDesc desc;
+  uint32_t id = 0;  // InstanceID: that of desc, but for partitioned top levels, where it is wider
   // Null: never hit, but still counted in InstanceIndex.
   std::shared_ptr<BottomLevelBase> bottom_level;
   float world_to_object[12] = {};  // 3x4, row-major; only if active
@@ -42,6 +43,10 @@ struct Instance {
 // allocations.
 rtapi::Result<std::vector<Instance>> read_instances(const StructureEnvironment& environment,
                                                     const BuildCommand& command);
+
+// Finds the bottom level and computes what depends on it. Returns why the instance is inactive, if
+// that was not clearly intended; otherwise null.
+const char* activate_instance(const StructureMap& structures, Instance& instance);
 
 // A top level may be deserialized before its bottom levels; those that are missing then make the
 // instance inactive without a message.

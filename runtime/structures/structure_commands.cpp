@@ -37,7 +37,7 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
     const StructureEnvironment& environment, const BuildCommand& command) {
   const AddressMap& addresses = *environment.context.addresses;
   auto source = environment.structures.find(command.source);
-  if (source == nullptr || source->micromaps != nullptr ||
+  if (source == nullptr || source->micromaps != nullptr || source->partitioned != nullptr ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
     return make_error(Id::kUpdate, "there is no acceleration structure of this type " +
                                        at_address(addresses, command.source) + ".");
@@ -242,6 +242,11 @@ rtapi::Status emit_postbuild_info(
     if (structure == nullptr) {
       return make_error(Id::kStructureSource,
                         "postbuild info is requested, but there is no acceleration structure " +
+                            at_address(*environment.context.addresses, source) + ".");
+    }
+    if (structure->partitioned != nullptr) {
+      return make_error(Id::kStructureSource,
+                        "there is no postbuild info of partitioned top levels, and one is " +
                             at_address(*environment.context.addresses, source) + ".");
     }
     uint64_t bytes = 0;

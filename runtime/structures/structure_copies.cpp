@@ -135,6 +135,12 @@ rtapi::Status copy(const StructureEnvironment& environment,
     return make_error(Id::kStructureSource, "there is no acceleration structure " +
                                                 at_address(addresses, command.source) + ".");
   }
+  if (source->partitioned != nullptr) {
+    return make_error(Id::kStructureSource,
+                      "the partitioned top level " + at_address(addresses, command.source) +
+                          " cannot be copied; an operation with it as the source and another "
+                          "destination makes a second one.");
+  }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
                       "the serialized acceleration structure", "kSerialization");

@@ -65,6 +65,8 @@ struct TopLevelBase {
   virtual ~TopLevelBase() = default;
 };
 
+struct PartitionedTopLevel;  // runtime/operations/partitioned_top_level.h
+
 // The structure at an address. Exactly one of the two levels and the micromaps is set.
 struct AccelerationStructure {
   uint64_t address = 0;
@@ -81,6 +83,8 @@ struct AccelerationStructure {
   // Top levels: the records as the build read them. Trees keep neither the addresses nor inactive
   // instances, which serialization and tools must return. 64 bytes an instance, shared by clones.
   std::shared_ptr<const std::vector<rtapi::RaytracingInstanceDesc>> instances;
+  // Partitioned top levels: what their instances were set to; `instances` is null then.
+  std::shared_ptr<const PartitionedTopLevel> partitioned;
   // Deserialized top levels: how many instances had no bottom level at their address yet.
   uint32_t missing_bottom_levels = 0;
   bool missing_reported = false;

@@ -41,6 +41,11 @@ class Target final : public runtime::CommandTarget {
     if (auto s = finish(); !s) return s;
     return device_.structures().emit(device_.stream(), command);
   }
+  rtapi::Status execute_operations(const runtime::RtasOperationsCommand& command,
+                                   const std::string& label) override {
+    if (auto s = finish(); !s) return s;
+    return device_.structures().execute(device_.stream(), command, label);
+  }
   rtapi::Status copy_structure(const runtime::CopyAccelerationStructureCommand& command) override {
     if (auto s = finish(); !s) return s;
     return device_.structures().copy(device_.stream(), command);

@@ -14,6 +14,7 @@ constexpr Rule kRules[] = {
 #define LATER(section, number, tag, title, reason) \
   {#section "-" #number, #tag[0], title, nullptr, nullptr, reason},
 #include "tests/conformance/omm_rules.inc"
+#include "tests/conformance/ptl_rules.inc"
 #include "tests/conformance/ras_rules.inc"
 #include "tests/conformance/ser_rules.inc"
 #include "tests/conformance/top_rules.inc"
@@ -22,7 +23,7 @@ constexpr Rule kRules[] = {
 };
 
 static_assert(std::count_if(std::begin(kRules), std::end(kRules),
-                            [](const Rule& rule) { return rule.tag == 'R'; }) == 496);
+                            [](const Rule& rule) { return rule.tag == 'R'; }) == 523);
 
 }  // namespace
 

@@ -19,6 +19,7 @@
 #include <rtapi/resource.h>
 #include <rtapi/result.h>
 #include <rtapi/root_signature.h>
+#include <rtapi/rtas_operations.h>
 #include <rtapi/state_object.h>
 
 namespace rtapi {
@@ -326,6 +327,19 @@ class CommandList {
   /// overlaps the destination. Warning: KA0797 an instance of a deserialized top level is inactive.
   void CopyRaytracingAccelerationStructure(GpuVirtualAddress dest, GpuVirtualAddress source,
                                            RaytracingAccelerationStructureCopyMode mode);
+
+  /// EXPERIMENTAL. Runs operations whose arguments stand in GPU memory when the list executes. The
+  /// descs are copied. Operations of one call run in any order, and so do the arguments of one; a
+  /// UAV barrier stands between a call and what uses its results. What is wrong with an argument in
+  /// GPU memory is a warning, and that argument is left out. [DXR 2.0:
+  /// ExecuteIndirectRTASOperations]
+  /// @errors KA0800; KA0549 the device does not have these operations; KA0748 inputs, or flags;
+  /// KA0749 an address: alignment, in no live buffer, a buffer of another kind or too small. When
+  /// it executes: KA0792 Embree failed, KA0795 the destination of a partitioned top level is too
+  /// small, KA0990. Warnings: KA0797 an instance is inactive, KA0788 an argument breaks a rule.
+  void ExecuteIndirectRTASOperations(
+      std::span<const RtasOperationDesc> descs,
+      ExecuteIndirectRtasOperationsFlags flags = ExecuteIndirectRtasOperationsFlags::kNone);
 
   /// Copies `size_bytes` from a buffer to another, or within one if the ranges do not overlap; 0
   /// bytes do nothing. The list keeps both alive. [D3D12: CopyBufferRegion]

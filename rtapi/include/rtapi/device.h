@@ -21,6 +21,7 @@
 #include <rtapi/resource.h>
 #include <rtapi/result.h>
 #include <rtapi/root_signature.h>
+#include <rtapi/rtas_operations.h>
 #include <rtapi/state_object.h>
 
 namespace rtapi {
@@ -63,6 +64,10 @@ struct DeviceDesc {
   /// kExperimentalShaderModel, and at least what the tier needs: 6.3 for 1.0, 6.5 for 1.1, 6.9 for
   /// 1.2 (KA0914).
   rtapi::ShaderModel ShaderModel = kHighestShaderModel;
+  /// EXPERIMENTAL: ExecuteIndirectRTASOperations, of whose operations partitioned top levels are
+  /// offered yet. Needs tier 1.1 and shader model 6.10 (KA0914).
+  /// [DXR 2.0: ClustersAndPTLASSupported]
+  bool IndirectRtasOperations = false;
   /// Lanes of a wave in compute shaders on the CPU: 4, 8, 16 or 32 (KA0914); 0: 8. Vulkan ignores
   /// it: there the driver decides. In ray shaders each thread is a wave of its own.
   /// [HLSL: WaveGetLaneCount]
@@ -340,6 +345,12 @@ class Device {
   Result<RaytracingAccelerationStructurePrebuildInfo>
   GetRaytracingAccelerationStructurePrebuildInfo(
       const BuildRaytracingAccelerationStructureInputs& inputs) const;
+
+  /// EXPERIMENTAL. Bytes that suffice for this operation and for every one with equal or smaller
+  /// maxima. Zeros on a device without these operations, and for inputs that are invalid; the
+  /// reason goes to OnMessage as a warning. [DXR 2.0: GetRTASOperationPrebuildInfo]
+  /// @errors as messages: KA0549 the device does not have them; KA0748 the inputs.
+  RtasOperationPrebuildInfo GetRTASOperationPrebuildInfo(const RtasOperationInputs& inputs) const;
 
   /// Tells whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this
   /// identifier, which is the start of its header. An empty handle recognizes none. Never fails.

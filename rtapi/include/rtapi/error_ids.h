@@ -150,6 +150,7 @@ inline constexpr ErrorId kNoRaytracing{545};  ///< device without ray tracing
 inline constexpr ErrorId kMicromapTier{546};  ///< opacity micromaps need tier 1.2
 inline constexpr ErrorId kNoMicromaps{547};  ///< backend has no opacity micromaps
 inline constexpr ErrorId kDataAccess{548};  ///< data access is experimental
+inline constexpr ErrorId kNoRtasOperations{549};  ///< device without indirect acceleration structure operations
 inline constexpr ErrorId kAttributesUnread{553};  ///< attributes declared of another size and not read
 inline constexpr ErrorId kFunctionUnresolved{560};  ///< function without a body
 inline constexpr ErrorId kFunctionDiffers{561};  ///< function declared with another signature
@@ -224,6 +225,8 @@ inline constexpr ErrorId kQueryHeap{744};  ///< invalid query heap
 inline constexpr ErrorId kQuery{745};  ///< invalid query
 inline constexpr ErrorId kMicromapArray{746};  ///< invalid opacity micromap array
 inline constexpr ErrorId kMicromapLinkage{747};  ///< invalid opacity micromap linkage
+inline constexpr ErrorId kRtasInputs{748};  ///< invalid inputs of an acceleration structure operation
+inline constexpr ErrorId kRtasData{749};  ///< invalid memory of an acceleration structure operation
 inline constexpr ErrorId kListNotOpen{800};  ///< command list is not open
 inline constexpr ErrorId kBarrier{802};  ///< invalid resource barrier
 inline constexpr ErrorId kAccelerationStructureTransition{803};  ///< transition of an acceleration structure buffer
@@ -273,6 +276,7 @@ inline constexpr ErrorId kExplain{916};  ///< cannot explain the pixel
 namespace backend {
 inline constexpr ErrorId kWaveSize{550};  ///< no waves of that size
 inline constexpr ErrorId kNoSubgroups{551};  ///< device lacks subgroup operations for waves
+inline constexpr ErrorId kOperationArgument{788};  ///< argument of an acceleration structure operation breaks a rule
 inline constexpr ErrorId kSerializedData{789};  ///< serialized acceleration structure cannot be read
 inline constexpr ErrorId kInputOutOfBounds{790};  ///< build input outside its buffer
 inline constexpr ErrorId kInputFormat{791};  ///< format not allowed in a build

@@ -19,6 +19,7 @@
 #include <rtapi/resource.h>           // IWYU pragma: export
 #include <rtapi/result.h>             // IWYU pragma: export
 #include <rtapi/root_signature.h>     // IWYU pragma: export
+#include <rtapi/rtas_operations.h>    // IWYU pragma: export
 #include <rtapi/shader_library.h>     // IWYU pragma: export
 #include <rtapi/shader_table.h>       // IWYU pragma: export
 #include <rtapi/state_object.h>       // IWYU pragma: export

@@ -96,6 +96,14 @@ Status check_device_level(const DeviceDesc& desc) {
     return make_error(Id::kDeviceDesc, "Tier ", row->name, " needs ShaderModel ",
                       GetName(row->needs), " or higher, but it is ", GetName(desc.ShaderModel));
   }
+  if (desc.IndirectRtasOperations &&
+      (desc.Tier < RaytracingTier::kTier1_1 || desc.ShaderModel < ShaderModel::k6_10)) {
+    return make_error(
+        Id::kDeviceDesc,
+        "IndirectRtasOperations needs tier 1.1 and ShaderModel 6.10 or higher, but they "
+        "are ",
+        row->name, " and ", GetName(desc.ShaderModel));
+  }
   return {};
 }
 

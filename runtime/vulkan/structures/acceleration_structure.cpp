@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/operations/operations.h"
 #include "runtime/structures/build_inputs.h"
 #include "runtime/structures/instances.h"
 #include "runtime/structures/structure_commands.h"
@@ -42,6 +43,8 @@ class Structures final : public AccelerationStructures {
                      const runtime::CopyAccelerationStructureCommand& command) override;
   rtapi::Status emit(CommandStream& stream,
                      const runtime::EmitPostbuildInfoCommand& command) override;
+  rtapi::Status execute(CommandStream& stream, const runtime::RtasOperationsCommand& command,
+                        const std::string& label) override;
   void evict(uint64_t address, uint64_t size_bytes) override { map_->evict(address, size_bytes); }
   std::shared_ptr<const AccelerationStructure> find(uint64_t address) const override {
     return map_->find(address);
@@ -170,6 +173,24 @@ rtapi::Status Structures::emit(CommandStream& stream,
                                const runtime::EmitPostbuildInfoCommand& command) {
   if (auto s = stream.flush(); !s) return s;
   return runtime::emit_postbuild_info(environment(), command.desc, command.sources);
+}
+
+rtapi::Status Structures::execute(CommandStream& stream,
+                                  const runtime::RtasOperationsCommand& command,
+                                  const std::string& label) {
+  if (auto s = stream.flush(); !s) return s;
+  runtime::BuildOperationLevels build;
+  build.partitioned = [&](const runtime::PartitionedTopLevel& partitioned,
+                          std::span<const uint32_t>,
+                          const std::shared_ptr<const runtime::TopLevelBase>&,
+                          AccelerationStructure& result) -> rtapi::Status {
+    auto level = TopLevel::build(gpu_, *instances_, partitioned.instances, BuildFlags::kNone);
+    if (!level) return level.error();
+    result.compacted_bytes = (*level)->held_bytes();
+    result.top_level = std::move(*level);
+    return {};
+  };
+  return runtime::execute_operations(environment(), command, label, build);
 }
 
 rtapi::Result<SceneTables> Structures::tables() {

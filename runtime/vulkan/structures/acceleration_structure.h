@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "runtime/backend/backend.h"
@@ -49,6 +50,9 @@ class AccelerationStructures {
                              const runtime::CopyAccelerationStructureCommand& command) = 0;
   virtual rtapi::Status emit(CommandStream& stream,
                              const runtime::EmitPostbuildInfoCommand& command) = 0;
+  virtual rtapi::Status execute(CommandStream& stream,
+                                const runtime::RtasOperationsCommand& command,
+                                const std::string& label) = 0;
   // Ends the structures with bytes in a range that is written or freed.
   virtual void evict(uint64_t address, uint64_t size_bytes) = 0;
 

@@ -47,7 +47,7 @@ VkAccelerationStructureInstanceKHR record_of(const runtime::Instance& instance,
 InstanceEntry entry_of(const runtime::Instance& instance, uint32_t index) {
   InstanceEntry entry;
   entry.instance_index = index;
-  entry.instance_id = instance.desc.InstanceID;
+  entry.instance_id = instance.id;
   if (instance.bottom_level != nullptr) {
     entry.primitive_remap = bottom_level_of(instance).primitive_remap();
   }

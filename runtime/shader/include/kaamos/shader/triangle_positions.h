@@ -26,6 +26,7 @@ struct GeometryPositions {
 struct InstanceTransform {
   float rows[12];                      // 3x4, row-major
   const GeometryPositions* positions;  // of the bottom level; null: there is none
+  uint32_t instance_id;
 };
 
 inline constexpr uint32_t kHitPositionTable = 6;  // its first word in HitObject::attributes
