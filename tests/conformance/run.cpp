@@ -167,9 +167,9 @@ bool refused_by_tier(const std::string& failures, rtapi::RaytracingTier tier) {
   using rtapi::RaytracingTier;
   const auto has = [&](const char* id) { return failures.find(id) != std::string::npos; };
   if (tier < RaytracingTier::kTier1_0 && has("KA0545")) return true;
-  if (tier < RaytracingTier::kTier1_2 && has("KA0546")) return true;
-  return tier < RaytracingTier::kTier1_1 && (has("KA0520") || has("KA0541") || has("KA0542") ||
-                                             has("needs tier 1.1, but this device"));
+  if (tier < RaytracingTier::kTier1_2 && (has("KA0546") || has("from tier 1.2 on"))) return true;
+  return tier < RaytracingTier::kTier1_1 &&
+         (has("KA0520") || has("KA0541") || has("KA0542") || has("needs tier 1.1"));
 }
 
 std::string run_here(const RuleTest& test, const Target& target) {
