@@ -104,18 +104,8 @@ rtapi::Status complete_top_levels(Device& device) {
 
 rtapi::Status execute_operations(Device& device, const runtime::RtasOperationsCommand& command,
                                  const std::string& label) {
-  runtime::BuildOperationLevels build;
-  build.partitioned =
-      [&](const runtime::PartitionedTopLevel& partitioned, std::span<const uint32_t>,
-          const std::shared_ptr<const runtime::TopLevelBase>&, AccelerationStructure& result) {
-        return measured(device, result, [&]() -> rtapi::Status {
-          auto level = TopLevel::build(device.build_context(), partitioned.instances);
-          if (!level) return level.error();
-          result.top_level = *level;
-          return {};
-        });
-      };
-  return runtime::execute_operations(device.structure_environment(), command, label, build);
+  return runtime::execute_operations(device.structure_environment(), command, label,
+                                     rebuild_level(device));
 }
 
 rtapi::Status build(Device& device, const runtime::BuildCommand& command) {

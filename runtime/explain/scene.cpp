@@ -245,15 +245,7 @@ const TopLevel* Scenes::find(uint64_t address) {
     }
     boxes.push_back(box);
   };
-  if (structure->partitioned != nullptr) {
-    for (const runtime::Instance& instance : structure->partitioned->instances) {
-      add(instance.desc, instance.id);
-    }
-  } else {
-    for (const rtapi::RaytracingInstanceDesc& desc : *structure->instances) {
-      add(desc, desc.InstanceID);
-    }
-  }
+  runtime::for_each_instance(*structure, add);
   level->bvh_.build(std::move(boxes));
   return level.get();
 }

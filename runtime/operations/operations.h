@@ -9,19 +9,15 @@
 #include <rtapi/result.h>
 
 #include "runtime/backend/commands.h"
-#include "runtime/operations/partitioned_top_level.h"
 #include "runtime/structures/structure_commands.h"
+#include "runtime/structures/structure_copies.h"
 
 namespace kaamos::runtime {
-
-struct BuildOperationLevels {
-  BuildPartitioned partitioned;
-};
 
 // The operations in order. All earlier commands are done, so that the host sees GPU memory as the
 // operations do. An error removes the device; what is wrong in GPU memory is a warning.
 rtapi::Status execute_operations(const StructureEnvironment& environment,
                                  const RtasOperationsCommand& command, const std::string& label,
-                                 const BuildOperationLevels& build);
+                                 const RebuildLevel& build);
 
 }  // namespace kaamos::runtime

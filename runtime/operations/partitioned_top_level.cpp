@@ -68,7 +68,7 @@ class Builder {
         inputs_(operation.inputs),
         notes_(environment, label) {}
 
-  rtapi::Status run(const BuildPartitioned& build);
+  rtapi::Status run(const RebuildLevel& build);
 
  private:
   // False: the operation is left out.
@@ -425,7 +425,7 @@ void Builder::activate(uint32_t index) {
   }
 }
 
-// The box is only looked at where its vertices are cheap to have in view: in checked mode.
+// For checked mode only, since it reads every vertex.
 void Builder::check_explicit_box(uint32_t index) {
   const WriteArgs& args = level_->slots[index].args;
   const auto& level = level_->instances[index].bottom_level;
@@ -471,7 +471,7 @@ void Builder::activate_changed() {
   }
 }
 
-rtapi::Status Builder::run(const BuildPartitioned& build) {
+rtapi::Status Builder::run(const RebuildLevel& build) {
   const uint64_t dest = data_.DestAccelerationStructureData;
   const uint64_t bytes = partitioned_bytes(inputs_);
   if (auto s = check_destination(addresses_, dest, bytes); !s) return s;
@@ -488,10 +488,7 @@ rtapi::Status Builder::run(const BuildPartitioned& build) {
   result.compacted_bytes = bytes;
   result.instance_count = inputs_.InstanceCount;
   result.partitioned = level_;
-  const bool keeps = source_ != nullptr && in_place();
-  if (auto s = build(*level_, changed_, keeps ? source_->top_level : nullptr, result); !s) {
-    return s;
-  }
+  if (auto s = build.top_level(level_->instances, result); !s) return s;
   environment_.structures.place(std::move(result));
   return {};
 }
@@ -500,7 +497,7 @@ rtapi::Status Builder::run(const BuildPartitioned& build) {
 
 rtapi::Status build_partitioned(const StructureEnvironment& environment,
                                 const RtasOperation& operation, const std::string& label,
-                                const BuildPartitioned& build) {
+                                const RebuildLevel& build) {
   try {
     return Builder(environment, operation, label).run(build);
   } catch (const std::bad_alloc&) {

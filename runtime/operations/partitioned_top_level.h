@@ -6,9 +6,7 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "runtime/backend/commands.h"
 #include "runtime/structures/instances.h"
 #include "runtime/structures/structure_commands.h"
+#include "runtime/structures/structure_copies.h"
 
 namespace kaamos::runtime {
 
@@ -39,17 +38,21 @@ struct PartitionedTopLevel {
   std::vector<Instance> instances;
 };
 
-// What a backend makes of it: sets result.top_level and compacted_bytes. `changed` are the indices
-// of the instances that differ from those of `previous`, the level at the destination that this one
-// replaces in place; without one it is null, and all are new.
-using BuildPartitioned = std::function<rtapi::Status(
-    const PartitionedTopLevel& level, std::span<const uint32_t> changed,
-    const std::shared_ptr<const TopLevelBase>& previous, AccelerationStructure& result)>;
+// Calls `visit` with the record and the InstanceID of each instance of a top level, partitioned or
+// not, in the order of InstanceIndex.
+template <class Visit>
+void for_each_instance(const AccelerationStructure& top_level, Visit&& visit) {
+  if (top_level.partitioned != nullptr) {
+    for (const Instance& one : top_level.partitioned->instances) visit(one.desc, one.id);
+  } else {
+    for (const auto& desc : *top_level.instances) visit(desc, desc.InstanceID);
+  }
+}
 
 // Runs an operation of type kPartitionedTlas. What is wrong in GPU memory is a warning, KA0788 or
 // KA0797, that begins with `label`. Errors: KA0795 the destination is too small, and the backend's.
 rtapi::Status build_partitioned(const StructureEnvironment& environment,
                                 const RtasOperation& operation, const std::string& label,
-                                const BuildPartitioned& build);
+                                const RebuildLevel& build);
 
 }  // namespace kaamos::runtime

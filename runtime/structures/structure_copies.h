@@ -16,7 +16,8 @@
 
 namespace kaamos::runtime {
 
-// The functions by which a backend builds what was deserialized. Both functions set compacted_bytes
+// The functions by which a backend builds what does not come from a BuildCommand: what was
+// deserialized, and partitioned top levels. Both functions set compacted_bytes
 // as a BuildLevel does.
 struct RebuildLevel {
   // `geometries` have host addresses, all valid. The level adopts `shapes`, so that updates are

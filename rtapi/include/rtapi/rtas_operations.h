@@ -73,7 +73,7 @@ struct RtasPartitionedTlasOperationData {
 /// One operation of ExecuteIndirectRTASOperations. [DXR 2.0: D3D12_RTAS_OPERATION_DESC]
 struct RtasOperationDesc {
   const RtasOperationInputs* pInputs = nullptr;  ///< in host memory, copied when the call is made
-  /// Of kPartitionedTlas; in host memory, copied when the call is made.
+  /// The addresses that kPartitionedTlas works on. In host memory, copied when the call is made.
   const RtasPartitionedTlasOperationData* pPartitionedTlasOperationData = nullptr;
 };
 

@@ -7,6 +7,7 @@
 #include "rtapi/src/explain/address_text.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 #include "rtapi/src/pipelines/state_object_impl.h"
+#include "runtime/operations/partitioned_top_level.h"
 #include "runtime/structures/structure_map.h"
 
 namespace rtapi {
@@ -113,6 +114,8 @@ class Describer {
                                 const uint8_t* argument);
   void decode_descriptor_table(const RootParameter& parameter, TableArgument& out);
   void add_miss_reaches();
+  void add_reaches_of(DescribedTable& table, const RaytracingInstanceDesc& instance,
+                      uint32_t index_of_instance, uint32_t id);
   Status add_hit_reaches();
   void add_reach(DescribedTable& table, uint64_t index, const TableReach& reach);
   void add_problem(std::string text) { out_.Problems.push_back(std::move(text)); }
@@ -319,32 +322,37 @@ void Describer::add_miss_reaches() {
   }
 }
 
+void Describer::add_reaches_of(DescribedTable& table, const RaytracingInstanceDesc& instance,
+                               uint32_t index_of_instance, uint32_t id) {
+  const auto bottom = device_.backend->find_structure(instance.AccelerationStructure);
+  if (bottom == nullptr || bottom->bottom_level == nullptr) return;
+  const auto geometries = static_cast<uint32_t>(bottom->bottom_level->geometry_shapes().size());
+  for (uint32_t g = 0; g < geometries; ++g) {
+    for (uint32_t type = 0; type < desc_.RayTypes.size(); ++type) {
+      const RayTypeDesc& ray = desc_.RayTypes[type];
+      const uint64_t index =
+          uint64_t{ray.RayContributionToHitGroupIndex & 15u} +
+          uint64_t{ray.MultiplierForGeometryContributionToHitGroupIndex & 15u} * g +
+          instance.InstanceContributionToHitGroupIndex;
+      add_reach(table, index, {index_of_instance, id, g, type});
+    }
+  }
+}
+
 Status Describer::add_hit_reaches() {
   if (desc_.TopLevel == 0) return {};
   const auto top = device_.backend->find_structure(desc_.TopLevel);
-  if (top == nullptr || top->instances == nullptr) {
+  if (top == nullptr || top->top_level == nullptr) {
     return make_error(Id::kTableDescription, "there is no top level at ",
                       ToText(describe_where(device_, desc_.TopLevel)),
                       "; it was never built, or has been overwritten");
   }
   DescribedTable* table = find(kHitGroup.name);
   if (table == nullptr) return {};
-  const auto& instances = *top->instances;
-  for (uint32_t i = 0; i < instances.size(); ++i) {
-    const auto bottom = device_.backend->find_structure(instances[i].AccelerationStructure);
-    if (bottom == nullptr || bottom->bottom_level == nullptr) continue;
-    const auto geometries = static_cast<uint32_t>(bottom->bottom_level->geometry_shapes().size());
-    for (uint32_t g = 0; g < geometries; ++g) {
-      for (uint32_t type = 0; type < desc_.RayTypes.size(); ++type) {
-        const RayTypeDesc& ray = desc_.RayTypes[type];
-        const uint64_t index =
-            uint64_t{ray.RayContributionToHitGroupIndex & 15u} +
-            uint64_t{ray.MultiplierForGeometryContributionToHitGroupIndex & 15u} * g +
-            instances[i].InstanceContributionToHitGroupIndex;
-        add_reach(*table, index, {i, instances[i].InstanceID, g, type});
-      }
-    }
-  }
+  uint32_t index_of_instance = 0;
+  runtime::for_each_instance(*top, [&](const RaytracingInstanceDesc& instance, uint32_t id) {
+    add_reaches_of(*table, instance, index_of_instance++, id);
+  });
   if (out_of_table_ != 0) {
     add_problem(concat(first_out_of_table_,
                        out_of_table_ == 1 ? "" : concat(" (and ", out_of_table_ - 1, " more)"),

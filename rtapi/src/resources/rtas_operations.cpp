@@ -102,7 +102,7 @@ Result<RtasOperation> describe_operation(const DeviceImpl& device,
   RtasOperation operation;
   if (inputs.Type != RtasOperationType::kPartitionedTlas) {
     return bad_inputs("Type is ", static_cast<uint32_t>(inputs.Type),
-                      "; only kPartitionedTlas (8) is offered yet");
+                      "; only kPartitionedTlas (8) is offered so far");
   }
   if (inputs.pPartitionedTLASInputsDesc == nullptr) {
     return bad_inputs("pPartitionedTLASInputsDesc is null");

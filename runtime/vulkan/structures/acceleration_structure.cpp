@@ -179,18 +179,7 @@ rtapi::Status Structures::execute(CommandStream& stream,
                                   const runtime::RtasOperationsCommand& command,
                                   const std::string& label) {
   if (auto s = stream.flush(); !s) return s;
-  runtime::BuildOperationLevels build;
-  build.partitioned = [&](const runtime::PartitionedTopLevel& partitioned,
-                          std::span<const uint32_t>,
-                          const std::shared_ptr<const runtime::TopLevelBase>&,
-                          AccelerationStructure& result) -> rtapi::Status {
-    auto level = TopLevel::build(gpu_, *instances_, partitioned.instances, BuildFlags::kNone);
-    if (!level) return level.error();
-    result.compacted_bytes = (*level)->held_bytes();
-    result.top_level = std::move(*level);
-    return {};
-  };
-  return runtime::execute_operations(environment(), command, label, build);
+  return runtime::execute_operations(environment(), command, label, rebuild_level());
 }
 
 rtapi::Result<SceneTables> Structures::tables() {

@@ -101,7 +101,7 @@ struct FunctionInfo : FunctionFacts {
   bool is_exported = false;
   std::vector<ParameterInfo> parameters;
   const Type* result = nullptr;
-  // Of a function that returns a RayQuery: the local variable or parameter that it returns.
+  // The local variable or parameter that the function returns, if its result is a RayQuery.
   const ir::Variable* returned_query = nullptr;
   uint32_t sequence = 0;
   uint32_t body_sequence = 0;
