@@ -53,9 +53,8 @@ void run_thread(FiberThread& thread) {
 void run_threads(void* argument) {
   auto& run = *static_cast<GroupRun*>(argument);
   const shader::ComputeDesc& compute = run.pipeline->compute();
-  const uint32_t* size = compute.thread_group;
   const uint32_t width = compute.lanes != nullptr ? uint32_t{shader::kLanes} : 1;
-  run_fibers(run.fibers, size[0] * size[1] * size[2], width,
+  run_fibers(run.fibers, run.fibers.group.threads, width,
              compute.has_waves ? std::max(run.fibers.group.wave_lanes / width, 1u) : 0);
 }
 
@@ -92,6 +91,7 @@ void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
     std::memset(shared.get(), 0, shared_words * sizeof(Word));
     run.group.shared = shared.get();
     run.group.wave_lanes = job.wave_lanes;
+    run.group.threads = compute.thread_group[0] * compute.thread_group[1] * compute.thread_group[2];
     run.group.backend = &run;
     run.invocation.dispatch = &job.dispatch->abi;
     run.invocation.slots = job.pipeline->shader().slots;

@@ -7,14 +7,17 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/backend/compute_limits.h"
 #include "runtime/backend/errors.h"
-#include "runtime/backend/wave_size.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/raster/target_codec.h"
 #include "runtime/shader/texture/format_codec.h"
 
 namespace kaamos::embree {
 namespace {
+
+// Each thread of the device has so much for the groups that it runs.
+constexpr uint64_t kMostGroupsharedBytes = 16 << 20;
 
 // simd256: on this kind of processor Embree would choose four-wide trees, but eight-wide ones trace
 // 8 to 33 % faster. Ignored on processors without AVX.
@@ -198,6 +201,7 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_
   if (auto s = runtime::check_wave_size(*pipeline, wave_lanes_, wave_lanes_, waves); !s) {
     return s.error();
   }
+  if (auto s = runtime::check_groupshared(*pipeline, kMostGroupsharedBytes); !s) return s.error();
   return std::shared_ptr<runtime::BackendPipeline>(
       std::make_shared<ComputePipeline>(std::move(pipeline)));
 }

@@ -142,7 +142,7 @@ void group_barrier(shader::ComputeGroup& group) {
 
 void wave_operation(shader::ComputeGroup& group, const shader::WaveCall& call) {
   auto& run = *static_cast<FiberGroup*>(group.backend);
-  if (answer_at_once(call, run.current->first, group.wave_lanes)) return;
+  if (answer_at_once(call, run.current->first, group)) return;
   run.current->wave = &call;
   wait(run, Waits::kForWave);
 }

@@ -114,12 +114,24 @@ void run_wave(const std::vector<WaveArrival>& arrivals) {
   }
 }
 
-bool answer_at_once(const WaveCall& call, uint32_t first_thread, uint32_t wave_lanes) {
-  if (call.op != WaveOp::kLaneCount && call.op != WaveOp::kLaneIndex) return false;
+bool answer_at_once(const WaveCall& call, uint32_t first_thread,
+                    const shader::ComputeGroup& group) {
+  if (!shader::is_answered_at_once(call.op)) return false;
+  const uint32_t lanes = group.wave_lanes;
+  const auto answer = [&](uint32_t thread) {
+    switch (call.op) {
+      case WaveOp::kLaneIndex:
+        return thread % lanes;
+      case WaveOp::kGroupWaveIndex:
+        return thread / lanes;
+      case WaveOp::kGroupWaveCount:
+        return (group.threads + lanes - 1) / lanes;
+      default:
+        return lanes;
+    }
+  };
   auto* const out = static_cast<uint32_t*>(call.result);
-  shader::wave::each(call.active, [&](uint32_t i) {
-    out[i] = call.op == WaveOp::kLaneCount ? wave_lanes : (first_thread + i) % wave_lanes;
-  });
+  shader::wave::each(call.active, [&](uint32_t i) { out[i] = answer(first_thread + i); });
   return true;
 }
 

@@ -21,8 +21,9 @@ std::vector<WaveArrival> least_path(const std::vector<WaveArrival>& arrivals);
 // Gives each of them its results.
 void run_wave(const std::vector<WaveArrival>& arrivals);
 
-// Answers WaveGetLaneCount and WaveGetLaneIndex, which wait for nobody; returns false for any other
-// operation. `first_thread` is the index in its group of the call's lane 0.
-bool answer_at_once(const shader::WaveCall& call, uint32_t first_thread, uint32_t wave_lanes);
+// Answers what waits for nobody; returns false for any other operation. `first_thread` is the index
+// in its group of the call's lane 0.
+bool answer_at_once(const shader::WaveCall& call, uint32_t first_thread,
+                    const shader::ComputeGroup& group);
 
 }  // namespace kaamos::embree

@@ -120,7 +120,7 @@ const std::vector<Layer>& all_layers() {
        "`kDeviceRemoved`, or any error of a command, removes the device "
        "(`Device::GetDeviceRemovedReason`); warnings arrive through `DeviceDesc::OnMessage`, and "
        "execution goes on. Table: `runtime/backend/errors.inc`.",
-       {{550, 551}, {700, 999}},
+       {{550, 552}, {700, 999}},
        true,
        "backend",
        rows_of(kBackends)},

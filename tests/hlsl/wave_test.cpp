@@ -81,6 +81,7 @@ struct Case {
   const char* body;
   bool wide;  // whether it can run eight threads at once
   void (*model)(const Active& wave, uint32_t lanes);
+  const char* target = "lib_6_7";
 };
 
 void model_lanes(const Active& wave, uint32_t lanes) {
@@ -89,6 +90,14 @@ void model_lanes(const Active& wave, uint32_t lanes) {
     thread->write(thread->lane);
     thread->write(thread == wave[0] ? 1 : 0);
     thread->write(ballot(wave));
+  }
+}
+
+void model_waves_of_group(const Active& wave, uint32_t lanes) {
+  for (Thread* thread : wave) {
+    thread->write(thread->i / lanes);
+    thread->write((kThreads + lanes - 1) / lanes);
+    if (thread->v % 2 == 1) thread->write(thread->i / lanes + 7);
   }
 }
 
@@ -238,6 +247,12 @@ constexpr Case kCases[] = {
   write(WaveActiveBallot(true).x);
 })",
      true, model_lanes},
+    {"waves_of_group", R"(
+  write(GetGroupWaveIndex());
+  write(GetGroupWaveCount());
+  if (v % 2 == 1) write(GetGroupWaveIndex() + 7);
+})",
+     true, model_waves_of_group, "lib_6_10"},
     {"reductions", R"(
   if (v % 2 == 1) {
     write(WaveActiveSum(v));
@@ -354,7 +369,8 @@ uint f(uint x) {
 hlsl::FrontendOptions options_of(const Case& test) {
   hlsl::FrontendOptions options;
   options.path = std::string(test.name) + ".hlsl";
-  options.target = "lib_6_7";
+  options.target = test.target;
+  options.experimental = true;
   options.text = std::string(kHead) + kHelpers + kMain + test.body;
   return options;
 }

@@ -276,6 +276,7 @@ inline constexpr ErrorId kExplain{916};  ///< cannot explain the pixel
 namespace backend {
 inline constexpr ErrorId kWaveSize{550};  ///< no waves of that size
 inline constexpr ErrorId kNoSubgroups{551};  ///< device lacks subgroup operations for waves
+inline constexpr ErrorId kGroupsharedMemory{552};  ///< too much groupshared memory for the device
 inline constexpr ErrorId kOperationArgument{788};  ///< argument of an acceleration structure operation breaks a rule
 inline constexpr ErrorId kSerializedData{789};  ///< serialized acceleration structure cannot be read
 inline constexpr ErrorId kInputOutOfBounds{790};  ///< build input outside its buffer
@@ -580,8 +581,9 @@ inline constexpr ErrorId kBufferSize{2546};  ///< constant buffer '{0}' has {1} 
 inline constexpr ErrorId kPackOverlap{2547};  ///< packoffset of '{0}' overlaps '{1}'
 inline constexpr ErrorId kPackOffsetPlace{2548};  ///< packoffset of '{0}' is ignored: it is for members of a constant buffer
 inline constexpr ErrorId kElementSize{2549};  ///< an element of '{0}' has {1} bytes; D3D12 allows 2048
-inline constexpr ErrorId kGroupsharedSize{2550};  ///< the groupshared variables of '{0}' take {1} bytes; D3D12 allows 32768
+inline constexpr ErrorId kGroupsharedSize{2550};  ///< the groupshared variables of '{0}' take {1} bytes; allowed are {2}
 inline constexpr ErrorId kConstantSpace{2551};  ///< '{0}' is in the constant buffer of globals, whose members have no register space
+inline constexpr ErrorId kGroupsharedLimit{2552};  ///< [GroupSharedLimit] cannot be {0} bytes
 inline constexpr ErrorId kShaderAttribute{2560};  ///< [shader()] takes "raygeneration", "intersection", "anyhit", "closesthit", "miss", "callable", "compute", "vertex" or "pixel", not {0}
 inline constexpr ErrorId kSkippedStage{2561};  ///< '{0}' is skipped: {1} shaders are not supported yet
 inline constexpr ErrorId kNoEntryPoint{2562};  ///< entry point '{0}' not found

@@ -171,7 +171,8 @@ class Analysis {
         write(stmt.place->variable, true, region);
         return kNone;
       case StmtKind::kWave: {
-        const bool differs = stmt.wave != shader::WaveOp::kLaneCount;
+        const bool differs =
+            stmt.wave != shader::WaveOp::kLaneCount && stmt.wave != shader::WaveOp::kGroupWaveCount;
         facts.blends = write(stmt.result, differs, region);
         return kNone;
       }

@@ -97,6 +97,10 @@ const std::vector<StrictCase>& strict_cases() {
               "struct S { float x[600]; };\nStructuredBuffer<S> @b;")},
       {"MuchGroupshared", Id::kGroupsharedSize,
        kernel("a[0] = b[0] = 1;", "groupshared float4 a[1024];\ngroupshared float4 @b[1025];")},
+      {"MoreGroupsharedThanDeclared", Id::kGroupsharedSize,
+       "groupshared float4 @a[5];\n[shader(\"compute\")] [GroupSharedLimit(64)]\n"
+       "[numthreads(1, 1, 1)] void main() { a[0] = 1; }",
+       "lib_6_10"},
       {"GroupsharedInRays", Id::kStageStrict,
        "groupshared uint a;\n[shader(\"raygeneration\")] void main() { @a = 1; }"},
       {"FunctionBesideInstance", Id::kAmbiguousStrict,
@@ -128,12 +132,14 @@ class Strict : public testing::TestWithParam<StrictCase> {};
 TEST_P(Strict, WarnsByDefault) {
   FrontendOptions options;
   options.target = GetParam().target;
+  options.experimental = true;
   expect_at_mark(GetParam().id, GetParam().text, options);
 }
 
 TEST_P(Strict, Refuses) {
   FrontendOptions options;
   options.target = GetParam().target;
+  options.experimental = true;
   options.strict = true;
   expect_at_mark(GetParam().id, GetParam().text, options);
 }

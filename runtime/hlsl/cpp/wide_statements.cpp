@@ -460,6 +460,11 @@ void WideEmitter::wave(const Stmt& stmt) {
   if (stmt.wave == shader::WaveOp::kLaneCount) {
     text = "ctx.group->wave_lanes";
     if (varying) text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
+  } else if (stmt.wave == shader::WaveOp::kGroupWaveCount) {
+    text = "(ctx.group->threads + ctx.group->wave_lanes - 1) / ctx.group->wave_lanes";
+    if (varying) text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
+  } else if (stmt.wave == shader::WaveOp::kGroupWaveIndex) {
+    text = "ks::wide_group_wave_index<" + type(stmt.result->type) + ">(*ctx.group, ctx.first)";
   } else if (stmt.wave == shader::WaveOp::kLaneIndex) {
     text = "ks::wide_lane_index<" + type(stmt.result->type) + ">(*ctx.group, ctx.first)";
   } else if (shader::is_derivative(stmt.wave) &&

@@ -21,6 +21,7 @@ constexpr std::string_view kKnown[] = {
     "fastopt",
     "flatten",
     "forcecase",
+    "groupsharedlimit",
     "instance",
     "loop",
     "maxrecords",

@@ -207,6 +207,10 @@ std::string GlslEmitter::wave_text(const Stmt& stmt) {
       return "gl_SubgroupSize";
     case WaveOp::kLaneIndex:
       return "gl_SubgroupInvocationID";
+    case WaveOp::kGroupWaveIndex:
+      return "gl_SubgroupID";
+    case WaveOp::kGroupWaveCount:
+      return "gl_NumSubgroups";
     case WaveOp::kIsFirstLane:
       return "subgroupElect()";
     case WaveOp::kCountBits:

@@ -204,6 +204,8 @@ using O = WaveOperand;
 constexpr WaveRule kWaves[] = {
     {"WaveGetLaneCount", W::kLaneCount, O::kNone, 0},
     {"WaveGetLaneIndex", W::kLaneIndex, O::kNone, 0},
+    {"GetGroupWaveIndex", W::kGroupWaveIndex, O::kNone, 10},
+    {"GetGroupWaveCount", W::kGroupWaveCount, O::kNone, 10},
     {"WaveIsFirstLane", W::kIsFirstLane, O::kNone, 0},
     {"WaveActiveAnyTrue", W::kAnyTrue, O::kBool, 0},
     {"WaveActiveAllTrue", W::kAllTrue, O::kBool, 0},
@@ -267,8 +269,6 @@ constexpr Family kUnsupported[] = {
     {"MaybeReorderThread", "shader execution reordering", true},
     {"ReorderThread", "shader execution reordering", true},
     {"GetRemainingRecursionLevels", "node shaders", true},
-    {"GetGroupWaveIndex", "waves of a group, Shader Model 6.10", true},
-    {"GetGroupWaveCount", "waves of a group, Shader Model 6.10", true},
     {"__builtin_LinAlg_", "linear algebra, Shader Model 6.10", false},
     {"__builtin_MatVecMul", "linear algebra, Shader Model 6.10", false},
     {"__builtin_OuterProductAccumulate", "linear algebra, Shader Model 6.10", true},

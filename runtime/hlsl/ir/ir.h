@@ -482,6 +482,7 @@ struct EntryPoint {
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
   uint32_t attribute_type = 0;   // shader::ExportDesc::attribute_type
   uint32_t thread_group[3] = {1, 1, 1};
+  uint32_t groupshared_limit = 32768;  // bytes; [GroupSharedLimit]
   // [WaveSize]: lanes that a wave must have, and may have; 0: any
   uint32_t least_wave_lanes = 0;
   uint32_t most_wave_lanes = 0;

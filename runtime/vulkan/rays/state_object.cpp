@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/backend/compute_limits.h"
 #include "runtime/backend/errors.h"
-#include "runtime/backend/wave_size.h"
 #include "runtime/vulkan/rays/callable_frame.h"
 #include "runtime/vulkan/rays/pipeline_stack.h"
 #include "runtime/vulkan/spirv/shader_stage.h"
@@ -325,6 +325,8 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> ComputePipeline::create
   Gpu& gpu = pipeline->layout_->gpu();
   const runtime::LinkedShader& shader = pipeline->linked_->shader;
   if (auto s = check_waves(gpu, *pipeline->linked_); !s) return s.error();
+  const uint64_t most_bytes = gpu.properties().core.limits.maxComputeSharedMemorySize;
+  if (auto s = runtime::check_groupshared(*pipeline->linked_, most_bytes); !s) return s.error();
   StageList stages(gpu, {});
   if (auto added = stages.add(shader); !added) return added.error();
   VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};

@@ -88,7 +88,7 @@ class PixelWave {
 }  // namespace
 
 bool leaves_out_helpers(WaveOp op) {
-  return op != WaveOp::kLaneCount && op != WaveOp::kLaneIndex && !shader::is_quad_operation(op) &&
+  return !shader::is_answered_at_once(op) && !shader::is_quad_operation(op) &&
          !shader::is_derivative(op);
 }
 

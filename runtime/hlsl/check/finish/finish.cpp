@@ -48,7 +48,6 @@ class Reports final : public FinishReport, public PayloadReport {
 
   // The memory that the groups of one shader share is limited. [D3D12]
   void reached(const std::vector<GlobalFacts*>& globals, const ir::EntryPoint& entry) override {
-    constexpr uint32_t kMaxBytes = 32768;
     uint64_t bytes = 0;
     const VariableInfo* last = nullptr;
     for (const GlobalFacts* global : globals) {
@@ -57,9 +56,9 @@ class Reports final : public FinishReport, public PayloadReport {
       bytes += layout_of(variable->type, ir::Layout::kStructured).size;
       if (!last || last->decl->location.raw < variable->decl->location.raw) last = variable;
     }
-    if (bytes <= kMaxBytes) return;
+    if (bytes <= entry.groupshared_limit) return;
     messages_.report(CheckId::kGroupsharedSize, last->decl->location,
-                     {entry.name, std::to_string(bytes)});
+                     {entry.name, std::to_string(bytes), std::to_string(entry.groupshared_limit)});
   }
 
   void no_register(const BindingFacts& binding) override {

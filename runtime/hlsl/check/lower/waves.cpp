@@ -91,6 +91,9 @@ std::optional<Value> Waves::call_wave(std::string_view name, std::vector<Value>&
   if (shader::is_quad_operation(rule->op)) {
     lower_.intrinsics.use_in_stages(rule->name, ir::kStageCompute | ir::kStagePixel, location);
   }
+  if (rule->op == WaveOp::kGroupWaveIndex || rule->op == WaveOp::kGroupWaveCount) {
+    lower_.intrinsics.use_in_stages(rule->name, ir::kStageCompute, location);
+  }
   const Type* number = types_.scalar(Scalar::kUint32);
   const Type* four = types_.vector(Scalar::kUint32, 4);
   std::vector<const ir::Expr*> operands;

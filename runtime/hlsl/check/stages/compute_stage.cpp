@@ -36,7 +36,32 @@ bool ComputeStage::read_thread_group(FunctionInfo* function, ir::EntryPoint& ent
     report(CheckId::kThreadGroup, attribute->location, {"X*Y*Z", std::to_string(product), "1024"});
     return false;
   }
-  return read_wave_size(function, entry);
+  return read_groupshared_limit(function, entry) && read_wave_size(function, entry);
+}
+
+// [GroupSharedLimit(bytes)]
+bool ComputeStage::read_groupshared_limit(FunctionInfo* function, ir::EntryPoint& entry) {
+  constexpr std::string_view kName = "GroupSharedLimit";
+  const Attribute* attribute = find_attribute(*function, kName);
+  if (!attribute) return true;
+  if (shader_model_minor(program_.options->target) < 10) {
+    report(CheckId::kNeedsShaderModel, attribute->location, {"[GroupSharedLimit]", "6.10"});
+    return false;
+  }
+  if (attribute->arguments.size() != 1) {
+    report(CheckId::kArgumentCount, attribute->location,
+           {std::string(kName), "1", std::to_string(attribute->arguments.size())});
+    return false;
+  }
+  const auto bytes = lower_.constant_integer(attribute->arguments[0], function->scope,
+                                             "a limit of groupshared memory");
+  if (!bytes) return false;
+  if (*bytes < 0 || *bytes > UINT32_MAX) {
+    report(CheckId::kGroupsharedLimit, attribute->arguments[0]->location, {std::to_string(*bytes)});
+    return false;
+  }
+  entry.groupshared_limit = static_cast<uint32_t>(*bytes);
+  return true;
 }
 
 // [WaveSize(lanes)] or [WaveSize(least, most, preferred)].

@@ -15,6 +15,7 @@ class ComputeStage : StagePart {
 
  private:
   bool read_thread_group(FunctionInfo* function, ir::EntryPoint& entry);
+  bool read_groupshared_limit(FunctionInfo* function, ir::EntryPoint& entry);
   bool read_wave_size(FunctionInfo* function, ir::EntryPoint& entry);
 };
 

@@ -16,7 +16,7 @@
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 15;
+inline constexpr uint32_t kAbiVersion = 16;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -192,6 +192,7 @@ struct ComputeGroup {
   uint32_t wave_lanes = 8;
   void* shared = nullptr;  // groupshared memory, ComputeDesc::shared_bytes, zeroed by the backend
   void* backend = nullptr;
+  uint32_t threads = 1;  // of the group
 };
 
 enum class AnyHitResult : uint32_t { kAccept = 0, kIgnore = 1, kAcceptAndEndSearch = 2 };

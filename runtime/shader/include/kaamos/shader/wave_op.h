@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Wave operations: their names, and what one passes to the backend. [HLSL: Shader Model 6.0, Wave
-// intrinsics; Shader Model 6.5, WaveMatch and WaveMultiPrefix; Shader Model 6.7, QuadAny, QuadAll]
+// intrinsics; Shader Model 6.5, WaveMatch and WaveMultiPrefix; Shader Model 6.7, QuadAny, QuadAll;
+// Shader Model 6.10, GetGroupWaveIndex, GetGroupWaveCount]
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,10 @@ inline constexpr uint32_t kDefaultWaveLanes = 8;
 
 // The second operand is in parentheses.
 enum class WaveOp : uint8_t {
-  kLaneCount,  // uint, as the next one; neither has an operand or waits for other lanes
+  kLaneCount,  // uint, as the next ones; none has an operand or waits for other lanes
   kLaneIndex,
+  kGroupWaveIndex,  // as the next one, of compute shaders
+  kGroupWaveCount,
   kIsFirstLane,  // bool, without an operand
   kAnyTrue,      // bool of a bool, as the next one
   kAllTrue,
@@ -68,6 +71,9 @@ enum class WaveScalar : uint8_t {
   kFloat64,
 };
 
+constexpr bool is_answered_at_once(WaveOp op) {
+  return op <= WaveOp::kGroupWaveCount;
+}
 constexpr bool has_lane_operand(WaveOp op) {
   return op == WaveOp::kReadLaneAt || op == WaveOp::kQuadReadLaneAt;
 }
@@ -88,8 +94,8 @@ constexpr bool gives_mask(WaveOp op) {
   return op == WaveOp::kBallot || op == WaveOp::kMatch;
 }
 constexpr bool gives_number(WaveOp op) {
-  return op == WaveOp::kLaneCount || op == WaveOp::kLaneIndex || op == WaveOp::kCountBits ||
-         op == WaveOp::kPrefixCountBits || op == WaveOp::kMultiPrefixCountBits;
+  return is_answered_at_once(op) || op == WaveOp::kCountBits || op == WaveOp::kPrefixCountBits ||
+         op == WaveOp::kMultiPrefixCountBits;
 }
 
 // The operands and the path that one caller, which is one thread or `width` neighbouring threads

@@ -222,7 +222,7 @@ KAAMOS_INLINE void derivative(WaveOp op, const Operands<T>& o) {
 
 }  // namespace wave
 
-// For every operation but kLaneCount and kLaneIndex.
+// For every operation that is not answered at once.
 template <class T>
 KAAMOS_INLINE void wave_results(WaveOp op, const wave::Operands<T>& o) {
   switch (op) {

@@ -39,6 +39,15 @@ KAAMOS_INLINE R wide_lane_index(const ComputeGroup& group, uint32_t first) {
   return out;
 }
 
+template <class R>
+KAAMOS_INLINE R wide_group_wave_index(const ComputeGroup& group, uint32_t first) {
+  R out{};
+  for (int lane = 0; lane < kLanes; ++lane) {
+    set(out, lane, (first + static_cast<uint32_t>(lane)) / group.wave_lanes);
+  }
+  return out;
+}
+
 template <WaveOp kOp, class R, class W>
 inline R wide_wave_call(Invocation& invocation, ComputeGroup& group, const lanes& active,
                         const uint32_t* path, uint32_t path_length, const W& value,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/backend/wave_size.h"
+#include "runtime/backend/compute_limits.h"
 
 #include "runtime/backend/errors.h"
 
@@ -17,6 +17,15 @@ rtapi::Status check_wave_size(const LinkedCompute& pipeline, uint32_t least, uin
   return make_error(Id::kWaveSize, "compute shader \"" + pipeline.shader.name +
                                        "\" needs waves of " + asked + " lanes [WaveSize]; " +
                                        device);
+}
+
+rtapi::Status check_groupshared(const LinkedCompute& pipeline, uint64_t most_bytes) {
+  const uint64_t bytes = pipeline.shader.code->compute->shared_bytes;
+  if (bytes <= most_bytes) return {};
+  return make_error(Id::kGroupsharedMemory, "compute shader \"" + pipeline.shader.name + "\" has " +
+                                                std::to_string(bytes) +
+                                                " bytes of groupshared memory; this device has " +
+                                                std::to_string(most_bytes) + " for a group.");
 }
 
 }  // namespace kaamos::runtime

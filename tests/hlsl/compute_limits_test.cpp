@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// [WaveSize]: pipelines whose waves the device does not have are refused.
+// [WaveSize] and [GroupSharedLimit]: pipelines that ask for more than the device has are refused.
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
 
@@ -58,6 +58,59 @@ TEST(WaveSize, IsWhatTheVulkanDeviceHasOrAnError) {
   EXPECT_EQ(told_with("[WaveSize(4, 128)]", "vulkan", 0), count);
   const std::string error = lanes_with("[WaveSize(128)]", "vulkan", 0).error();
   EXPECT_NE(error.find("KA0550"), std::string::npos) << error;
+}
+
+// The sum of twice as many groupshared uints, which 64 threads have written.
+hlsl::Result<uint32_t> sum_of_groupshared(uint32_t words, const std::string& backend) {
+  hlsl::FrontendOptions options;
+  options.path = "groupshared.hlsl";
+  options.target = "lib_6_10";
+  options.experimental = true;
+  options.text = "static const uint kWords = " + std::to_string(words) + R"(;
+groupshared uint words[kWords], more[kWords];
+RWByteAddressBuffer results : register(u0);
+[shader("compute")] [GroupSharedLimit(8 * kWords)] [numthreads(64, 1, 1)]
+void main(uint thread : SV_GroupIndex) {
+  for (uint i = thread; i < kWords; i += 64) words[i] = more[i] = i % 7;
+  GroupMemoryBarrierWithGroupSync();
+  if (thread != 0) return;
+  uint sum = 0;
+  for (uint k = 0; k < kWords; ++k) sum += words[k] + more[k];
+  results.Store(0, sum);
+}
+)";
+  const Compiled code =
+      backend == "vulkan" ? compile_vulkan(options) : compile_interpreted(options);
+  if (code.library == nullptr) return hlsl::Failure{code.error};
+  const auto bytes = run_on_device(backend, *code.library, {1, 1, 1});
+  if (!bytes) return hlsl::Failure{bytes.error()};
+  uint32_t sum = 0;
+  std::memcpy(&sum, bytes->data(), sizeof(sum));
+  return sum;
+}
+
+constexpr uint32_t kWords = 100000;  // 800,000 bytes
+constexpr uint32_t kSum = 2 * (kWords / 7 * 21 + 0 + 1 + 2 + 3 + 4);
+static_assert(kWords % 7 == 5);
+
+TEST(GroupSharedLimit, AllowsWhatTheDeviceHas) {
+  const auto sum = sum_of_groupshared(kWords, "embree");
+  ASSERT_TRUE(sum) << sum.error();
+  EXPECT_EQ(*sum, kSum);
+  const auto error = sum_of_groupshared(3 << 20, "embree");
+  ASSERT_FALSE(error);
+  EXPECT_NE(error.error().find("KA0552"), std::string::npos) << error.error();
+  EXPECT_NE(error.error().find("has 25165824 bytes"), std::string::npos) << error.error();
+}
+
+TEST(GroupSharedLimit, AllowsWhatTheVulkanDeviceHas) {
+  KAAMOS_NEED_VULKAN();
+  const auto sum = sum_of_groupshared(kWords, "vulkan");
+  if (sum) {
+    EXPECT_EQ(*sum, kSum);
+  } else {
+    EXPECT_NE(sum.error().find("KA0552"), std::string::npos) << sum.error();
+  }
 }
 
 }  // namespace

@@ -12,4 +12,8 @@ namespace kaamos::runtime {
 rtapi::Status check_wave_size(const LinkedCompute& pipeline, uint32_t least, uint32_t most,
                               const std::string& device);
 
+// Checks that the groupshared memory of the shader is at most what a group of the device has, in
+// bytes. Errors: KA0552.
+rtapi::Status check_groupshared(const LinkedCompute& pipeline, uint64_t most_bytes);
+
 }  // namespace kaamos::runtime
