@@ -120,7 +120,7 @@ TEST(D3d12Window, PresentsOnVulkanWhatTheProgramWithoutAWindowRenders) {
 INSTANTIATE_TEST_SUITE_P(Programs, D3d12Example,
                          testing::Values("01-triangle", "04-procedural-spheres",
                                          "05-callable-and-recursion", "06-local-root-signature",
-                                         "07-update-and-compaction", "13-hybrid"),
+                                         "07-update-and-compaction", "13-hybrid", "14-reordering"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            for (char& c : name) {
