@@ -89,6 +89,16 @@ runtime::RebuildLevel rebuild_level(Device& device) {
       return {};
     });
   };
+  rebuild.clustered_level = [&device](std::vector<runtime::ClusteredGeometry> geometries,
+                                      AccelerationStructure& result) {
+    return measured(device, result, [&]() -> rtapi::Status {
+      auto level =
+          BottomLevel::build_clustered(device.build_context(), std::move(geometries), result.flags);
+      if (!level) return level.error();
+      result.bottom_level = *level;
+      return {};
+    });
+  };
   return rebuild;
 }
 

@@ -56,7 +56,7 @@ struct TriangleFilter {
 
     float barycentrics[2] = {hit.u, hit.v};
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
-    const Candidate candidate = {ray.tfar, hit_kind, geometry.index, hit.primID, barycentrics};
+    const Candidate candidate = {ray.tfar, hit_kind, geometry.slot, hit.primID, barycentrics};
     const auto result = run_any_hit(state, record, candidate);
     if (result == shader::AnyHitResult::kIgnore) return false;
     commit(result == shader::AnyHitResult::kAcceptAndEndSearch);
@@ -72,7 +72,7 @@ shader::AnyHitResult run_any_hit(RayState& state, const ShaderRecord& record,
   const Shader& shader = record.target->any_hit;
   ++worker.counters.any_hit_calls;
   set_hit_values(state, instance_index(state), candidate.geometry, candidate.primitive,
-                 candidate.hit_kind, candidate.t, state.values);
+                 candidate.hit_kind, candidate.t);
   shader::Invocation invocation = invocation_of(*state.caller, shader, record, state.values);
   const RunningShader running(worker, shader);
   return shader.as<shader::AnyHitFn>()(invocation, state.payload, candidate.attributes);

@@ -9,7 +9,7 @@ namespace kaamos::embree {
 struct Candidate {
   float t;
   uint32_t hit_kind;
-  uint32_t geometry;
+  uint32_t geometry;  // its slot
   uint32_t primitive;
   const void* attributes;
 };

@@ -93,9 +93,29 @@ std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint3
                                        Linkages linkages) {
   auto info = std::make_unique<GeometryInfo>();
   static_cast<runtime::GeometryShape&>(*info) = runtime::shape_of(desc, index);
+  info->slot = index;
   if (index < linkages.size()) info->linkage = linkages[index];
   info->linked = info->linkage != nullptr;
   return info;
+}
+
+// A geometry of triangles whose buffers are to be filled; null if Embree has no memory for it.
+struct TriangleBuffers {
+  RTCGeometry geometry = nullptr;
+  float* vertices = nullptr;    // 3 for each
+  uint32_t* indices = nullptr;  // 3 for each triangle
+};
+TriangleBuffers new_triangles(RTCDevice device, const GeometryInfo& info) {
+  TriangleBuffers result;
+  result.geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (result.geometry == nullptr) return result;
+  result.vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      result.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, info.vertices));
+  result.indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+      result.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, info.primitives));
+  if (result.vertices != nullptr && result.indices != nullptr) return result;
+  rtcReleaseGeometry(result.geometry);
+  return {};
 }
 
 void copy_boxes(const rtapi::RaytracingGeometryAabbsDesc& desc, GeometryInfo& info) {
@@ -128,6 +148,14 @@ bool BuildContext::is_exact(std::span<const RaytracingGeometryDesc> geometries,
   });
 }
 
+bool BuildContext::is_exact(std::span<const runtime::ClusteredGeometry> geometries) const {
+  if (exact != Exact::kNonOpaque) return exact == Exact::kAll;
+  return std::any_of(geometries.begin(), geometries.end(), [](const auto& geometry) {
+    return geometry.linkage != nullptr ||
+           !HasAny(geometry.flags, rtapi::RaytracingGeometryFlags::kOpaque);
+  });
+}
+
 BottomLevel::~BottomLevel() {
   if (scene_ != nullptr) rtcReleaseScene(scene_);
 }
@@ -144,7 +172,7 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
   for (size_t i = 0; i < shapes.size(); ++i) {
     static_cast<runtime::GeometryShape&>(*level->geometries_[i]) = shapes[i];
   }
-  level->positions_ = runtime::positions_of(*level, flags);
+  level->keep_positions();
   return level;
 }
 
@@ -157,8 +185,29 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::updated_copy(
   if (auto s = level->create_scene(context); !s) return s.error();
   if (auto s = level->add_geometries(context, geometries, linkages, this); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
-  level->positions_ = runtime::positions_of(*level, flags_);
+  level->keep_positions();
   return level;
+}
+
+rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build_clustered(
+    const BuildContext& context, std::vector<runtime::ClusteredGeometry> geometries,
+    BuildFlags flags) {
+  std::shared_ptr<BottomLevel> level(new BottomLevel);
+  level->flags_ = flags & ~BuildFlags::kAllowUpdate;
+  level->exact_ = context.is_exact(geometries);
+  level->clusters_.set(geometries);
+  if (auto s = level->create_scene(context); !s) return s.error();
+  for (runtime::ClusteredGeometry& geometry : geometries) {
+    if (auto s = level->add_clusters(context, geometry); !s) return s.error();
+  }
+  if (auto s = level->commit(context); !s) return s.error();
+  level->keep_positions();
+  return level;
+}
+
+void BottomLevel::keep_positions() {
+  positions_ = runtime::positions_of(*this, flags_);
+  clusters_.refer_to(positions_);
 }
 
 rtapi::Status BottomLevel::create_scene(const BuildContext& context) {
@@ -204,33 +253,52 @@ rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
   GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
   // An empty geometry keeps its GeometryIndex but needs no Embree geometry.
   if (user->primitives == 0 || user->vertices == 0) return {};
-  RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (geometry == nullptr) return embree_status(context.device, "new geometry");
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, user->vertices));
-  auto* triangles = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, user->primitives));
-  if (vertices == nullptr || triangles == nullptr) {
-    rtcReleaseGeometry(geometry);
-    return embree_status(context.device, "buffers");
-  }
-  runtime::decode_vertices(desc, vertices);
+  const TriangleBuffers to = new_triangles(context.device, *user);
+  if (to.geometry == nullptr) return embree_status(context.device, "buffers");
+  runtime::decode_vertices(desc, to.vertices);
   if (indices != nullptr) {
-    std::memcpy(triangles, indices, uint64_t{user->primitives} * 12);
+    std::memcpy(to.indices, indices, uint64_t{user->primitives} * 12);
   } else {
-    out_of_range_triangles_ += runtime::decode_indices(desc, triangles);
+    out_of_range_triangles_ += runtime::decode_indices(desc, to.indices);
   }
+  attach_triangles(to.geometry, *user);
+  return embree_status(context.device, "triangles");
+}
+
+// Gives the scene a geometry whose buffers are filled.
+void BottomLevel::attach_triangles(RTCGeometry geometry, GeometryInfo& info) {
   rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
-  rtcSetGeometryMask(geometry, class_of(*user));
-  rtcSetGeometryUserData(geometry, user);
-  if (!user->opaque || user->linkage != nullptr) {
+  rtcSetGeometryMask(geometry, class_of(info));
+  rtcSetGeometryUserData(geometry, &info);
+  if (!info.opaque || info.linkage != nullptr) {
     rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
     rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
   }
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, user->index);
+  rtcAttachGeometryByID(scene_, geometry, info.slot);
   rtcReleaseGeometry(geometry);
-  return embree_status(context.device, "triangles");
+}
+
+rtapi::Status BottomLevel::add_clusters(const BuildContext& context,
+                                        runtime::ClusteredGeometry& geometry) {
+  GeometryInfo& info = *geometries_.emplace_back(std::make_unique<GeometryInfo>());
+  static_cast<runtime::GeometryShape&>(info) = runtime::shape_of(geometry);
+  info.slot = static_cast<uint32_t>(geometries_.size() - 1);
+  info.linkage = std::move(geometry.linkage);
+  if (info.primitives == 0 || info.vertices == 0) return {};
+  if (exact_) {
+    info.exact = std::make_unique<ExactTriangles>();
+    info.exact->frame = &exact_frame_;
+    info.exact->vertices = std::move(geometry.xyz);
+    info.exact->indices = std::move(geometry.indices);
+    return {};
+  }
+  const TriangleBuffers to = new_triangles(context.device, info);
+  if (to.geometry == nullptr) return embree_status(context.device, "buffers");
+  std::copy(geometry.xyz.begin(), geometry.xyz.end(), to.vertices);
+  std::copy(geometry.indices.begin(), geometry.indices.end(), to.indices);
+  attach_triangles(to.geometry, info);
+  return embree_status(context.device, "clusters");
 }
 
 void BottomLevel::add_exact_triangles(const rtapi::RaytracingGeometryTrianglesDesc& desc,
@@ -266,7 +334,7 @@ rtapi::Status BottomLevel::pack_exact_triangles(const BuildContext& context) {
   exact_frame_ = ExactFrame::of(lower, upper);
   for (const auto& info : geometries_) {
     if (info->exact == nullptr) continue;
-    if (std::exchange(info->exact->attached, false)) rtcDetachGeometry(scene_, info->index);
+    if (std::exchange(info->exact->attached, false)) rtcDetachGeometry(scene_, info->slot);
     if (auto s = attach_packs(context, *info); !s) return s;
   }
   return {};
@@ -284,7 +352,7 @@ rtapi::Status BottomLevel::attach_packs(const BuildContext& context, GeometryInf
   rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
   rtcSetGeometryMask(geometry, class_of(info));
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, info.index);
+  rtcAttachGeometryByID(scene_, geometry, info.slot);
   info.exact->attached = true;
   rtcReleaseGeometry(geometry);
   return embree_status(context.device, "triangles");
@@ -306,7 +374,7 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
   rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
   rtcSetGeometryMask(geometry, class_of(*user));
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, user->index);
+  rtcAttachGeometryByID(scene_, geometry, user->slot);
   rtcReleaseGeometry(geometry);
   return embree_status(context.device, "boxes");
 }
@@ -397,6 +465,7 @@ std::shared_ptr<const BottomLevel> BottomLevel::exact_twin(const BuildContext& c
   for (uint32_t i = 0; i < geometries_.size(); ++i) {
     GeometryInfo& info = *twin->geometries_.emplace_back(std::make_unique<GeometryInfo>());
     static_cast<runtime::GeometryShape&>(info) = *geometries_[i];
+    info.slot = i;
     info.linkage = geometries_[i]->linkage;
     const runtime::GeometryContents contents = geometry_contents(i);
     if (contents.indices.empty()) continue;

@@ -15,6 +15,7 @@
 #include "runtime/embree/embree_shim.h"
 #include "runtime/embree/exact.h"
 #include "runtime/embree/padded_box.h"
+#include "runtime/structures/clustered_geometry.h"
 #include "runtime/structures/structure_map.h"
 #include "runtime/structures/triangle_positions.h"
 
@@ -32,10 +33,12 @@ struct BuildContext {
   enum class Exact : uint8_t { kNone, kNonOpaque, kAll } exact = Exact::kNone;
   PackFilter pack_filter = nullptr;  // for exact
   bool is_exact(std::span<const rtapi::RaytracingGeometryDesc> geometries, Linkages linkages) const;
+  bool is_exact(std::span<const runtime::ClusteredGeometry> geometries) const;
 };
 
 // The user pointer that Embree's callbacks get for a geometry.
 struct GeometryInfo : runtime::GeometryShape {
+  uint32_t slot = 0;  // Embree's number of it: its place in the level, and `index` but in clusters
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
   std::vector<PaddedBox> padded;             // the same as rays meet them
   bool tested_by_embree = false;             // each box, before its callback
@@ -50,6 +53,11 @@ class BottomLevel final : public runtime::BottomLevelBase {
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries,
       BuildFlags flags, Linkages linkages, std::span<const runtime::GeometryShape> shapes = {});
+  // EXPERIMENTAL: from clusters. Cannot be updated. Errors: KA0792, as
+  // above.
+  static rtapi::Result<std::shared_ptr<BottomLevel>> build_clustered(
+      const BuildContext& context, std::vector<runtime::ClusteredGeometry> geometries,
+      BuildFlags flags);
   ~BottomLevel() override;
   BottomLevel(const BottomLevel&) = delete;
   BottomLevel& operator=(const BottomLevel&) = delete;
@@ -79,10 +87,14 @@ class BottomLevel final : public runtime::BottomLevelBase {
   std::vector<runtime::GeometryShape> geometry_shapes() const override;
   // The same buffers that are traced, so serialization costs no memory here.
   runtime::GeometryContents geometry_contents(uint32_t geometry) const override;
+  const shader::ClusterTriangle* cluster_triangles(uint32_t geometry) const override {
+    return clusters_.of(geometry);
+  }
+  bool clustered() const { return !clusters_.empty(); }
   BuildFlags flags() const { return flags_; }
   const std::vector<std::unique_ptr<GeometryInfo>>& geometries() const { return geometries_; }
   uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }
-  // By geometry, for shaders.
+  // By slot, for shaders.
   const shader::GeometryPositions* positions() const { return positions_.data(); }
 
  private:
@@ -91,6 +103,9 @@ class BottomLevel final : public runtime::BottomLevelBase {
   rtapi::Status add_triangles(const BuildContext& context,
                               const rtapi::RaytracingGeometryTrianglesDesc& desc,
                               std::unique_ptr<GeometryInfo> info, const uint32_t* indices);
+  void attach_triangles(RTCGeometry geometry, GeometryInfo& info);
+  rtapi::Status add_clusters(const BuildContext& context, runtime::ClusteredGeometry& geometry);
+  void keep_positions();
   void add_exact_triangles(const rtapi::RaytracingGeometryTrianglesDesc& desc, GeometryInfo* user,
                            const std::vector<uint32_t>* indices);
   rtapi::Status add_boxes(const BuildContext& context,
@@ -114,6 +129,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
   uint64_t out_of_range_triangles_ = 0;
   std::vector<std::unique_ptr<GeometryInfo>> geometries_;
   std::vector<shader::GeometryPositions> positions_;
+  runtime::ClusterTriangles clusters_;  // empty: it was not built from clusters
   mutable std::mutex twin_mutex_;
   mutable std::shared_ptr<const BottomLevel> twin_;
 };

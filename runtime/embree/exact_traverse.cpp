@@ -40,7 +40,7 @@ struct PackOffer {
     const ExactState& exact = *state.exact;
     if (!opaque || !exact.hit_opaque) return false;
     const auto index = static_cast<uint32_t>(state.instance - state.top_level->nodes());
-    return std::tie(index, geometry.index, primitive) <
+    return std::tie(index, geometry.slot, primitive) <
            std::tie(exact.instance, exact.geometry, exact.primitive);
   }
 
@@ -50,7 +50,7 @@ struct PackOffer {
     state.ended = end_search || (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0;
     exact.hit_kind = hit_kind;
     exact.instance = static_cast<uint32_t>(state.instance - state.top_level->nodes());
-    exact.geometry = geometry.index;
+    exact.geometry = geometry.slot;
     exact.primitive = primitive;
     exact.hit_opaque = opaque;
   }
@@ -62,7 +62,7 @@ struct PackOffer {
     const auto instance = static_cast<uint32_t>(state.instance - state.top_level->nodes());
     const shader::RayQueryFound found = {t,
                                          instance,
-                                         geometry.index,
+                                         geometry.slot,
                                          primitive,
                                          {barycentrics[0], barycentrics[1]},
                                          false,
@@ -89,7 +89,7 @@ struct PackOffer {
     if (opaque) return commit(t, hit_kind, false, false), true;
     const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
     if (!record.target->any_hit.runs()) return commit(t, hit_kind, false, false), true;
-    const Candidate candidate = {t, hit_kind, geometry.index, primitive, barycentrics};
+    const Candidate candidate = {t, hit_kind, geometry.slot, primitive, barycentrics};
     const auto result = run_any_hit(state, record, candidate);
     if (result == shader::AnyHitResult::kIgnore) return false;
     commit(t, hit_kind, false, result == shader::AnyHitResult::kAcceptAndEndSearch);
@@ -143,7 +143,7 @@ struct PackOffer {
     }
     if (t == state.committed_t && !wins_tie(opaque)) return false;
     if (opaque) return commit(t, hit_kind, true, false), true;
-    const Candidate candidate = {t, hit_kind, geometry.index, primitive, barycentrics};
+    const Candidate candidate = {t, hit_kind, geometry.slot, primitive, barycentrics};
     const auto result = run_any_hit(state, record, candidate);
     if (result == shader::AnyHitResult::kIgnore) return false;
     commit(t, hit_kind, false, result == shader::AnyHitResult::kAcceptAndEndSearch);
@@ -282,7 +282,7 @@ void intersect_exact_pack(const RTCIntersectFunctionNArguments* arguments) {
   ray_hit->hit.u = offer.barycentrics[0];
   ray_hit->hit.v = offer.barycentrics[1];
   ray_hit->hit.primID = offer.primitive;
-  ray_hit->hit.geomID = offer.geometry.index;
+  ray_hit->hit.geomID = offer.geometry.slot;
   ray_hit->hit.instID[0] = state.exact->instance;
 }
 

@@ -54,7 +54,7 @@ void invoke_hit_object(shader::Invocation& caller, const shader::HitObject& hit,
   if (!shader.runs()) return;
   shader::InstanceTransform world_to_object;
   std::memcpy(world_to_object.rows, hit.world_to_object, sizeof(world_to_object.rows));
-  world_to_object.positions = shader::positions_of(hit);
+  world_to_object.positions = shader::position_table_of(hit);
   const shader::RaySystemValues values = values_of(hit, world_to_object);
   shader::Invocation invocation = invocation_of(caller, shader, record, values);
   const RunningShader running(worker, shader);

@@ -38,6 +38,11 @@ RayQueryHit hit_of(const TopLevel& scene, const RayQueryFound& found, uint32_t t
   hit.non_opaque = found.procedural && found.non_opaque;
   hit.object_to_world = node.object_to_world;
   hit.world_to_object = scene.world_to_object(found.instance);
+  if (node.clustered) [[unlikely]] {
+    hit.cluster = &scene.cluster_triangle(found.instance, found.geometry, found.primitive);
+    hit.geometry_index = hit.cluster->geometry_index;
+    hit.primitive_index = hit.cluster->primitive_index;
+  }
   return hit;
 }
 
@@ -164,7 +169,7 @@ void QuerySearch::offer(const RayQueryFound& found) {
 bool QuerySearch::take_triangle(RayState& state, const GeometryInfo& geometry, RTCRay& ray,
                                 const RTCHit& hit, bool is_opaque, bool front_face) {
   const auto instance = static_cast<uint32_t>(state.instance - state.top_level->nodes());
-  const RayQueryFound found = triangle_of(hit, ray.tfar, instance, geometry.index, front_face);
+  const RayQueryFound found = triangle_of(hit, ray.tfar, instance, geometry.slot, front_face);
   if (is_opaque) {
     if (!any) {
       state.committed_t = ray.tfar;

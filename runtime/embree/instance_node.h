@@ -47,7 +47,8 @@ struct alignas(64) InstanceNode {
   uint32_t micromap_flags : 2;          // NodeMicromapFlags
   OpacityOverride opacity : 2;          // from the flags
   bool procedural : 1;
-  bool exact : 1;  // its bottom level is exact
+  bool exact : 1;      // its bottom level is exact
+  bool clustered : 1;  // its bottom level was built from clusters
   float object_to_world[12];
 };
 static_assert(sizeof(InstanceNode) == 128);

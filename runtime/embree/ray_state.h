@@ -70,6 +70,8 @@ struct RayState {
 
   ExactState* exact;  // only if a bottom level of the top level is exact
 
+  shader::InstanceTransform in_cluster;  // world_to_object of `values` for a hit in a cluster
+
   uint32_t procedural_hit_kind;
   alignas(16) uint8_t procedural_attributes[kMaxAttributeBytes];
 };
@@ -111,6 +113,26 @@ inline void set_hit_values(const RayState& state, uint32_t instance_index, uint3
   values.primitive_index = primitive;
   values.object_to_world = instance.object_to_world;
   values.world_to_object = state.top_level->world_to_object(instance_index);
+}
+
+// Puts the application's numbers in the place of Embree's, for a triangle in a cluster.
+[[gnu::noinline]] inline void set_cluster_values(RayState& state) {
+  shader::RaySystemValues& values = state.values;
+  const shader::ClusterTriangle& triangle = state.top_level->cluster_triangle(
+      values.instance_index, values.geometry_index, values.primitive_index);
+  values.geometry_index = triangle.geometry_index;
+  values.primitive_index = triangle.primitive_index;
+  state.in_cluster = *reinterpret_cast<const shader::InstanceTransform*>(values.world_to_object);
+  state.in_cluster.positions = shader::table_of(&triangle);
+  values.world_to_object = state.in_cluster.rows;
+}
+
+// The same for the values of the ray's state, from Embree's numbers of geometry and primitive.
+inline void set_hit_values(RayState& state, uint32_t instance_index, uint32_t slot,
+                           uint32_t primitive, uint32_t hit_kind, float t_current) {
+  set_hit_values(state, instance_index, slot, primitive, hit_kind, t_current, state.values);
+  if (state.top_level->nodes()[instance_index].clustered) [[unlikely]]
+    set_cluster_values(state);
 }
 
 // The index of the instance being traversed.

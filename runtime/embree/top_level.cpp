@@ -60,7 +60,8 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   const runtime::Bounds& b = instance.bounds;
   box = {b.lower[0], b.lower[1], b.lower[2], 0, b.upper[0], b.upper[1], b.upper[2], 0};
   std::memcpy(world_to_object, instance.world_to_object, sizeof(transform.rows));
-  transform.positions = static_cast<const BottomLevel&>(*instance.bottom_level).positions();
+  transform.positions =
+      shader::table_of(static_cast<const BottomLevel&>(*instance.bottom_level).positions());
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 3; ++row) {
       node.world_to_object_columns[column][row] = world_to_object[4 * row + column];
@@ -71,6 +72,7 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   node.procedural = level.procedural();
   node.scene = level.scene();
   node.exact = level.exact();
+  node.clustered = static_cast<const BottomLevel&>(*instance.bottom_level).clustered();
   has_procedurals_ |= node.procedural;
   has_exact_ |= node.exact;
   has_robust_ |=

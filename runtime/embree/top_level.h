@@ -45,9 +45,12 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
-  // Returns an array with the positions of each geometry of the instance's bottom level.
-  const shader::GeometryPositions* positions(uint32_t index) const {
-    return world_to_object_[index].positions;
+  // The triangle of a clustered instance that Embree knows by these numbers.
+  const shader::ClusterTriangle& cluster_triangle(uint32_t index, uint32_t slot,
+                                                  uint32_t primitive) const {
+    const auto* positions =
+        reinterpret_cast<const shader::GeometryPositions*>(world_to_object_[index].positions);
+    return positions[slot].clustered[primitive];
   }
   uint32_t instance_id(uint32_t index) const { return world_to_object_[index].instance_id; }
   bool has_exact() const { return has_exact_; }

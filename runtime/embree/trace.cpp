@@ -30,10 +30,16 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
   return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
 }
 
-uint64_t record_of(const TraceRayArguments& arguments, const RTCRayHit& ray_hit,
-                   const InstanceNode& instance) {
+uint64_t record_of(const TraceRayArguments& arguments, const RayState& state,
+                   const RTCRayHit& ray_hit, const InstanceNode& instance) {
+  uint32_t geometry = ray_hit.hit.geomID;
+  if (instance.clustered) [[unlikely]] {
+    geometry =
+        state.top_level->cluster_triangle(ray_hit.hit.instID[0], geometry, ray_hit.hit.primID)
+            .geometry_index;
+  }
   return hit_record_index(arguments.ray_contribution_to_hit_group_index,
-                          arguments.multiplier_for_geometry_contribution, ray_hit.hit.geomID,
+                          arguments.multiplier_for_geometry_contribution, geometry,
                           instance.contribution);
 }
 
@@ -51,7 +57,7 @@ void run_closest_hit(Worker& worker, const shader::Invocation& caller,
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
   const ShaderRecord record =
-      worker.dispatch->hit_table.at(record_of(arguments, ray_hit, instance));
+      worker.dispatch->hit_table.at(record_of(arguments, state, ray_hit, instance));
   const Shader& shader = record.target->closest_hit;
   if (!shader.runs()) [[unlikely]]
     return;
@@ -71,7 +77,7 @@ void run_closest_hit(Worker& worker, const shader::Invocation& caller,
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
     attributes = barycentrics;
   }
-  set_hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t, state.values);
+  set_hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t);
   shader::Invocation invocation = invocation_of(caller, shader, record, state.values);
   const RunningShader running(worker, shader);
   shader.as<shader::ClosestHitFn>()(invocation, state.payload, attributes);
@@ -126,12 +132,14 @@ struct WriteHitObject {
       float barycentrics[2] = {ray_hit.hit.u, ray_hit.hit.v};
       clamp_barycentrics(barycentrics[0], barycentrics[1]);
       std::memcpy(out.attributes, barycentrics, sizeof(barycentrics));
-      shader::set_position_table(out, state.top_level->positions(index));
     }
     set_hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind,
-                   hit_t<some_exact>(state, ray_hit), state.values);
+                   hit_t<some_exact>(state, ray_hit));
+    if (!instance.procedural) {
+      shader::set_position_table(out, shader::table_at(state.values.world_to_object));
+    }
     write(state.values, shader::kHitObjectHit);
-    out.record = static_cast<uint32_t>(record_of(arguments, ray_hit, instance));
+    out.record = static_cast<uint32_t>(record_of(arguments, state, ray_hit, instance));
     out.instance_index = state.values.instance_index;
     out.instance_id = state.values.instance_id;
     out.geometry_index = state.values.geometry_index;

@@ -40,7 +40,9 @@ shader::HitObject Replay::hit_object_of(const Trace& trace) const {
   std::memcpy(out.object_to_world, instance.object_to_world.data(), sizeof(out.object_to_world));
   std::memcpy(out.world_to_object, instance.world_to_object.rows, sizeof(out.world_to_object));
   if (out.hit_kind >= shader::kLeastTriangleHitKind) {
-    shader::set_position_table(out, instance.world_to_object.positions);
+    shader::set_position_table(out, trace.hit.cluster != nullptr
+                                        ? shader::table_of(trace.hit.cluster)
+                                        : instance.world_to_object.positions);
   }
   return out;
 }
@@ -98,7 +100,7 @@ void Replay::invoke(Frame& caller, const shader::HitObject& hit, void* payload,
   frame.begin(*this, *linked, record, caller.depth + 1);
   shader::InstanceTransform world_to_object;
   std::memcpy(world_to_object.rows, hit.world_to_object, sizeof(world_to_object.rows));
-  world_to_object.positions = shader::positions_of(hit);
+  world_to_object.positions = shader::position_table_of(hit);
   frame.values = {{{hit.origin[0], hit.origin[1], hit.origin[2]},
                    hit.t_min,
                    {hit.direction[0], hit.direction[1], hit.direction[2]},

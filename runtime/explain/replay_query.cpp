@@ -32,12 +32,14 @@ RayQueryHit hit_of(const Candidate& candidate, const Instance& instance, bool op
   hit.non_opaque = candidate.procedural && !opaque;
   hit.object_to_world = instance.object_to_world.data();
   hit.world_to_object = instance.world_to_object.rows;
+  hit.cluster = candidate.cluster;
   return hit;
 }
 
 bool is_hit(const RayQueryHit& hit, const Candidate& candidate) {
   return hit.type != 0 && hit.instance_index == candidate.instance &&
-         hit.geometry_index == candidate.geometry && hit.primitive_index == candidate.primitive;
+         hit.geometry_index == candidate.geometry && hit.primitive_index == candidate.primitive &&
+         hit.cluster == candidate.cluster;
 }
 
 }  // namespace

@@ -48,7 +48,15 @@ struct Replay::Frame : shader::Invocation {
   Trace* trace = nullptr;                // only for intersection shaders
   const Candidate* candidate = nullptr;  // only for intersection shaders
   Record record;
+  shader::InstanceTransform in_cluster = {};
 
+  // RaySystemValues::world_to_object for a triangle.
+  const float* transform(const Candidate& its_candidate, const Instance& instance) {
+    if (its_candidate.cluster == nullptr) return instance.world_to_object.rows;
+    in_cluster = instance.world_to_object;
+    in_cluster.positions = shader::table_of(its_candidate.cluster);
+    return in_cluster.rows;
+  }
   void begin(Replay& self, const runtime::LinkedShader& linked, const Record& its_record,
              uint32_t its_depth) {
     replay = &self;

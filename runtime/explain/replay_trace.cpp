@@ -50,6 +50,7 @@ rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& i
   out.InstanceID = instance.id;
   out.GeometryIndex = candidate.geometry;
   out.PrimitiveIndex = candidate.primitive;
+  if (candidate.cluster != nullptr) out.ClusterID = candidate.cluster->cluster_id;
   out.Procedural = candidate.procedural;
   out.FrontFace = !candidate.procedural && is_front_face(candidate, instance);
   out.Opaque = opacity_of(candidate, instance, flags).opaque;
@@ -269,7 +270,7 @@ AnyHitResult Replay::run_any_hit(Trace& trace, const Candidate& candidate, const
                   candidate.geometry,
                   candidate.primitive,
                   instance.object_to_world.data(),
-                  instance.world_to_object.rows};
+                  frame.transform(candidate, instance)};
   frame.ray = &frame.values;
   const shader::ExportDesc& code = *linked.code;
   const uint32_t payload_bytes = trace.arguments->payload_bytes;
@@ -359,7 +360,7 @@ void Replay::run_closest_hit(Trace& trace) {
                   trace.hit.geometry,
                   trace.hit.primitive,
                   instance.object_to_world.data(),
-                  instance.world_to_object.rows};
+                  frame.transform(trace.hit, instance)};
   frame.ray = &frame.values;
   const char* layout = payload_layout(linked, trace.arguments->payload_bytes);
   if (trace.call != nullptr) {

@@ -75,7 +75,7 @@ BottomLevel::BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source,
   std::vector<Box> boxes;
   for (const runtime::GeometryShape& shape : source_->geometry_shapes()) {
     const auto g = static_cast<uint32_t>(geometries_.size());
-    geometries_.push_back({shape, source_->geometry_contents(g)});
+    geometries_.push_back({shape, source_->geometry_contents(g), g, source_->cluster_triangles(g)});
     for (uint32_t i = 0; i < shape.primitives; ++i) {
       primitives_.push_back({g, i});
       boxes.push_back(box_of(geometries_.back(), i));
@@ -156,6 +156,12 @@ void BottomLevel::test_triangle(const Ray& ray, const Geometry& geometry, uint32
   candidate.instance = instance;
   candidate.geometry = geometry.shape.index;
   candidate.primitive = primitive;
+  candidate.slot = geometry.slot;
+  candidate.number = primitive;
+  if (geometry.clustered != nullptr) {
+    candidate.cluster = &geometry.clustered[primitive];
+    candidate.primitive = candidate.cluster->primitive_index;
+  }
   candidate.geometry_opaque = geometry.shape.opaque;
   // The determinant is -(edge1 x edge2 . direction): positive where that normal points against the
   // ray.
@@ -179,6 +185,8 @@ void BottomLevel::test_box(const Ray& ray, const Geometry& geometry, uint32_t pr
   candidate.instance = instance;
   candidate.geometry = geometry.shape.index;
   candidate.primitive = primitive;
+  candidate.slot = geometry.slot;
+  candidate.number = primitive;
   candidate.procedural = true;
   candidate.geometry_opaque = geometry.shape.opaque;
   out.push_back(candidate);
@@ -204,8 +212,8 @@ void TopLevel::find(const shader::RayDesc& ray, std::vector<Candidate>& out) con
     instance.bottom_level->find(object, index, out);
   });
   std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.t, a.instance, a.geometry, a.primitive) <
-           std::tie(b.t, b.instance, b.geometry, b.primitive);
+    return std::tie(a.t, a.instance, a.slot, a.number) <
+           std::tie(b.t, b.instance, b.slot, b.number);
   });
 }
 
@@ -239,7 +247,7 @@ const TopLevel* Scenes::find(uint64_t address) {
         invert(instance.object_to_world, instance.inverse)) {
       instance.bottom_level = bottom_level(desc.AccelerationStructure);
       if (instance.bottom_level != nullptr) {
-        instance.world_to_object.positions = instance.bottom_level->positions();
+        instance.world_to_object.positions = shader::table_of(instance.bottom_level->positions());
         box = transformed(instance.bottom_level->bounds(), instance.object_to_world);
       }
     }

@@ -23,6 +23,9 @@ struct Candidate {
   uint32_t instance = 0;
   uint32_t geometry = 0;
   uint32_t primitive = 0;
+  uint32_t slot = 0;    // the geometry's place in its bottom level, and
+  uint32_t number = 0;  // the primitive's there: what tells candidates in clusters apart
+  const shader::ClusterTriangle* cluster = nullptr;  // null: in no cluster
   bool procedural = false;
   bool geometry_opaque = false;
   runtime::MicromapState micromap = runtime::MicromapState::kOfGeometry;
@@ -47,6 +50,8 @@ class BottomLevel {
   struct Geometry {
     runtime::GeometryShape shape;
     runtime::GeometryContents contents;
+    uint32_t slot = 0;
+    const shader::ClusterTriangle* clustered = nullptr;  // by triangle
   };
   bool corners(const Geometry& geometry, uint32_t primitive, const float* (&out)[3]) const;
   Box box_of(const Geometry& geometry, uint32_t primitive) const;
@@ -74,8 +79,8 @@ struct Instance {
 class TopLevel {
  public:
   const std::vector<Instance>& instances() const { return instances_; }
-  // Finds all candidates at t >= 0, including masked ones, sorted by t, then by instance, geometry
-  // and primitive.
+  // Finds all candidates at t >= 0, including masked ones, sorted by t, then by instance, slot and
+  // number.
   void find(const shader::RayDesc& ray, std::vector<Candidate>& out) const;
 
  private:

@@ -11,14 +11,15 @@
 #include <rtapi/result.h>
 
 #include "runtime/backend/commands.h"
+#include "runtime/structures/clustered_geometry.h"
 #include "runtime/structures/instances.h"
 #include "runtime/structures/structure_commands.h"
 
 namespace kaamos::runtime {
 
 // The functions by which a backend builds what does not come from a BuildCommand: what was
-// deserialized, and partitioned top levels. Both functions set compacted_bytes
-// as a BuildLevel does.
+// deserialized, partitioned top levels, and bottom levels of clusters. All set compacted_bytes as a
+// BuildLevel does.
 struct RebuildLevel {
   // `geometries` have host addresses, all valid. The level adopts `shapes`, so that updates are
   // checked against the formats of the first build.
@@ -28,6 +29,10 @@ struct RebuildLevel {
   std::function<rtapi::Status(const std::vector<Instance>& instances,
                               AccelerationStructure& result)>
       top_level;
+  // By the entries' order in GeometryContents and linkages, whatever their GeometryIndex.
+  std::function<rtapi::Status(std::vector<ClusteredGeometry> geometries,
+                              AccelerationStructure& result)>
+      clustered_level;
 };
 
 // Errors: KA0796: no acceleration structure at the source, or compaction without its flag; KA0795:

@@ -18,6 +18,10 @@
 
 #include "runtime/structures/opacity_micromap.h"
 
+namespace kaamos::shader {
+struct ClusterTriangle;  // kaamos/shader/triangle_positions.h
+}
+
 namespace kaamos::runtime {
 
 using BuildFlags = rtapi::RaytracingAccelerationStructureBuildFlags;
@@ -60,6 +64,9 @@ struct BottomLevelBase {
   virtual Bounds object_bounds() const = 0;  // only if not empty
   virtual std::vector<GeometryShape> geometry_shapes() const = 0;
   virtual GeometryContents geometry_contents(uint32_t geometry) const = 0;
+  // By triangle, in a bottom level of clusters; otherwise null. Such a level's geometries are in no
+  // order, and several may have the same GeometryIndex.
+  virtual const shader::ClusterTriangle* cluster_triangles(uint32_t) const { return nullptr; }
 };
 struct TopLevelBase {
   virtual ~TopLevelBase() = default;

@@ -9,6 +9,7 @@ std::vector<shader::GeometryPositions> positions_of(const BottomLevelBase& level
   std::vector<shader::GeometryPositions> result(count);
   for (uint32_t i = 0; i < count; ++i) {
     const GeometryContents contents = level.geometry_contents(i);
+    result[i].clustered = level.cluster_triangles(i);
     if (contents.xyz.empty()) continue;
     result[i].xyz = contents.xyz.data();
     result[i].indices = contents.indices.empty() ? nullptr : contents.indices.data();

@@ -95,6 +95,7 @@ struct ExplainedCandidate {
   uint32_t InstanceID = 0;
   uint32_t GeometryIndex = 0;
   uint32_t PrimitiveIndex = 0;
+  uint32_t ClusterID = 0xFFFFFFFF;  ///< EXPERIMENTAL; CLUSTER_ID_INVALID: in no cluster
   ///@}
   bool Procedural = false;         ///< a box, else a triangle
   bool FrontFace = false;          ///< triangles

@@ -73,6 +73,9 @@ enum class RaytracingPipelineFlags : uint32_t {
   kSkipTriangles = 0x100,
   kSkipProceduralPrimitives = 0x200,
   kAllowOpacityMicromaps = 0x400,  ///< rays use opacity micromaps; tier 1.2 (KA0539)
+  /// EXPERIMENTAL: rays may meet clusters; where DeviceDesc::IndirectRtasOperations asks for them
+  /// (KA0539).
+  kAllowClusteredGeometry = 0x800,
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingPipelineFlags> = true;

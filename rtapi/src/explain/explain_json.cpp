@@ -61,6 +61,7 @@ Json to_json_value(const ExplainedCandidate& c) {
                {"opaque", c.Opaque},
                {"outcome", outcome_name(c.Outcome)},
                {"reason", c.Reason}};
+  if (c.ClusterID != 0xFFFFFFFF) json["cluster"] = c.ClusterID;
   if (!c.Procedural) {
     json["front_face"] = c.FrontFace;
     json["barycentrics"] = {number_json(c.Barycentrics[0]), number_json(c.Barycentrics[1])};

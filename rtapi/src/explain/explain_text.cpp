@@ -72,6 +72,7 @@ void Writer::write_candidate(const ExplainedCandidate& c, int indent) {
   std::string text = concat("t ", number_text(c.T), ": instance ", c.InstanceIndex, " (ID ",
                             c.InstanceID, "), geometry ", c.GeometryIndex, ", ",
                             c.Procedural ? "box " : "triangle ", c.PrimitiveIndex);
+  if (c.ClusterID != 0xFFFFFFFF) text += concat(" of cluster ", c.ClusterID);
   if (!c.Procedural) text += c.FrontFace ? ", front face" : ", back face";
   text += concat(": ", outcome_name(c.Outcome));
   if (!c.Reason.empty()) text += concat(" (", c.Reason, ")");

@@ -72,12 +72,15 @@ Status Gatherer::define_pipeline_config(const RaytracingPipelineConfig1& config,
   const auto skips =
       RaytracingPipelineFlags::kSkipTriangles | RaytracingPipelineFlags::kSkipProceduralPrimitives;
   const bool micromaps = parts_.device->desc.Tier >= RaytracingTier::kTier1_2;
-  const auto known = micromaps ? skips | RaytracingPipelineFlags::kAllowOpacityMicromaps : skips;
+  const bool clusters = parts_.device->desc.IndirectRtasOperations;
+  auto known = micromaps ? skips | RaytracingPipelineFlags::kAllowOpacityMicromaps : skips;
+  if (clusters) known = known | RaytracingPipelineFlags::kAllowClusteredGeometry;
   if ((config.Flags & ~known) != RaytracingPipelineFlags::kNone) {
     return make_error(Id::kConfigFlags, where, ": undefined pipeline flags ",
                       hex(static_cast<uint32_t>(config.Flags)), "; only 0x100",
                       micromaps ? ", 0x200 and 0x400" : " and 0x200", " are defined",
-                      micromaps ? "" : ", and from tier 1.2 on 0x400");
+                      micromaps ? "" : ", and from tier 1.2 on 0x400",
+                      clusters ? ", and 0x800" : ", and with IndirectRtasOperations 0x800");
   }
   if ((config.Flags & skips) == skips) {
     return make_error(Id::kConfigFlags, where,

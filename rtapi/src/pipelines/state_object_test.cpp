@@ -279,6 +279,9 @@ TEST_F(StateObjectTest, SO_23_PipelineFlags) {
   EXPECT_ERROR(Make(desc), "KA0539");
   desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x800)};
   EXPECT_ERROR(Make(desc), "KA0539", "0x800");
+  const Device with_clusters =
+      CreateNullDevice({.ShaderModel = ShaderModel::k6_10, .IndirectRtasOperations = true});
+  EXPECT_OK(with_clusters.CreateStateObject(desc));  // CLS-46
   desc.Subobjects[2] =
       RaytracingPipelineConfig1{1, RaytracingPipelineFlags::kAllowOpacityMicromaps};
   EXPECT_OK(Make(desc));

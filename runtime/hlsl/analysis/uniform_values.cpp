@@ -94,6 +94,7 @@ bool UniformValues::holds(const Expr* expr) const {
     case ExprKind::kSystemValue:
     case ExprKind::kQueryValue:
     case ExprKind::kTrianglePositions:
+    case ExprKind::kClusterId:
       return false;
     default:
       break;

@@ -96,7 +96,8 @@ class Analysis {
         case ExprKind::kQueryValue:
           return refuse("it traces rays inline");
         case ExprKind::kTrianglePositions:
-          return refuse("it reads positions of triangles");
+        case ExprKind::kClusterId:
+          return refuse("it reads positions or clusters of triangles");
         case ExprKind::kVariable:
           if (expr.variable->storage == Storage::kGroupShared) {
             refuse("it reads groupshared memory");

@@ -358,6 +358,7 @@ bool is_constant_at(const ir::Expr* e, int depth) {
     case ir::ExprKind::kDimensions:
     case ir::ExprKind::kQueryValue:
     case ir::ExprKind::kTrianglePositions:
+    case ir::ExprKind::kClusterId:
       return false;
     default:
       return std::all_of(e->operands.begin(), e->operands.end(), [depth](const ir::Expr* operand) {

@@ -483,7 +483,7 @@ void CppEmitter::include_experimental() {
         function->body,
         [&](const Expr& expr) {
           reads_positions = reads_positions || expr.kind == ExprKind::kTrianglePositions ||
-                            is_position_table(expr);
+                            expr.kind == ExprKind::kClusterId || is_position_table(expr);
           debugs = debugs || (expr.kind == ExprKind::kRecordConstant &&
                               is_literal(expr.operands[1], shader::kDebuggingEnabled));
         },

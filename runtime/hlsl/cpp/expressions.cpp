@@ -475,6 +475,8 @@ std::string CppEmitter::value(const Expr* e) {
                                               : "ks::triangle_positions(") +
              value(expr.operands[0]) + ", " + value(expr.operands[1]) + ", " +
              value(expr.operands[2]) + ")";
+    case ExprKind::kClusterId:
+      return call("ks::cluster_id", expr.operands);
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -53,7 +53,7 @@ std::string CppEmitter::query_value(const Expr& expr) {
     case QueryValue::kProceduralNonOpaque:
       return hit + ".non_opaque";
     case QueryValue::kPositionTable:
-      return "ks::position_table(" + hit + ".world_to_object)";
+      return "ks::query_position_table(" + hit + ")";
     case QueryValue::kRayFlags:
       return query + ".ray_flags";
     case QueryValue::kRayTMin:

@@ -235,6 +235,9 @@ class GlslEmitter {
   // triangle_positions.cpp
   void declare_address();
   std::string position_table();
+  bool reads_tables() const;
+  std::string query_table_arguments(bool committed) const;
+  std::string cluster_id(const ir::Expr& expr);
   std::string triangle_positions(const ir::Expr& expr);
 
   // system_values.cpp

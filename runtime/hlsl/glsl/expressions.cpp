@@ -297,6 +297,8 @@ std::string GlslEmitter::value(const Expr* e) {
       return record_constant(expr);
     case ExprKind::kTrianglePositions:
       return triangle_positions(expr);
+    case ExprKind::kClusterId:
+      return cluster_id(expr);
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -91,7 +91,7 @@ constexpr char kSearch[] =
     "      g_twin.hit.$attributes[0] = floatBitsToUint(at.x);\n"
     "      g_twin.hit.$attributes[1] = floatBitsToUint(at.y);\n"
     "      uvec2 table = "
-    "g_position_table(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(q, false)));\n"
+    "g_position_table($of_candidate);\n"
     "      g_twin.hit.$attributes[6] = table.x;\n"
     "      g_twin.hit.$attributes[7] = table.y;\n"
     "      g_twin.control = 0u;\n"
@@ -124,7 +124,7 @@ constexpr char kSearch[] =
     "    vec2 at = rayQueryGetIntersectionBarycentricsEXT(q, true);\n"
     "    kind = rayQueryGetIntersectionFrontFaceEXT(q, true) ? 254u : 255u;\n"
     "    uvec2 table = "
-    "g_position_table(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(q, true)));\n"
+    "g_position_table($of_hit);\n"
     "    attributes = uint[8](floatBitsToUint(at.x), floatBitsToUint(at.y), 0u, 0u, 0u, 0u, "
     "table.x, table.y);\n"
     "  }\n"
@@ -275,6 +275,8 @@ std::string GlslEmitter::search_function() {
     }
     std::string text = kSearch;
     replace_all(text, "$location", twin_location_);
+    replace_all(text, "$of_candidate", query_table_arguments(false));
+    replace_all(text, "$of_hit", query_table_arguments(true));
     helpers_ += with_hit(std::move(text));
   }
   return "g_search";

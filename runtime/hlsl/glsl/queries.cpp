@@ -281,7 +281,7 @@ std::string GlslEmitter::query_result(const Expr& expr) {
              (allows_micromaps(expr.operands[0]) ? "(s.state & g_query_opaque) == 0u && " : "") +
              "!rayQueryGetIntersectionCandidateAABBOpaqueEXT(q);";
     case QueryValue::kPositionTable:
-      return "return " + position_table() + "(uint(" + get("InstanceCustomIndex") + "));";
+      return "return " + position_table() + "(" + query_table_arguments(expr.index == 1) + ");";
     default:
       return "";
   }

@@ -144,9 +144,10 @@ std::string GlslEmitter::system_value(const Expr& expr) {
                     [&] { return hit_builtin("hit_kind", "uint", "gl_HitKindEXT"); });
     case SystemValue::kPositionTable:
       return if_has(hit, [&] {
-        return position_table() + "(" +
-               hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)") +
-               ")";
+        const std::string instance =
+            hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)");
+        const std::string id = hit_builtin("primitive_id", "uint", "uint(gl_PrimitiveID)");
+        return position_table() + "(" + instance + ", " + geometry_index() + ", " + id + ")";
       });
   }
   return zero(expr.type);

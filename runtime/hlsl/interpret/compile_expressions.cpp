@@ -271,6 +271,8 @@ void Compiler::compile(Node& node) {
       return in_slot(node, evaluate_record_constant());
     case ExprKind::kTrianglePositions:
       return in_slot(node, evaluate_triangle_positions());
+    case ExprKind::kClusterId:
+      return in_slot(node, evaluate_cluster_id());
     case ExprKind::kQuad:  // a statement by now
       break;
   }

@@ -230,7 +230,7 @@ const std::byte* query_value(const Node& node, Frame& frame) {
     case QueryValue::kProceduralNonOpaque:
       return keep(node, frame, hit.non_opaque);
     case QueryValue::kPositionTable:
-      return keep(node, frame, shader::position_table(hit.world_to_object));
+      return keep(node, frame, shader::query_position_table(hit));
     case QueryValue::kRayFlags:
       return keep(node, frame, query.ray_flags);
     case QueryValue::kRayTMin:
@@ -303,6 +303,11 @@ const std::byte* triangle_positions(const Node& node, Frame& frame) {
             *frame.context->invocation, site_of(node.expr->location), table, geometry, primitive));
   }
   return keep(node, frame, shader::triangle_positions(table, geometry, primitive));
+}
+
+const std::byte* cluster_id(const Node& node, Frame& frame) {
+  return keep(node, frame,
+              shader::cluster_id(evaluate_as<shader::uint2>(*node.operands[0], frame)));
 }
 
 }  // namespace
@@ -383,6 +388,9 @@ Evaluate evaluate_record_constant() {
 }
 Evaluate evaluate_triangle_positions() {
   return triangle_positions;
+}
+Evaluate evaluate_cluster_id() {
+  return cluster_id;
 }
 Evaluate evaluate_binding() {
   return binding;

@@ -29,6 +29,7 @@ Evaluate evaluate_query_value();
 Evaluate evaluate_same_bytes();
 Evaluate evaluate_record_constant();
 Evaluate evaluate_triangle_positions();
+Evaluate evaluate_cluster_id();
 Evaluate evaluate_binding();
 Evaluate evaluate_heap_resource();
 

@@ -177,6 +177,8 @@ class Dumper {
         return call("record_constant", *of);
       case ir::ExprKind::kTrianglePositions:
         return call("triangle_positions", *of);
+      case ir::ExprKind::kClusterId:
+        return call("cluster_id", *of);
       case ir::ExprKind::kQuad:
         return call(std::string(wave_function_name(of->wave)), *of);
     }

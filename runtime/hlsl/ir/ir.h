@@ -188,6 +188,7 @@ enum class ExprKind : uint8_t {
   kRecordConstant,     // operands: a hit object, byte offset (uint32). uint32
   kTrianglePositions,  // operands: position table (uint2), geometry, primitive. float3x3, a row for
                        // each vertex [kaamos/shader/triangle_positions.h]
+  kClusterId,          // operand: position table (uint2). uint32
   kQuad,  // only while a module is made (quad_functions.h): operands[0] combined over the quad
           // of a pixel shader, by `wave`
 };
@@ -245,7 +246,7 @@ enum class SystemValue : uint8_t {
   kWorldToObject3x4,
   kWorldToObject4x3,
   kHitKind,
-  kPositionTable,  // of the hit's bottom level, for kTrianglePositions
+  kPositionTable,  // of the hit, for kTrianglePositions and kClusterId
 };
 
 // The values that can be read from a RayQuery: about the candidate, or about the committed hit if

@@ -277,6 +277,10 @@ class Verifier {
                     is_scalar(operands[2]->type, ir::Scalar::kUint32),
                 "a triangle's positions", of);
         break;
+      case ExprKind::kClusterId:
+        operand_count(of, 1, 1);
+        require(components(operands[0]->type) == 2, "a cluster's ID", of);
+        break;
       default:
         break;
     }

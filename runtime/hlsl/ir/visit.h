@@ -48,7 +48,7 @@ inline bool is_literal(const Expr* expr, uint32_t number) {
   return expr->kind == ExprKind::kLiteral && static_cast<uint32_t>(expr->literal[0]) == number;
 }
 
-// Returns whether it is where the positions of a bottom level are.
+// Returns whether it is where the positions and the cluster of a hit are.
 inline bool is_position_table(const Expr& expr) {
   return (expr.kind == ExprKind::kSystemValue &&
           expr.system_value == SystemValue::kPositionTable) ||

@@ -9,7 +9,6 @@ namespace kaamos::hlsl {
 namespace {
 
 constexpr uint32_t kStages = ir::kStageAnyHit | ir::kStageClosestHit;
-constexpr uint32_t kNoCluster = 0xFFFFFFFFu;  // CLUSTER_ID_INVALID
 
 }  // namespace
 
@@ -22,8 +21,12 @@ bool TrianglePositions::is_usable(std::string_view name, const std::vector<Value
   return lower_.intrinsics.check_count(name, arguments.size(), 0, 0, location);
 }
 
-Value TrianglePositions::no_cluster() {
-  return rvalue(build_.uint32(kNoCluster), types_.scalar(Scalar::kUint32));
+Value TrianglePositions::cluster_id(const ir::Expr* table, SourceLocation location) {
+  at(location);
+  const Type* number = types_.scalar(Scalar::kUint32);
+  return rvalue(
+      build_.read(body_.temporary(build_.expr(ir::ExprKind::kClusterId, number->ir, {table}))),
+      number);
 }
 
 Value TrianglePositions::positions(const ir::Expr* table, const ir::Expr* geometry,
@@ -46,15 +49,16 @@ std::optional<Value> TrianglePositions::call_function(std::string_view name,
   if (!is_usable(name, arguments, location)) return error_value();
   lower_.intrinsics.use_in_stages(is_cluster ? "ClusterID" : "TriangleObjectPositions", kStages,
                                   location);
-  if (is_cluster) return no_cluster();
   const auto read = [&](ir::SystemValue value, const ir::Type* type) {
     ir::Expr* node = build_.expr(ir::ExprKind::kSystemValue, type);
     node->system_value = value;
     return static_cast<const ir::Expr*>(node);
   };
   const ir::Type* number = build_.scalar_type(Scalar::kUint32);
-  return positions(read(ir::SystemValue::kPositionTable, build_.vector_type(Scalar::kUint32, 2)),
-                   read(ir::SystemValue::kGeometryIndex, number),
+  const ir::Expr* table =
+      read(ir::SystemValue::kPositionTable, build_.vector_type(Scalar::kUint32, 2));
+  if (is_cluster) return cluster_id(table, location);
+  return positions(table, read(ir::SystemValue::kGeometryIndex, number),
                    read(ir::SystemValue::kPrimitiveIndex, number), location);
 }
 
@@ -66,7 +70,6 @@ std::optional<Value> TrianglePositions::call_query(std::string_view name, const 
   const std::string_view what = name.substr(9);
   if (what != "ClusterID" && what != "TriangleObjectPositions") return std::nullopt;
   if (!is_usable(name, arguments, location)) return error_value();
-  if (what == "ClusterID") return no_cluster();
   const auto read = [&](ir::QueryValue value, const ir::Type* type) {
     ir::Expr* node = build_.expr(ir::ExprKind::kQueryValue, type, {query});
     node->query_value = value;
@@ -76,6 +79,7 @@ std::optional<Value> TrianglePositions::call_query(std::string_view name, const 
   const ir::Type* number = build_.scalar_type(Scalar::kUint32);
   const ir::Expr* table = build_.read(body_.temporary(
       read(ir::QueryValue::kPositionTable, build_.vector_type(Scalar::kUint32, 2))));
+  if (what == "ClusterID") return cluster_id(table, location);
   const ir::Expr* has_table = build_.binary(
       ir::BinaryOp::kNotEqual,
       build_.binary(ir::BinaryOp::kBitOr, build_.swizzle(table, {0}), build_.swizzle(table, {1})),
@@ -94,7 +98,6 @@ std::optional<Value> TrianglePositions::call_hit_object(std::string_view name, c
   const bool is_cluster = name == "GetClusterID";
   if (!is_cluster && name != "TriangleObjectPositions") return std::nullopt;
   if (!is_usable(name, arguments, location)) return error_value();
-  if (is_cluster) return no_cluster();
   const ir::Type* pair = build_.vector_type(Scalar::kUint32, 2);
   const ir::Expr* words = build_.field(hit, ir::kHitAttributes);
   const auto word = [&](uint32_t i) { return build_.element(words, build_.uint32(i)); };
@@ -104,8 +107,9 @@ std::optional<Value> TrianglePositions::call_hit_object(std::string_view name, c
   const ir::Expr* is_triangle =
       build_.binary(ir::BinaryOp::kGreaterEqual, build_.field(hit, ir::kHitHitKind),
                     build_.uint32(shader::kLeastTriangleHitKind));
-  return positions(build_.conditional(is_triangle, kept, build_.zero(pair)),
-                   build_.field(hit, ir::kHitGeometryIndex),
+  const ir::Expr* table = build_.conditional(is_triangle, kept, build_.zero(pair));
+  if (is_cluster) return cluster_id(table, location);
+  return positions(table, build_.field(hit, ir::kHitGeometryIndex),
                    build_.field(hit, ir::kHitPrimitiveIndex), location);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// TriangleObjectPositions of hit shaders, of RayQuery and of hit objects; and ClusterID, which no
-// device has yet. [DXR: TriangleObjectPositions, ClusterID]
+// TriangleObjectPositions and ClusterID of hit shaders, of RayQuery and of hit objects.
+// [DXR: TriangleObjectPositions, ClusterID]
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ class TrianglePositions : LowerPart {
                  SourceLocation location);
   Value positions(const ir::Expr* table, const ir::Expr* geometry, const ir::Expr* primitive,
                   SourceLocation location);
-  Value no_cluster();
+  Value cluster_id(const ir::Expr* table, SourceLocation location);
 };
 
 }  // namespace kaamos::hlsl

@@ -296,6 +296,8 @@ enum class RemovalReason : uint32_t {
 // Inline ray tracing [DXR: RayQuery]. Plain bytes, because a shader may be left by a jump and the
 // object may be moved between two calls.
 
+struct ClusterTriangle;  // triangle_positions.h
+
 // The state of a candidate or of the committed hit.
 struct RayQueryHit {
   uint32_t type = 0;  // CANDIDATE_TYPE, COMMITTED_STATUS
@@ -310,9 +312,11 @@ struct RayQueryHit {
   bool non_opaque = false;                 // procedural candidates
   const float* object_to_world = nullptr;  // 3x4, row-major
   const float* world_to_object = nullptr;
+  const ClusterTriangle* cluster = nullptr;  // of a triangle in a cluster; null: it is in none
 };
 
-// A candidate that the backend has found but the shader has not seen yet.
+// A candidate that the backend has found but the shader has not seen yet. Geometry and primitive
+// are the backend's numbers, which differ from the application's in clusters.
 struct RayQueryFound {
   float t;  // boxes: none of their hits can be nearer
   uint32_t instance;

@@ -170,6 +170,16 @@ static_assert(sizeof(MicromapEntry) == 8);
 // with the application's numbers. 0: its primitives are no triangles.
 inline constexpr uint64_t kPositionsNotKept = 1;  // it was built without ALLOW_DATA_ACCESS
 
+// The position table of an instance whose bottom level was built from clusters is the address of
+// words, plus kClusterTable, and plus kPositionsNotKept without ALLOW_DATA_ACCESS. With the
+// driver's numbers,
+//   words[words[gl_GeometryIndexEXT] + n * gl_PrimitiveID]
+// is the ID of the triangle's cluster, before its 9 floats unless they are not kept (n: 10 or 1).
+// A hit's table is the address of the ID plus kClusterHit, and plus kPositionsNotKept likewise.
+inline constexpr uint64_t kClusterTable = 6;
+inline constexpr uint64_t kClusterHit = 2;
+inline constexpr uint64_t kClusterMask = 6;  // the bits that tell the two from other tables
+
 // The shader record as the driver sees it: this and nothing else, after the driver's handle. So the
 // application's record can stay where it is, and the driver is free in its sizes and alignments.
 //   layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; };

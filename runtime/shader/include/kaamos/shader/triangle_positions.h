@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// EXPERIMENTAL, as shader model 6.10 is: the vertices of the triangle that was hit, for shaders
-// that read them. [DXR: TriangleObjectPositions]
+// EXPERIMENTAL, as shader model 6.10 is: the vertices of the triangle that was hit, and the ID of
+// its cluster, for shaders that read them. [DXR: TriangleObjectPositions, ClusterID]
 //
-// A shader passes on where the positions of the hit's bottom level are as a uint2, its position
-// table: on the CPU the address of an array of GeometryPositions, in SPIR-V that of
-// spirv::PositionTable. {0, 0}: the hit is no triangle, or there is none. A hit object of a
-// triangle has it in the last two words of its attributes, which triangles leave free.
+// A shader passes on where they are as a uint2, the hit's position table. On the CPU it is the
+// address of an array of GeometryPositions, or for a triangle in a cluster the address of its
+// ClusterTriangle, marked by kInCluster; for SPIR-V see spirv_interface.h. {0, 0}: the hit is no
+// triangle, or there is none. A hit object of a triangle has it in the last two words of its
+// attributes, which triangles leave free.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -15,45 +16,90 @@
 
 namespace kaamos::shader {
 
+// A triangle of a bottom level that was built from clusters: what backends know by their own
+// numbers of geometry and primitive, since the application's are neither dense nor unique.
+struct ClusterTriangle {
+  const struct GeometryPositions* geometry = nullptr;
+  uint32_t triangle = 0;         // in that geometry
+  uint32_t geometry_index = 0;   // GeometryIndex
+  uint32_t primitive_index = 0;  // PrimitiveIndex: its number in its cluster
+  uint32_t cluster_id = 0;
+};
+inline constexpr uint64_t kInCluster = 1;            // in the address of a ClusterTriangle
+inline constexpr uint32_t kNoCluster = 0xFFFFFFFFu;  // CLUSTER_ID_INVALID
+
 // One for each geometry of a bottom level.
 struct GeometryPositions {
   const float* xyz = nullptr;         // of each vertex, in object space; null: no triangles
   const uint32_t* indices = nullptr;  // null: 0, 1, 2, ...
   bool is_readable = false;           // it was built with ALLOW_DATA_ACCESS
+  const ClusterTriangle* clustered = nullptr;  // by triangle, in a bottom level of clusters
 };
 
 // What RaySystemValues::world_to_object and RayQueryHit::world_to_object point to.
 struct InstanceTransform {
-  float rows[12];                      // 3x4, row-major
-  const GeometryPositions* positions;  // of the bottom level; null: there is none
+  float rows[12];      // 3x4, row-major
+  uint64_t positions;  // the position table as one number
   uint32_t instance_id;
 };
+
+inline uint64_t table_of(const GeometryPositions* positions) {
+  return reinterpret_cast<uint64_t>(positions);
+}
+inline uint64_t table_of(const ClusterTriangle* triangle) {
+  return reinterpret_cast<uint64_t>(triangle) | kInCluster;
+}
+KAAMOS_INLINE const ClusterTriangle* cluster_triangle(uint64_t table) {
+  if ((table & kInCluster) == 0) return nullptr;
+  return reinterpret_cast<const ClusterTriangle*>(table & ~kInCluster);
+}
 
 inline constexpr uint32_t kHitPositionTable = 6;  // its first word in HitObject::attributes
 inline constexpr uint32_t kLeastTriangleHitKind = 254;
 
+// The position table that belongs to a transform, as one number.
+KAAMOS_INLINE uint64_t table_at(const float* world_to_object) {
+  return reinterpret_cast<const InstanceTransform*>(world_to_object)->positions;
+}
+KAAMOS_INLINE uint2 as_words(uint64_t table) {
+  return {{static_cast<uint32_t>(table), static_cast<uint32_t>(table >> 32)}};
+}
+KAAMOS_INLINE uint64_t as_number(uint2 table) {
+  return table[0] | uint64_t{table[1]} << 32;
+}
 KAAMOS_INLINE uint2 position_table(const float* world_to_object) {
   if (world_to_object == nullptr) return {};
-  const auto* transform = reinterpret_cast<const InstanceTransform*>(world_to_object);
-  const auto address = reinterpret_cast<uint64_t>(transform->positions);
-  return {{static_cast<uint32_t>(address), static_cast<uint32_t>(address >> 32)}};
+  return as_words(table_at(world_to_object));
+}
+KAAMOS_INLINE uint2 query_position_table(const RayQueryHit& hit) {
+  return hit.cluster != nullptr ? as_words(table_of(hit.cluster))
+                                : position_table(hit.world_to_object);
 }
 
-inline void set_position_table(HitObject& hit, const GeometryPositions* positions) {
-  __builtin_memcpy(&hit.attributes[kHitPositionTable], &positions, sizeof(positions));
+inline void set_position_table(HitObject& hit, uint64_t table) {
+  __builtin_memcpy(&hit.attributes[kHitPositionTable], &table, sizeof(table));
 }
-inline const GeometryPositions* positions_of(const HitObject& hit) {
-  const GeometryPositions* positions = nullptr;
+inline uint64_t position_table_of(const HitObject& hit) {
+  uint64_t table = 0;
   if (hit.state == kHitObjectHit && hit.hit_kind >= kLeastTriangleHitKind) {
-    __builtin_memcpy(&positions, &hit.attributes[kHitPositionTable], sizeof(positions));
+    __builtin_memcpy(&table, &hit.attributes[kHitPositionTable], sizeof(table));
   }
-  return positions;
+  return table;
+}
+
+// The ID of the hit's cluster; kNoCluster: it is in none.
+KAAMOS_INLINE uint32_t cluster_id(uint2 table) {
+  const ClusterTriangle* in_cluster = cluster_triangle(as_number(table));
+  return in_cluster != nullptr ? in_cluster->cluster_id : kNoCluster;
 }
 
 inline const GeometryPositions* geometry_positions(uint2 table, uint32_t geometry) {
-  const uint64_t address = table[0] | uint64_t{table[1]} << 32;
+  const uint64_t address = as_number(table);
   if (address == 0) return nullptr;
-  const GeometryPositions* found = reinterpret_cast<const GeometryPositions*>(address) + geometry;
+  const ClusterTriangle* in_cluster = cluster_triangle(address);
+  const GeometryPositions* found =
+      in_cluster != nullptr ? in_cluster->geometry
+                            : reinterpret_cast<const GeometryPositions*>(address) + geometry;
   return found->xyz != nullptr ? found : nullptr;
 }
 
@@ -62,6 +108,9 @@ inline float3x3 triangle_positions(uint2 table, uint32_t geometry, uint32_t prim
   float3x3 result = {};
   const GeometryPositions* positions = geometry_positions(table, geometry);
   if (positions == nullptr) return result;
+  if (const ClusterTriangle* in_cluster = cluster_triangle(as_number(table))) {
+    primitive = in_cluster->triangle;
+  }
   for (uint32_t i = 0; i < 3; ++i) {
     const uint64_t corner = 3 * uint64_t{primitive} + i;
     const uint64_t vertex = positions->indices != nullptr ? positions->indices[corner] : corner;
