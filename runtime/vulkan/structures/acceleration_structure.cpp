@@ -166,6 +166,14 @@ runtime::RebuildLevel Structures::rebuild_level() {
     result.top_level = std::move(*level);
     return {};
   };
+  rebuild.clustered_level = [this](std::vector<runtime::ClusteredGeometry> geometries,
+                                   AccelerationStructure& result) -> rtapi::Status {
+    auto level = BottomLevel::build_clustered(gpu_, std::move(geometries), result.flags);
+    if (!level) return level.error();
+    result.compacted_bytes = (*level)->held_bytes();
+    result.bottom_level = std::move(*level);
+    return {};
+  };
   return rebuild;
 }
 

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <map>
 #include <string>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/structures/build_inputs.h"
 #include "runtime/structures/structure_commands.h"
+#include "runtime/structures/triangle_positions.h"
 #include "runtime/vulkan/structures/primitive_list.h"
 
 namespace kaamos::vulkan {
@@ -22,12 +25,15 @@ using rtapi::RaytracingGeometryType;
 // and builds.
 class BottomLevelBuilder {
  public:
+  // `numbers`: by geometry and triangle in a part of clusters; otherwise empty.
   BottomLevelBuilder(std::shared_ptr<Gpu> gpu, std::span<const RaytracingGeometryDesc> geometries,
-                     const BottomLevel* update_of, BottomLevel& level)
+                     const BottomLevel* update_of, BottomLevel& level,
+                     std::span<const std::vector<ClusterNumbers>> numbers = {})
       : gpu_(std::move(gpu)),
         geometries_(geometries),
         update_of_(update_of),
         level_(level),
+        numbers_(numbers),
         list_(list_options(gpu_->workarounds())) {}
 
   rtapi::Status run() {
@@ -57,12 +63,15 @@ class BottomLevelBuilder {
   rtapi::Status copy_micromap_indices();
   void keep_inputs();
   std::vector<uint32_t> position_words() const;
+  std::vector<uint32_t> cluster_remap_words() const;
+  std::vector<uint32_t> cluster_words() const;
   uint64_t position_table(bool is_missing, uint64_t offset_bytes) const;
 
   std::shared_ptr<Gpu> gpu_;
   std::span<const RaytracingGeometryDesc> geometries_;
   const BottomLevel* update_of_;
   BottomLevel& level_;
+  std::span<const std::vector<ClusterNumbers>> numbers_;
   PrimitiveList list_;
   std::vector<Decoded> decoded_;
   std::unique_ptr<GpuBuffer> inputs_;
@@ -175,9 +184,12 @@ StructureGeometry BottomLevelBuilder::describe(size_t g) const {
 rtapi::Status BottomLevelBuilder::build() {
   std::vector<StructureGeometry> geometries;
   for (size_t g = 0; g < geometries_.size(); ++g) geometries.push_back(describe(g));
-  const std::vector<uint32_t> remap = list_.remap_words();
+  const bool clustered = !numbers_.empty();
+  const std::vector<uint32_t> remap = clustered ? cluster_remap_words() : list_.remap_words();
   std::vector<uint32_t> words = remap;
-  const std::vector<uint32_t> positions = position_words();
+  const std::vector<uint32_t> positions = clustered ? cluster_words() : position_words();
+  if (clustered && words.size() % 2 != 0) words.push_back(0);  // marks need addresses of 8 bytes
+  const uint64_t positions_offset = words.size() * sizeof(uint32_t);
   words.insert(words.end(), positions.begin(), positions.end());
   auto structure =
       VulkanStructure::build(gpu_, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, level_.flags_,
@@ -189,10 +201,10 @@ rtapi::Status BottomLevelBuilder::build() {
     std::memcpy(level_.structure_->extra_host(), words.data(), words.size() * sizeof(uint32_t));
   }
   if (!remap.empty()) level_.remap_ = level_.structure_->extra_address();
-  level_.position_table_ = position_table(positions.empty(), remap.size() * sizeof(uint32_t));
+  level_.position_table_ = position_table(positions.empty(), positions_offset);
   level_.empty_ = list_.empty();
   level_.bounds_ = list_.bounds();
-  keep_inputs();
+  if (!clustered) keep_inputs();  // the level that it is a part of has them
   return copy_micromap_indices();
 }
 
@@ -238,7 +250,44 @@ std::vector<uint32_t> BottomLevelBuilder::position_words() const {
   return words;
 }
 
+// spirv_interface.h: InstanceEntry::primitive_remap.
+std::vector<uint32_t> BottomLevelBuilder::cluster_remap_words() const {
+  std::vector<uint32_t> words(geometries_.size());
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    words[g] = static_cast<uint32_t>(words.size());
+    for (const SortItem& item : list_.items(g)) {
+      words.push_back(numbers_[g][item.primitive].primitive_index);
+    }
+  }
+  return words;
+}
+
+// spirv_interface.h: kClusterTable.
+std::vector<uint32_t> BottomLevelBuilder::cluster_words() const {
+  const bool readable = HasAny(level_.flags_, runtime::BuildFlags::kAllowDataAccess);
+  std::vector<uint32_t> words(geometries_.size());
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    words[g] = static_cast<uint32_t>(words.size());
+    const Decoded& in = decoded_[g];
+    for (const SortItem& item : list_.items(g)) {
+      words.push_back(numbers_[g][item.primitive].cluster_id);
+      for (int corner = 0; readable && corner < 3; ++corner) {
+        const size_t vertex = in.indices[3 * size_t{item.primitive} + corner];
+        for (int axis = 0; axis < 3; ++axis) {
+          words.push_back(std::bit_cast<uint32_t>(in.xyz[3 * vertex + axis]));
+        }
+      }
+    }
+  }
+  return words;
+}
+
 uint64_t BottomLevelBuilder::position_table(bool is_missing, uint64_t offset_bytes) const {
+  if (!numbers_.empty()) {
+    const bool readable = HasAny(level_.flags_, runtime::BuildFlags::kAllowDataAccess);
+    return (level_.structure_->extra_address() + offset_bytes) | shader::spirv::kClusterTable |
+           (readable ? 0 : shader::spirv::kPositionsNotKept);
+  }
   if (!is_missing) return level_.structure_->extra_address() + offset_bytes;
   const bool has_triangles = !geometries_.empty() && !procedural(0);
   return has_triangles ? shader::spirv::kPositionsNotKept : 0;
@@ -280,6 +329,108 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
   if (auto s = BottomLevelBuilder(gpu, geometries, update_of, *level).run(); !s) return s.error();
   if (!shapes.empty()) level->shapes_.assign(shapes.begin(), shapes.end());
   return level;
+}
+
+namespace {
+
+RaytracingGeometryDesc desc_of(const runtime::ClusteredGeometry& geometry) {
+  RaytracingGeometryDesc desc;
+  desc.Flags = geometry.flags;
+  auto& triangles = desc.Triangles;
+  triangles.VertexFormat = rtapi::Format::kR32G32B32Float;
+  triangles.VertexCount = static_cast<uint32_t>(geometry.xyz.size() / 3);
+  triangles.VertexBuffer = {reinterpret_cast<uint64_t>(geometry.xyz.data()), 12};
+  triangles.IndexFormat = rtapi::Format::kR32Uint;
+  triangles.IndexCount = static_cast<uint32_t>(geometry.indices.size());
+  triangles.IndexBuffer = reinterpret_cast<uint64_t>(geometry.indices.data());
+  return desc;
+}
+
+void append(runtime::ClusteredGeometry& to, const runtime::ClusteredGeometry& from) {
+  const auto first = static_cast<uint32_t>(to.xyz.size() / 3);
+  to.xyz.insert(to.xyz.end(), from.xyz.begin(), from.xyz.end());
+  for (const uint32_t index : from.indices) to.indices.push_back(first + index);
+  const auto add = [](std::vector<uint32_t>& list, const std::vector<uint32_t>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+  };
+  add(to.primitive_index, from.primitive_index);
+  add(to.cluster_id, from.cluster_id);
+}
+
+}  // namespace
+
+// `geometries` are in the order of the driver's numbers.
+rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build_part(
+    const std::shared_ptr<Gpu>& gpu, std::span<const runtime::ClusteredGeometry> geometries,
+    runtime::BuildFlags flags) {
+  std::shared_ptr<BottomLevel> part(new BottomLevel);
+  part->flags_ = flags;
+  std::vector<RaytracingGeometryDesc> descs;
+  std::vector<std::vector<ClusterNumbers>> numbers;
+  for (const runtime::ClusteredGeometry& geometry : geometries) {
+    descs.push_back(desc_of(geometry));
+    part->shapes_.push_back(runtime::shape_of(geometry));
+    auto& of_geometry = numbers.emplace_back();
+    for (uint32_t i = 0; i < geometry.triangles(); ++i) {
+      of_geometry.push_back({geometry.primitive_index[i], geometry.cluster_id[i]});
+    }
+  }
+  if (auto s = BottomLevelBuilder(gpu, descs, nullptr, *part, numbers).run(); !s) return s.error();
+  return part;
+}
+
+rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build_clustered(
+    const std::shared_ptr<Gpu>& gpu, std::vector<runtime::ClusteredGeometry> geometries,
+    runtime::BuildFlags flags) {
+  std::map<uint32_t, std::vector<runtime::ClusteredGeometry>> parts;  // by flags
+  for (const runtime::ClusteredGeometry& geometry : geometries) {
+    if (geometry.geometry_index > kMaxGeometryIndex || geometry.linkage != nullptr) {
+      return runtime::make_error(
+          runtime::Id::kTooManyElements,
+          geometry.linkage != nullptr
+              ? "clusters with opacity micromaps; on Vulkan they have none."
+              : "a cluster has geometry index " + std::to_string(geometry.geometry_index) +
+                    "; on Vulkan it must be at most " + std::to_string(kMaxGeometryIndex) + ".");
+    }
+    if (geometry.triangles() == 0) continue;
+    auto& part = parts[static_cast<uint32_t>(geometry.flags)];
+    for (auto g = static_cast<uint32_t>(part.size()); g <= geometry.geometry_index; ++g) {
+      part.emplace_back().geometry_index = g;
+    }
+    part[geometry.geometry_index].flags = geometry.flags;
+    append(part[geometry.geometry_index], geometry);
+  }
+  std::shared_ptr<BottomLevel> level(new BottomLevel);
+  level->flags_ = flags & ~runtime::BuildFlags::kAllowUpdate;
+  for (const auto& [part_flags, part] : parts) {
+    auto built = build_part(gpu, part, level->flags_);
+    if (!built) return built.error();
+    if ((*built)->empty()) continue;
+    level->held_bytes_ += (*built)->held_bytes();
+    level->parts_.push_back(std::move(*built));
+  }
+  level->keep_clusters(std::move(geometries));
+  return level;
+}
+
+void BottomLevel::keep_clusters(std::vector<runtime::ClusteredGeometry> geometries) {
+  for (const auto& part : parts_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const runtime::Bounds& bounds = part->bounds_;
+      bounds_.lower[axis] =
+          empty_ ? bounds.lower[axis] : std::min(bounds_.lower[axis], bounds.lower[axis]);
+      bounds_.upper[axis] =
+          empty_ ? bounds.upper[axis] : std::max(bounds_.upper[axis], bounds.upper[axis]);
+    }
+    empty_ = false;
+  }
+  clusters_.set(geometries);
+  for (runtime::ClusteredGeometry& geometry : geometries) {
+    shapes_.push_back(runtime::shape_of(geometry));
+    inputs_.push_back({std::move(geometry.xyz), std::move(geometry.indices), {}});
+  }
+  positions_ = runtime::positions_of(*this, flags_);
+  clusters_.refer_to(positions_);
 }
 
 }  // namespace kaamos::vulkan

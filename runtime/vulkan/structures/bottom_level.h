@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A bottom level: a Vulkan acceleration structure, with a copy of its decoded inputs on the host.
+// One of clusters consists of others, its parts.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +12,17 @@
 #include <rtapi/raytracing.h>
 #include <rtapi/result.h>
 
+#include "runtime/structures/clustered_geometry.h"
 #include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/structures/vulkan_structure.h"
 
 namespace kaamos::vulkan {
+
+// What a triangle of a part is to the application.
+struct ClusterNumbers {
+  uint32_t primitive_index = 0;
+  uint32_t cluster_id = 0;
+};
 
 class BottomLevel final : public runtime::BottomLevelBase {
  public:
@@ -28,6 +36,21 @@ class BottomLevel final : public runtime::BottomLevelBase {
       runtime::BuildFlags flags,
       std::span<const std::shared_ptr<runtime::MicromapLinkage>> linkages,
       const BottomLevel* update_of = nullptr, std::span<const runtime::GeometryShape> shapes = {});
+
+  // EXPERIMENTAL: from clusters. A driver's number of a geometry decides its hit record, and the
+  // geometry's flags are those of all of its triangles. So each combination of flags makes a part,
+  // in which the driver's numbers are the application's, with empty geometries in between. Errors:
+  // as above, and KA0794 also a geometry index beyond kMaxGeometryIndex, or opacity micromaps.
+  static rtapi::Result<std::shared_ptr<BottomLevel>> build_clustered(
+      const std::shared_ptr<Gpu>& gpu, std::vector<runtime::ClusteredGeometry> geometries,
+      runtime::BuildFlags flags);
+  static constexpr uint32_t kMaxGeometryIndex = 0xFFFF;
+  bool clustered() const { return !clusters_.empty(); }
+  // What instances of a level of clusters are instances of.
+  std::span<const std::shared_ptr<BottomLevel>> parts() const { return parts_; }
+  const shader::ClusterTriangle* cluster_triangles(uint32_t geometry) const override {
+    return clusters_.of(geometry);
+  }
 
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override { return bounds_; }
@@ -47,7 +70,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
   uint64_t address() const { return structure_->address(); }
   uint64_t primitive_remap() const { return remap_; }  // spirv::InstanceEntry::primitive_remap
-  uint64_t position_table() const { return position_table_; }  // spirv::kPositionsNotKept
+  // spirv::kPositionsNotKept, spirv::kClusterTable
+  uint64_t position_table() const { return position_table_; }
   uint64_t held_bytes() const { return held_bytes_; }
   uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }
   std::span<const runtime::GeometryShape> shapes() const { return shapes_; }
@@ -57,6 +81,10 @@ class BottomLevel final : public runtime::BottomLevelBase {
  private:
   friend class BottomLevelBuilder;
   BottomLevel() = default;
+  static rtapi::Result<std::shared_ptr<BottomLevel>> build_part(
+      const std::shared_ptr<Gpu>& gpu, std::span<const runtime::ClusteredGeometry> geometries,
+      runtime::BuildFlags flags);
+  void keep_clusters(std::vector<runtime::ClusteredGeometry> geometries);
 
   std::unique_ptr<VulkanStructure> structure_;
   uint64_t remap_ = 0;
@@ -79,6 +107,10 @@ class BottomLevel final : public runtime::BottomLevelBase {
   std::vector<Inputs> inputs_;                                             // one per geometry
   std::vector<std::shared_ptr<const runtime::MicromapLinkage>> linkages_;  // likewise, or empty
   std::unique_ptr<GpuBuffer> micromap_indices_;  // of all linked geometries; null: there are none
+  // Only in a level of clusters:
+  std::vector<std::shared_ptr<BottomLevel>> parts_;
+  runtime::ClusterTriangles clusters_;
+  std::vector<shader::GeometryPositions> positions_;  // what clusters_ refers to
 };
 
 }  // namespace kaamos::vulkan

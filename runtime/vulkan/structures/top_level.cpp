@@ -113,6 +113,35 @@ rtapi::Result<std::unique_ptr<VulkanStructure>> build_from(
                                 std::span(&geometry, 1), 0);
 }
 
+// An instance for the driver: of a classic bottom level, or of a part of one of clusters.
+struct Expanded {
+  std::vector<runtime::Instance> instances;
+  std::vector<uint32_t> indices;  // InstanceIndex
+};
+
+// Instances of clusters become instances of the first part, and of the others at the end. Empty if
+// there are no clusters.
+Expanded expand_clusters(std::span<const runtime::Instance> instances) {
+  Expanded result;
+  const auto is_clustered = [](const runtime::Instance& instance) {
+    return instance.bottom_level != nullptr && bottom_level_of(instance).clustered();
+  };
+  if (std::none_of(instances.begin(), instances.end(), is_clustered)) return result;
+  result.instances.assign(instances.begin(), instances.end());
+  for (uint32_t i = 0; i < instances.size(); ++i) result.indices.push_back(i);
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    if (!is_clustered(instances[i])) continue;
+    const auto parts = bottom_level_of(instances[i]).parts();
+    result.instances[i].bottom_level = parts[0];
+    for (const auto& part : parts.subspan(1)) {
+      result.instances.push_back(instances[i]);
+      result.instances.back().bottom_level = part;
+      result.indices.push_back(i);
+    }
+  }
+  return result;
+}
+
 bool any_has_micromaps(std::span<const runtime::Instance> instances) {
   return std::any_of(instances.begin(), instances.end(), [](const runtime::Instance& instance) {
     return instance.bottom_level != nullptr && bottom_level_of(instance).has_micromaps();
@@ -172,10 +201,14 @@ rtapi::Status TopLevel::link_micromaps(MicromapBuffers& buffers) const {
   return {};
 }
 
-rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
-    const std::shared_ptr<Gpu>& gpu, InstanceTable& table,
-    std::span<const runtime::Instance> instances, runtime::BuildFlags flags) {
+rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(const std::shared_ptr<Gpu>& gpu,
+                                                         InstanceTable& table,
+                                                         std::span<const runtime::Instance> given,
+                                                         runtime::BuildFlags flags) {
   std::shared_ptr<TopLevel> level(new TopLevel);
+  const Expanded expanded = expand_clusters(given);
+  const std::span<const runtime::Instance> instances =
+      expanded.indices.empty() ? given : std::span<const runtime::Instance>(expanded.instances);
   auto& kept = level->bottom_levels_;
   const bool micromaps = any_has_micromaps(instances);
   for (const auto& instance : instances) {
@@ -191,7 +224,8 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   std::vector<InstanceEntry> entries;
   entries.reserve(instances.size());
   for (const auto& instance : instances) {
-    entries.push_back(entry_of(instance, static_cast<uint32_t>(entries.size())));
+    const auto i = static_cast<uint32_t>(entries.size());
+    entries.push_back(entry_of(instance, expanded.indices.empty() ? i : expanded.indices[i]));
   }
   if (micromaps) {
     if (auto s = level->add_micromaps(gpu, instances, entries); !s) return s.error();
