@@ -175,6 +175,8 @@ struct CopyTextureCommand {
 // take the DWORD values[0].
 struct ClearUavCommand {
   shader::Descriptor view;
+  bool whole = true;               // else `rects`: texels, or elements of a buffer's one row
+  std::vector<rtapi::Rect> rects;  // not cut to the view; none of them is empty
   bool is_float = false;
   uint32_t values[4] = {0, 0, 0, 0};     // float: bit patterns
   std::shared_ptr<const void> resource;  // keeps it alive

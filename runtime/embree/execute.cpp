@@ -161,7 +161,7 @@ rtapi::Status Target::clear(const runtime::ClearUavCommand& command) {
   if (command.view.kind != shader::DescriptorKind::kTexture) {
     device_.memory().evict(command.view.address, command.view.size_bytes);
   }
-  clear_view(command.view, command.is_float, command.values);
+  clear_view(command);
   return {};
 }
 

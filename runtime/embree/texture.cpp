@@ -15,9 +15,11 @@ namespace {
 constexpr size_t kKeptAfterEnd = 4096;   // views, of about 650 bytes each
 constexpr uint64_t kBlocksAtOnce = 256;  // fewer blocks are not worth a second thread
 
-void clear_texture(const shader::TextureView& view, const shader::Texel& value) {
+void clear_texture(const shader::TextureView& view, const runtime::ClearUavCommand& command) {
   const shader::FormatCodec& codec = shader::format_codec(view.format);
   if (codec.encode == nullptr || !view.unordered_access) return;
+  const auto format = static_cast<rtapi::Format>(view.format);
+  const shader::Texel value = runtime::clear_texel(format, command.is_float, command.values);
   // Every other row is a prefix of the widest one.
   std::vector<uint8_t> row(size_t{view.mips[0].width} * codec.bytes);
   for (size_t at = 0; at < row.size(); at += codec.bytes) codec.encode(&row[at], value);
@@ -26,10 +28,14 @@ void clear_texture(const shader::TextureView& view, const shader::Texel& value) 
     if (m.texels == nullptr) continue;
     const uint32_t slices =
         view.dimension == shader::TextureDimension::k3D ? m.depth : view.slice_count;
-    for (uint32_t z = 0; z < slices; ++z) {
-      for (uint32_t y = 0; y < m.height; ++y) {
-        std::memcpy(m.texels + z * m.slice_pitch + uint64_t{y} * m.row_pitch, row.data(),
-                    size_t{m.width} * codec.bytes);
+    for (const rtapi::Rect& part : runtime::cleared_parts(command, m.width, m.height)) {
+      const size_t offset = static_cast<size_t>(part.left) * codec.bytes;
+      const size_t bytes = static_cast<size_t>(part.right - part.left) * codec.bytes;
+      for (uint32_t z = 0; z < slices; ++z) {
+        for (auto y = static_cast<uint64_t>(part.top); y < static_cast<uint64_t>(part.bottom);
+             ++y) {
+          std::memcpy(m.texels + z * m.slice_pitch + y * m.row_pitch + offset, row.data(), bytes);
+        }
       }
     }
   }
@@ -181,11 +187,10 @@ shader::SamplerState sampler_state_of(const rtapi::SamplerDesc& desc) {
   return state;
 }
 
-void clear_view(const shader::Descriptor& descriptor, bool is_float, const uint32_t values[4]) {
-  const shader::TextureView* view = shader::texture_view(descriptor);
-  if (view == nullptr) return runtime::clear_buffer_view(descriptor, is_float, values);
-  const auto format = static_cast<rtapi::Format>(view->format);
-  clear_texture(*view, runtime::clear_texel(format, is_float, values));
+void clear_view(const runtime::ClearUavCommand& command) {
+  const shader::TextureView* view = shader::texture_view(command.view);
+  if (view == nullptr) return runtime::clear_buffer_view(command.view, command);
+  clear_texture(*view, command);
 }
 
 }  // namespace kaamos::embree

@@ -79,6 +79,6 @@ class Texture final : public runtime::BackendTexture {
 
 shader::SamplerState sampler_state_of(const rtapi::SamplerDesc& desc);
 // Writes `values` to every element of a view. [D3D12: ClearUnorderedAccessViewUint, -Float]
-void clear_view(const shader::Descriptor& view, bool is_float, const uint32_t values[4]);
+void clear_view(const runtime::ClearUavCommand& command);
 
 }  // namespace kaamos::embree

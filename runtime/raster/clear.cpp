@@ -22,15 +22,15 @@ struct Fill {
   uint8_t mask[kMostTexelBytes] = {};
 };
 
-// The nearest integer, as far as a column of the class can hold it; the codec clamps to the format.
-uint32_t nearest_integer(float value, bool is_signed) {
+// The integer part, as far as a column of the class can hold it; the codec clamps to the format.
+uint32_t integer_part(float value, bool is_signed) {
   if (std::isnan(value)) return 0;
-  const double nearest = std::nearbyint(static_cast<double>(value));
+  const double part = std::trunc(static_cast<double>(value));
   if (is_signed) {
-    const double limited = std::fmin(std::fmax(nearest, -2147483648.0), 2147483647.0);
+    const double limited = std::fmin(std::fmax(part, -2147483648.0), 2147483647.0);
     return static_cast<uint32_t>(static_cast<int32_t>(limited));
   }
-  return static_cast<uint32_t>(std::fmin(std::fmax(nearest, 0.0), 4294967295.0));
+  return static_cast<uint32_t>(std::fmin(std::fmax(part, 0.0), 4294967295.0));
 }
 
 Fill color_fill(rtapi::Format format, const float color[4]) {
@@ -38,8 +38,8 @@ Fill color_fill(rtapi::Format format, const float color[4]) {
   const rtapi::FormatClass type = rtapi::GetFormatInfo(format).type;
   shader::Column columns[4] = {};
   for (int c = 0; c < 4; ++c) {
-    const uint32_t bits = type == rtapi::FormatClass::kSint   ? nearest_integer(color[c], true)
-                          : type == rtapi::FormatClass::kUint ? nearest_integer(color[c], false)
+    const uint32_t bits = type == rtapi::FormatClass::kSint   ? integer_part(color[c], true)
+                          : type == rtapi::FormatClass::kUint ? integer_part(color[c], false)
                                                               : std::bit_cast<uint32_t>(color[c]);
     for (uint32_t& lane : columns[c]) lane = bits;
   }
@@ -58,7 +58,7 @@ void put(Fill& fill, uint32_t first, std::span<const uint8_t> bytes) {
   std::memset(fill.mask + first, 0xFF, bytes.size());
 }
 
-// `steps` of a normalized depth: nearest. [RAS-60]
+// `steps` of a normalized depth: whole. [RAS-60]
 uint32_t normalized(float depth, double steps) {
   return static_cast<uint32_t>(static_cast<double>(depth) * steps + 0.5);
 }

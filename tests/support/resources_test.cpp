@@ -39,6 +39,16 @@ TEST_P(Resources, GetCopyableFootprints) {
   EXPECT_GE(*bytes, 8u * 8 * 4);
 }
 
+TEST_P(Resources, WriteBufferImmediate) {
+  const Buffer words = buffer(32);
+  const uint64_t at = words.GetGPUVirtualAddress();
+  const WriteBufferImmediateParameter values[] = {{at + 4, 7}, {at + 28, 8}, {at + 4, 9}};
+  CommandList list = device_.CreateCommandList().value();
+  list.WriteBufferImmediate(values);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  EXPECT_EQ(read(words), (std::vector<uint32_t>{0, 9, 0, 0, 0, 0, 0, 8}));
+}
+
 TEST_P(Resources, CopyBufferRegion) {
   const Buffer source = upload(numbers(1));
   const Buffer dest = buffer(32);
@@ -245,6 +255,69 @@ TEST_P(Descriptors, ClearUnorderedAccessViewUint) {
                                     words, values);
   KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
   EXPECT_EQ(read(words), numbers(77, 0));
+}
+
+// Handles of a heap that is not set, rectangles, and bits of every kind of format.
+TEST_P(Descriptors, ClearUnorderedAccessViewUint_rectangles) {
+  const Buffer words = buffer(32);
+  UnorderedAccessViewDesc view;
+  view.ViewDimension = UavDimension::kBuffer;
+  view.Format = Format::kR32Uint;
+  device_.CreateUnorderedAccessView(words, view, slot(kTypedOut)).value();
+  TextureDesc desc;
+  desc.Width = 6;
+  desc.Height = 4;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kUnorderedAccess;
+  desc.Format = Format::kR16G16Float;
+  const Texture halves = device_.CreateTexture(desc).value();
+  device_.CreateUnorderedAccessView(halves, slot(kTextureOut)).value();
+  CommandList list = device_.CreateCommandList().value();
+  const uint32_t values[4] = {0x13C00, 0xC000, 3, 4};
+  const Rect rects[] = {{1, 0, 3, 1}, {5, 0, 50, 7}};
+  list.ClearUnorderedAccessViewUint(views_.GetGPUDescriptorHandle(kTypedOut), slot(kTypedOut),
+                                    words, values, rects);
+  const Rect corner[] = {{-2, 2, 2, 9}, {4, 0, 6, 1}};
+  list.ClearUnorderedAccessViewUint(views_.GetGPUDescriptorHandle(kTextureOut), slot(kTextureOut),
+                                    halves, values, corner);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  constexpr uint32_t kValue = 0x13C00;
+  EXPECT_EQ(read(words), (std::vector<uint32_t>{0, kValue, kValue, 0, 0, kValue, kValue, kValue}));
+  const auto bytes = ReadbackTexture(device_, queue_, halves, 0).value();
+  for (int32_t y = 0; y < 4; ++y) {
+    for (int32_t x = 0; x < 6; ++x) {
+      uint32_t texel = 0;
+      std::memcpy(&texel, &bytes[static_cast<size_t>(y * 6 + x) * 4], 4);
+      const bool inside = (x < 2 && y >= 2) || (x >= 4 && y < 1);
+      EXPECT_EQ(texel, inside ? 0xC0003C00u : 0u) << x << " " << y;
+    }
+  }
+}
+
+TEST_P(Descriptors, ClearUnorderedAccessViewUint_packed_formats) {
+  const uint32_t values[4] = {0xFFFFF801, 0x402, 0x1403, 0x6};
+  const std::pair<Format, uint32_t> cases[] = {
+      {Format::kR10G10B10A2Unorm, 0x001 | 0x002 << 10 | 0x003 << 20 | 2u << 30},
+      {Format::kR8G8B8A8Unorm, 0x06030201},
+      {Format::kR8G8B8A8Sint, 0x06030201}};
+  for (const auto& [format, expected] : cases) {
+    TextureDesc desc;
+    desc.Width = 1;
+    desc.Height = 1;
+    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+    desc.InitialState = ResourceStates::kUnorderedAccess;
+    desc.Format = format;
+    const Texture texture = device_.CreateTexture(desc).value();
+    device_.CreateUnorderedAccessView(texture, slot(kTextureOut)).value();
+    CommandList list = device_.CreateCommandList().value();
+    list.ClearUnorderedAccessViewUint(views_.GetGPUDescriptorHandle(kTextureOut), slot(kTextureOut),
+                                      texture, values);
+    KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+    uint32_t texel = 0;
+    const auto bytes = ReadbackTexture(device_, queue_, texture, 0).value();
+    std::memcpy(&texel, bytes.data(), 4);
+    EXPECT_EQ(texel, expected) << static_cast<uint32_t>(format);
+  }
 }
 
 TEST_P(Descriptors, ClearUnorderedAccessViewFloat) {

@@ -28,12 +28,35 @@ namespace detail {
 struct CommandListImpl;
 }
 
+/// What becomes of a list if one of its calls breaks a rule. The call is not recorded either way.
+enum class InvalidCalls : uint32_t {
+  kFailList = 0,  ///< Close() returns the error, and the list cannot be executed
+  /// As D3D12's runtimes do without their debug layer: calls that they drop or ignore are told to
+  /// DeviceDesc::OnMessage as errors, and the rest of the list executes. These are KA0740-0743,
+  /// KA0802-0805, KA0807-0816, KA0822 and KA0824, those of acceleration structure builds and copies
+  /// (KA0700-0719) and of queries (KA0745). All others fail the list, as there: arguments of
+  /// copies, empty handles, what is not supported. A list that is executed open removes the device
+  /// with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
+  kDropCall = 1,
+};
+
+/// The way a value of WriteBufferImmediate is ordered. Every one is a plain write in order here.
+/// [D3D12: D3D12_WRITEBUFFERIMMEDIATE_MODE]
+enum class WriteBufferImmediateMode : uint32_t { kDefault = 0, kMarkerIn = 1, kMarkerOut = 2 };
+
+/// One 32-bit value of WriteBufferImmediate. [D3D12: D3D12_WRITEBUFFERIMMEDIATE_PARAMETER]
+struct WriteBufferImmediateParameter {
+  GpuVirtualAddress Dest = 0;  ///< a multiple of 4, in a buffer of the default or readback heap
+  uint32_t Value = 0;          ///< what is written
+};
+
 /// A command list for every kind of work; open when created. A copyable handle, for one thread at a
 /// time.
 ///
 /// Calls that record return nothing, as in D3D12: a call that breaks a rule is not recorded, its
-/// error is kept, and Close() returns the first of them. The errors listed below are those. On a
-/// closed list every call is KA0800; on an empty handle it does nothing, but for Reset and Close.
+/// error is kept, and Close() returns the first of them; DeviceDesc::InvalidCalls makes some drop.
+/// The errors listed below are those. On a closed list every call is KA0800; on an empty handle it
+/// does nothing, but for Reset and Close.
 ///
 /// Errors that only execution can find remove the device, for all commands with KA0990 (no memory)
 /// and on Vulkan KA0952, KA0955 (device lost), KA0956 (over a limit) and KA0959 (validation
@@ -63,6 +86,11 @@ class CommandList {
   const std::vector<Error>& GetErrors() const;
   /// Tells whether commands can be recorded; false for an empty handle.
   bool is_open() const;
+
+  /// Unsets all state as a Reset does, but keeps what was recorded, and sets a pipeline if one is
+  /// given. [D3D12: ClearState]
+  /// @errors KA0800; KA0903 a pipeline of another device.
+  void ClearState(const PipelineState& pipeline = {});
 
   /// Orders what comes before and after, and says what resources are used for next. Each barrier of
   /// the span is taken or refused by itself. Builds, and traces of what they built, need UAV
@@ -367,20 +395,31 @@ class CommandList {
   /// empty resource.
   void CopyResource(const Resource& dest, const Resource& source);
 
-  /// Fills a view with bits. Both handles name the same view of `resource`: one in the CBV/SRV/UAV
-  /// heap that is set, one in any living heap, from which the view is taken now. Raw and structured
-  /// buffers are filled with values[0]; of normalized formats each channel takes the low bits of
-  /// its value. `values` is copied. [D3D12: ClearUnorderedAccessViewUint]
+  /// Fills a view with bits, or those texels or elements of it that are in rectangles; of a buffer,
+  /// left and right count elements. The view is that of the CPU handle, in any living heap, and is
+  /// taken now; it is of `resource`. The GPU handle may name a slot of any heap that shaders see.
+  /// Raw and structured buffers are filled with values[0]; of normalized formats each channel takes
+  /// the low bits of its value. `values` is copied. Null views are not written.
+  /// [D3D12: ClearUnorderedAccessViewUint]
   /// @errors KA0800; KA0822 a handle in no such heap, a descriptor that is no unordered access view
   /// of the resource, or a null pointer; KA0903 a resource of another device; KA0904 an empty one.
   void ClearUnorderedAccessViewUint(GpuDescriptorHandle gpu_handle, CpuDescriptorHandle cpu_handle,
-                                    const Resource& resource, const uint32_t values[4]);
+                                    const Resource& resource, const uint32_t values[4],
+                                    std::span<const Rect> rects = {});
   /// Fills a view with floats, which are converted to its format. Otherwise as
   /// ClearUnorderedAccessViewUint. [D3D12: ClearUnorderedAccessViewFloat]
   /// @errors KA0800; KA0822 a handle in no such heap, a descriptor that is no unordered access view
   /// of the resource, or a null pointer; KA0903 a resource of another device; KA0904 an empty one.
   void ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu_handle, CpuDescriptorHandle cpu_handle,
-                                     const Resource& resource, const float values[4]);
+                                     const Resource& resource, const float values[4],
+                                     std::span<const Rect> rects = {});
+
+  /// Writes 32-bit values, in order. `modes` is empty or has one for each. [D3D12:
+  /// WriteBufferImmediate]
+  /// @errors KA0800; KA0825 an address that is misaligned or in no such buffer, an unknown mode, or
+  /// modes of another number; KA0990 no memory.
+  void WriteBufferImmediate(std::span<const WriteBufferImmediateParameter> parameters,
+                            std::span<const WriteBufferImmediateMode> modes = {});
 
   /// Writes the time at which all earlier commands of the list are done, in ticks of
   /// CommandQueue::GetTimestampFrequency, to a query of the heap. Later timestamps are never

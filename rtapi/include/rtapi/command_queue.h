@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -43,6 +44,13 @@ class Fence {
   /// @errors KA0904 empty handle; KA0806 the time is up; what Device::GetDeviceRemovedReason says,
   /// if the device is removed meanwhile.
   Status Wait(uint64_t value, uint32_t timeout_ms = 0) const;
+
+  /// Calls `reached` once, when the fence is at `value` or above: in this call if it is so now,
+  /// else on the thread that signals it, before its Signal returns, and when the device is removed.
+  /// It may call into the library, and is dropped with the fence. [D3D12:
+  /// ID3D12Fence::SetEventOnCompletion]
+  /// @errors KA0904 empty handle.
+  Status CallAt(uint64_t value, std::function<void()> reached) const;
 
   /// For the library itself.
   const std::shared_ptr<detail::FenceImpl>& impl() const { return impl_; }

@@ -73,6 +73,8 @@ struct DeviceDesc {
   /// [HLSL: WaveGetLaneCount]
   uint32_t WaveLanes = 0;
   bool CollectStatistics = false;  ///< counts rays; costs some speed on Vulkan
+  /// What a call that breaks a rule of recording does to its list.
+  rtapi::InvalidCalls InvalidCalls = rtapi::InvalidCalls::kFailList;
   /// Checked mode: says through OnMessage (ids KA0400-0499, rtapi/ERRORS.md) what plain DXR leaves
   /// undefined: records outside a table or of another state object, missing barriers, structures
   /// that were overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
@@ -162,12 +164,12 @@ class Device {
   /// reason if the device is removed.
   Result<Texture> CreateTexture(const TextureDesc& desc) const;
   /// Finds where `count` subresources of such a texture, from `first_subresource` on, lie in a
-  /// buffer that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`,
-  /// rounded up to 512, the others behind it. Appends to each vector that is not null one element
-  /// for each subresource: the footprint, its rows per slice, the bytes of a row without padding.
-  /// For a block-compressed format rows are rows of blocks, and footprints are whole blocks.
-  /// Returns the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
-  /// [D3D12: GetCopyableFootprints]
+  /// buffer that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`
+  /// as it is, the others behind it, at multiples of 512 from there. Appends to each vector that is
+  /// not null one element for each subresource: the footprint, its rows per slice, the bytes of a
+  /// row without padding. For a block-compressed format rows are rows of blocks, and footprints are
+  /// whole blocks. Returns the bytes from `base_offset_bytes` to the end of the last row. Needs no
+  /// device. [D3D12: GetCopyableFootprints]
   /// @errors KA0817 more subresources than there are; KA0570, KA0571, KA0907-0909 as of
   /// CreateTexture.
   Result<uint64_t> GetCopyableFootprints(const TextureDesc& desc, uint32_t first_subresource,

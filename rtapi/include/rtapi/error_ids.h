@@ -251,6 +251,8 @@ inline constexpr ErrorId kCopyHeap{821};  ///< heap type does not allow this cop
 inline constexpr ErrorId kClearView{822};  ///< unordered access view cannot be cleared
 inline constexpr ErrorId kListNotExecutable{823};  ///< command list cannot be executed
 inline constexpr ErrorId kEvents{824};  ///< unbalanced BeginEvent and EndEvent
+inline constexpr ErrorId kWriteImmediate{825};  ///< values cannot be written
+inline constexpr ErrorId kViewAdjusted{826};  ///< view is not as described
 inline constexpr ErrorId kTableUnknownExport{840};  ///< shader table: unknown export
 inline constexpr ErrorId kTableArgumentCount{841};  ///< shader table: wrong number of local arguments
 inline constexpr ErrorId kTableArgumentKind{842};  ///< shader table: wrong kind of local argument

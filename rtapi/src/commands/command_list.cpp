@@ -18,6 +18,27 @@ namespace rtapi {
 
 namespace detail {
 
+namespace {
+
+// Tells whether D3D12's runtimes drop or ignore such a call, and Close() says nothing of it.
+bool is_dropped(ErrorId id) {
+  const uint32_t number = id.number;
+  const auto between = [number](uint32_t first, uint32_t last) {
+    return number >= first && number <= last;
+  };
+  return between(700, 719) || between(740, 743) || number == 745 || between(802, 805) ||
+         between(807, 816) || number == 822 || number == 824;
+}
+
+}  // namespace
+
+void CommandListImpl::fail(Error error) {
+  if (device->desc.InvalidCalls == InvalidCalls::kDropCall && is_dropped(error.id)) {
+    return device->report(MessageSeverity::kError, error);
+  }
+  errors.push_back(std::move(error));
+}
+
 bool CommandListImpl::check_open(const char* call) {
   if (open) return true;
   fail(make_error(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
@@ -140,6 +161,20 @@ Status CommandList::Reset() {
   fresh.device = impl_->device;
   *impl_ = std::move(fresh);
   return {};
+}
+
+void CommandList::ClearState(const PipelineState& pipeline) {
+  if (!impl_ || !impl_->check_open("ClearState")) return;
+  impl_->view_heap = {};
+  impl_->sampler_heap = {};
+  impl_->compute = {};
+  impl_->graphics = {};
+  impl_->pipeline_state = {};
+  impl_->raytracing_pipeline = {};
+  impl_->draw_state = std::make_shared<runtime::DrawState>();
+  impl_->target_uses.clear();
+  impl_->input_uses.clear();
+  if (pipeline) SetPipelineState(pipeline);
 }
 
 Status CommandList::Close() {

@@ -360,24 +360,25 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
 
 namespace {
 
-// Finds the view that both handles name, and checks that it fits the resource.
+// Finds the view that the CPU handle names, and checks that it fits the resource. The GPU handle
+// is for drivers that read it from a heap: it must be in one that shaders see.
 Result<runtime::ClearUavCommand> resolve_clear(CommandListImpl& list, GpuDescriptorHandle gpu,
-                                               CpuDescriptorHandle cpu, const Resource& resource) {
+                                               CpuDescriptorHandle cpu, const Resource& resource,
+                                               std::span<const Rect> rects) {
   const auto slot = list.device->find_slot(cpu);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
     return make_error(Id::kClearView, "the CPU handle ", hex(cpu.ptr),
                       " is not in a live CBV/SRV/UAV heap");
   }
-  const uint64_t start = list.view_heap.GetGPUDescriptorHandleForHeapStart().ptr;
-  const uint64_t index = (gpu.ptr - start) / kDescriptorHandleIncrementSize;
-  if (!list.view_heap || gpu.ptr < start ||
-      (gpu.ptr - start) % kDescriptorHandleIncrementSize != 0 ||
-      index >= list.view_heap.GetDesc().NumDescriptors) {
+  const auto seen = list.device->find_slot(gpu);
+  if (!seen || seen->type != DescriptorHeapType::kCbvSrvUav) {
     return make_error(Id::kClearView, "the GPU handle ", hex(gpu.ptr),
-                      " is not in the CBV/SRV/UAV heap that is set");
+                      " is not in a CBV/SRV/UAV heap that shaders see");
   }
   runtime::ClearUavCommand command;
   std::memcpy(&command.view, slot->slot, sizeof command.view);
+  command.whole = rects.empty();
+  if (command.view.kind == shader::DescriptorKind::kNull) return command;
   if (command.view.access != shader::DescriptorAccess::kUnorderedAccess) {
     return make_error(Id::kClearView, "the descriptor is not an unordered access view");
   }
@@ -399,30 +400,88 @@ Result<runtime::ClearUavCommand> resolve_clear(CommandListImpl& list, GpuDescrip
   } else {
     command.resource = std::get<Texture>(resource).impl()->memory;
   }
+  for (const Rect& rect : rects) {
+    const Rect cut = {std::max(rect.left, 0), std::max(rect.top, 0), rect.right, rect.bottom};
+    if (cut.left < cut.right && cut.top < cut.bottom) command.rects.push_back(cut);
+  }
   return command;
+}
+
+void record_clear(CommandListImpl& list, const char* call, bool is_float, GpuDescriptorHandle gpu,
+                  CpuDescriptorHandle cpu, const Resource& resource, const void* values,
+                  std::span<const Rect> rects) {
+  if (!list.check_open(call)) return;
+  auto command = resolve_clear(list, gpu, cpu, resource, rects);
+  if (!command.ok()) return list.fail(command.error());
+  if (!values) return list.fail(make_error(Id::kClearView, call, ": values is a null pointer"));
+  if (command->view.kind == shader::DescriptorKind::kNull) return;
+  if (!command->whole && command->rects.empty()) return;
+  command->is_float = is_float;
+  std::memcpy(command->values, values, sizeof command->values);
+  list.record(std::move(*command));
 }
 
 }  // namespace
 
 void CommandList::ClearUnorderedAccessViewUint(GpuDescriptorHandle gpu, CpuDescriptorHandle cpu,
-                                               const Resource& resource, const uint32_t values[4]) {
-  if (!impl_ || !impl_->check_open("ClearUnorderedAccessViewUint")) return;
-  auto command = resolve_clear(*impl_, gpu, cpu, resource);
-  if (!command.ok()) return impl_->fail(command.error());
-  if (!values) return impl_->fail(make_error(Id::kClearView, "values is a null pointer"));
-  std::memcpy(command->values, values, sizeof command->values);
-  impl_->record(std::move(*command));
+                                               const Resource& resource, const uint32_t values[4],
+                                               std::span<const Rect> rects) {
+  if (!impl_) return;
+  record_clear(*impl_, "ClearUnorderedAccessViewUint", false, gpu, cpu, resource, values, rects);
 }
 
 void CommandList::ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu, CpuDescriptorHandle cpu,
-                                                const Resource& resource, const float values[4]) {
-  if (!impl_ || !impl_->check_open("ClearUnorderedAccessViewFloat")) return;
-  auto command = resolve_clear(*impl_, gpu, cpu, resource);
-  if (!command.ok()) return impl_->fail(command.error());
-  if (!values) return impl_->fail(make_error(Id::kClearView, "values is a null pointer"));
-  command->is_float = true;
-  std::memcpy(command->values, values, sizeof command->values);
-  impl_->record(std::move(*command));
+                                                const Resource& resource, const float values[4],
+                                                std::span<const Rect> rects) {
+  if (!impl_) return;
+  record_clear(*impl_, "ClearUnorderedAccessViewFloat", true, gpu, cpu, resource, values, rects);
+}
+
+// The values wait in a buffer of the upload heap, and are copied in order.
+void CommandList::WriteBufferImmediate(std::span<const WriteBufferImmediateParameter> parameters,
+                                       std::span<const WriteBufferImmediateMode> modes) {
+  if (!impl_ || !impl_->check_open("WriteBufferImmediate")) return;
+  if (parameters.empty()) return;
+  if (!modes.empty() && modes.size() != parameters.size()) {
+    return impl_->fail(make_error(Id::kWriteImmediate, "WriteBufferImmediate: ", modes.size(),
+                                  " modes for ", parameters.size(), " values"));
+  }
+  for (const WriteBufferImmediateMode mode : modes) {
+    if (mode > WriteBufferImmediateMode::kMarkerOut) {
+      return impl_->fail(make_error(Id::kWriteImmediate, "WriteBufferImmediate: mode ",
+                                    static_cast<uint32_t>(mode), "; it must be 0, 1 or 2"));
+    }
+  }
+  std::vector<std::shared_ptr<runtime::BackendBuffer>> targets;
+  std::vector<uint64_t> offsets;
+  for (const auto& [dest, value] : parameters) {
+    const auto found = impl_->device->addresses.find(dest);
+    const auto owner = found ? found->owner.lock() : nullptr;
+    if (dest % sizeof value != 0 || !owner || found->heap == HeapType::kUpload ||
+        !impl_->device->addresses.contains(dest, sizeof value)) {
+      return impl_->fail(
+          make_error(Id::kWriteImmediate, "WriteBufferImmediate: value ", targets.size(),
+                     " goes to ", hex(dest), " in ", impl_->device->describe_address(dest),
+                     "; it must be a multiple of 4 in a buffer of the default or readback heap"));
+    }
+    targets.push_back(std::static_pointer_cast<const BufferImpl>(owner)->memory);
+    offsets.push_back(dest - found->address);
+  }
+  const auto values = Device(impl_->device)
+                          .CreateBuffer({.SizeInBytes = parameters.size() * sizeof(uint32_t),
+                                         .Heap = HeapType::kUpload});
+  if (!values.ok()) return impl_->fail(values.error());
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const uint64_t from = i * sizeof(uint32_t);
+    std::memcpy(values->impl()->memory->host() + from, &parameters[i].Value, sizeof(uint32_t));
+    runtime::CopyBufferCommand command;
+    command.dest = targets[i];
+    command.dest_offset = offsets[i];
+    command.source = values->impl()->memory;
+    command.source_offset = from;
+    command.size_bytes = sizeof(uint32_t);
+    impl_->record(std::move(command));
+  }
 }
 
 }  // namespace rtapi

@@ -268,8 +268,62 @@ TEST_F(CommandListTest, ClearsNeedTheSameViewTwice) {
   EXPECT_ERROR(clear({5}, cpu, buffer, values), "KA0822", "GPU handle");
   EXPECT_ERROR(clear(gpu, cpu, other, values), "KA0822", "\"other\"");
   EXPECT_ERROR(clear(gpu, cpu, buffer, nullptr), "KA0822", "null");
+  ASSERT_TRUE(device_.CreateConstantBufferView({}, heap.GetCPUDescriptorHandle(1)).ok());
+  EXPECT_OK(clear(gpu, heap.GetCPUDescriptorHandle(1), buffer, values));  // a null view
+  const ShaderResourceViewDesc read = {.Format = Format::kR32Uint,
+                                       .ViewDimension = SrvDimension::kBuffer};
+  ASSERT_TRUE(device_.CreateShaderResourceView(buffer, read, heap.GetCPUDescriptorHandle(1)).ok());
   EXPECT_ERROR(clear(gpu, heap.GetCPUDescriptorHandle(1), buffer, values), "KA0822",
                "not an unordered access view");
+}
+
+TEST_F(CommandListTest, ClearsTakeHandlesOfAHeapThatIsNotSet) {
+  auto buffer = MakeBuffer(64, HeapType::kDefault, "buf", ResourceFlags::kAllowUnorderedAccess);
+  auto heap =
+      device_
+          .CreateDescriptorHeap({.NumDescriptors = 1, .Flags = DescriptorHeapFlags::kShaderVisible})
+          .value();
+  auto hidden = device_.CreateDescriptorHeap({.NumDescriptors = 1}).value();
+  const UnorderedAccessViewDesc view = {.Format = Format::kR32Uint,
+                                        .ViewDimension = UavDimension::kBuffer};
+  ASSERT_TRUE(
+      device_.CreateUnorderedAccessView(buffer, view, hidden.GetCPUDescriptorHandle(0)).ok());
+  const uint32_t values[4] = {7, 0, 0, 0};
+  const Rect rects[3] = {{-4, -4, 2, 1}, {5, 0, 5, 1}, {3, 0, 99, 9}};
+  list_.ClearUnorderedAccessViewUint(heap.GetGPUDescriptorHandle(0),
+                                     hidden.GetCPUDescriptorHandle(0), buffer, values, rects);
+  list_.ClearUnorderedAccessViewUint(heap.GetGPUDescriptorHandle(0),
+                                     hidden.GetCPUDescriptorHandle(0), buffer, values,
+                                     std::span(rects).subspan(1, 1));  // empty: nothing
+  EXPECT_OK(list_.Close());
+  EXPECT_OK(queue_.ExecuteCommandLists({list_}));
+  ASSERT_EQ(null_log().executed.size(), 1u);
+  const auto& command = Executed<runtime::ClearUavCommand>(0);
+  EXPECT_FALSE(command.whole);
+  ASSERT_EQ(command.rects.size(), 2u);
+  EXPECT_EQ(command.rects[0].left, 0);
+  EXPECT_EQ(command.rects[0].right, 2);
+  EXPECT_EQ(command.rects[1].left, 3);
+}
+
+TEST_F(CommandListTest, ImmediateValuesGoToWritableBuffers) {
+  auto kept = MakeBuffer(16);
+  auto upload = MakeBuffer(16, HeapType::kUpload);
+  const auto write = [&](GpuVirtualAddress address, std::vector<WriteBufferImmediateMode> modes) {
+    return Record([&](CommandList& l) {
+      const WriteBufferImmediateParameter one = {address, 5};
+      l.WriteBufferImmediate({&one, 1}, modes);
+    });
+  };
+  EXPECT_OK(write(kept.GetGPUVirtualAddress() + 12, {}));
+  EXPECT_OK(write(kept.GetGPUVirtualAddress(), {WriteBufferImmediateMode::kMarkerOut}));
+  EXPECT_ERROR(write(kept.GetGPUVirtualAddress() + 2, {}), "KA0825", "multiple of 4");
+  EXPECT_ERROR(write(256, {}), "KA0825", "no live buffer");
+  EXPECT_ERROR(write(upload.GetGPUVirtualAddress(), {}), "KA0825");
+  EXPECT_ERROR(write(kept.GetGPUVirtualAddress(), {static_cast<WriteBufferImmediateMode>(3)}),
+               "KA0825", "mode 3");
+  EXPECT_ERROR(write(kept.GetGPUVirtualAddress(), std::vector<WriteBufferImmediateMode>(2)),
+               "KA0825", "2 modes for 1 values");
 }
 
 TEST_F(CommandListTest, EventsAreBalanced) {

@@ -47,8 +47,9 @@ struct CommandListImpl {
   std::map<uint32_t, MemoryUse> input_uses;
   uint32_t open_events = 0;
 
-  // Keeps the error: as in D3D12, Close() reports it.
-  void fail(Error error) { errors.push_back(std::move(error)); }
+  // Keeps the error, which Close() reports as in D3D12, or reports it and goes on, see
+  // InvalidCalls.
+  void fail(Error error);
   // Returns whether recording is possible; if not, keeps an error.
   bool check_open(const char* call);
   // For the next command that is recorded, and what it uses of memory.

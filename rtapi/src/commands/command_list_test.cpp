@@ -332,5 +332,55 @@ TEST_F(CommandListTest, DispatchLimits) {
                "KA0812", "\"Kernel\"");
 }
 
+TEST_F(CommandListTest, ClearStateUnsetsWhatIsSet) {
+  list_.BeginEvent("a");
+  list_.IASetPrimitiveTopology(PrimitiveTopology::kTriangleList);
+  list_.ClearState();
+  list_.EndEvent();
+  EXPECT_OK(list_.Close());
+  EXPECT_OK(queue_.ExecuteCommandLists({list_}));
+  EXPECT_EQ(null_log().executed.size(), 2u);  // what was recorded stays
+  EXPECT_ERROR(Record([](CommandList& l) {
+                 l.ClearState();
+                 l.Dispatch(1, 1, 1);
+               }),
+               "KA0811");
+  list_.ClearState();
+  ASSERT_EQ(list_.GetErrors().size(), 1u);
+  EXPECT_EQ(list_.GetErrors()[0].id.text(), "KA0800");
+}
+
+TEST(InvalidCallsTest, DroppedCallsAreToldAndTheRestOfTheListRuns) {
+  std::vector<Message> messages;
+  const Device device =
+      CreateNullDevice({.InvalidCalls = InvalidCalls::kDropCall,
+                        .OnMessage = [&](const Message& m) { messages.push_back(m); }});
+  CommandList list = device.CreateCommandList().value();
+  const CommandQueue queue = device.CreateCommandQueue().value();
+  const Buffer upload = device.CreateBuffer({.SizeInBytes = 64, .Heap = HeapType::kUpload}).value();
+  const size_t before = null_log().executed.size();
+  list.Dispatch(1, 1, 1);          // KA0811: no pipeline
+  list.DrawInstanced(3, 1, 0, 0);  // KA0811
+  list.ResourceBarrier(ResourceBarrier::Transition(upload, ResourceStates::kGenericRead,
+                                                   ResourceStates::kCopyDest));  // KA0802
+  list.BeginEvent("rest");
+  list.EndEvent();
+  EXPECT_OK(list.Close());
+  ASSERT_EQ(messages.size(), 3u);
+  EXPECT_EQ(messages[0].Id.text(), "KA0811");
+  EXPECT_EQ(messages[0].Severity, MessageSeverity::kError);
+  EXPECT_EQ(messages[2].Id.text(), "KA0802");
+  EXPECT_OK(queue.ExecuteCommandLists({list}));
+  EXPECT_EQ(null_log().executed.size() - before, 2u);
+  // Arguments of copies fail the list there too.
+  EXPECT_OK(list.Reset());
+  list.CopyBufferRegion(upload, 65, upload, 0, 1);
+  EXPECT_FALSE(list.Close().ok());
+  // A list that is executed open removes the device.
+  EXPECT_OK(list.Reset());
+  EXPECT_ERROR(queue.ExecuteCommandLists({list}), "KA0823", "open");
+  EXPECT_ERROR(device.GetDeviceRemovedReason(), "KA0823");
+}
+
 }  // namespace
 }  // namespace rtapi::testing

@@ -19,15 +19,46 @@ uint64_t FenceImpl::value() const {
 
 void FenceImpl::Signal(uint64_t value) {
   std::vector<std::weak_ptr<CommandQueueImpl>> woken;
+  std::vector<std::function<void()>> reached;
   {
     std::lock_guard lock(mutex);
     current = value;
     woken.swap(waiting);
+    const auto end = calls.upper_bound(value);
+    for (auto it = calls.begin(); it != end; ++it) reached.push_back(std::move(it->second));
+    calls.erase(calls.begin(), end);
   }
   changed.notify_all();
+  for (const auto& call : reached) call();
   for (const auto& queue : woken) {
     if (auto alive = queue.lock()) alive->Drain();
   }
+}
+
+void FenceImpl::CallAt(uint64_t value, std::function<void()> reached) {
+  bool now = !device->removed().ok();
+  {
+    std::lock_guard lock(mutex);
+    now = now || current >= value;
+    if (!now) calls.emplace(value, reached);
+  }
+  if (now) return reached();
+  // Removal between the check and here is told by when_removed itself.
+  std::call_once(told_of_removal_, [this] {
+    device->when_removed([fence = weak_from_this()] {
+      if (const auto alive = fence.lock()) alive->DeviceRemoved();
+    });
+  });
+}
+
+void FenceImpl::DeviceRemoved() {
+  std::multimap<uint64_t, std::function<void()>> all;
+  {
+    std::lock_guard lock(mutex);
+    all.swap(calls);
+  }
+  changed.notify_all();
+  for (const auto& [value, call] : all) call();
 }
 
 bool FenceImpl::ReachedOrWake(uint64_t value, const std::weak_ptr<CommandQueueImpl>& queue) {
@@ -99,6 +130,12 @@ Status Fence::Signal(uint64_t value) const {
   return {};
 }
 
+Status Fence::CallAt(uint64_t value, std::function<void()> reached) const {
+  if (!impl_) return make_error(Id::kNullHandle, "CallAt on an empty fence handle");
+  impl_->CallAt(value, std::move(reached));
+  return {};
+}
+
 Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
   if (!impl_) return make_error(Id::kNullHandle, "Wait on an empty fence handle");
   using Clock = std::chrono::steady_clock;
@@ -141,7 +178,13 @@ Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) con
       return s;
     }
     if (list.is_open()) {
-      return make_error(Id::kListNotExecutable, "the list is still open; call Close first");
+      const Error error =
+          make_error(Id::kListNotExecutable, "the list is still open; call Close first");
+      if (impl_->device->desc.InvalidCalls == InvalidCalls::kDropCall) {
+        impl_->device->Remove(error);
+        return impl_->device->removed();
+      }
+      return error;
     }
     if (!list.GetErrors().empty()) {
       return make_error(Id::kListNotExecutable, "recording failed with ", list.GetErrors().size(),

@@ -3,6 +3,8 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <variant>
@@ -15,19 +17,27 @@
 
 namespace rtapi::detail {
 
-struct FenceImpl {
+struct FenceImpl : std::enable_shared_from_this<FenceImpl> {
   std::shared_ptr<DeviceImpl> device;
 
   uint64_t value() const;
-  // Sets the value and resumes the queues that wait for it.
+  // Sets the value, makes the calls that wait for it, and resumes the queues that do.
   void Signal(uint64_t value);
   // Returns true if the fence has reached `value`; else a later Signal wakes `queue`.
   bool ReachedOrWake(uint64_t value, const std::weak_ptr<struct CommandQueueImpl>& queue);
 
+  void CallAt(uint64_t value, std::function<void()> reached);
+  // Makes all calls: the fence of a removed device is past every value.
+  void DeviceRemoved();
+
   mutable std::mutex mutex;
   std::condition_variable changed;
   uint64_t current = 0;
+  std::multimap<uint64_t, std::function<void()>> calls;  // by value, of CallAt
   std::vector<std::weak_ptr<CommandQueueImpl>> waiting;
+
+ private:
+  std::once_flag told_of_removal_;
 };
 
 // Work runs at once on the thread that submits it, or, if the queue waits for a fence, on the

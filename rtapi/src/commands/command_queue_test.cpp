@@ -52,6 +52,29 @@ TEST_F(QueueTest, WaitsForAFenceThatTheHostSignals) {
   EXPECT_EQ(Executed(), "a");
 }
 
+TEST_F(QueueTest, FencesCallBeforeTheirSignalReturns) {
+  std::string calls;
+  const auto call_at = [&](uint64_t value, char name) {
+    return fence_.CallAt(value, [&calls, name] { calls += name; });
+  };
+  EXPECT_OK(call_at(3, 'a'));  // reached already
+  EXPECT_EQ(calls, "a");
+  EXPECT_OK(call_at(5, 'b'));
+  EXPECT_OK(call_at(9, 'c'));
+  EXPECT_OK(call_at(5, 'd'));
+  EXPECT_OK(fence_.Signal(2));  // back
+  EXPECT_OK(call_at(3, 'e'));
+  EXPECT_EQ(calls, "a");
+  EXPECT_OK(fence_.Signal(6));
+  EXPECT_EQ(calls, "aebd");
+  EXPECT_OK(queue_.Signal(fence_, 1));
+  EXPECT_OK(queue_.Signal(fence_, 10));
+  EXPECT_EQ(calls, "aebdc");
+  EXPECT_OK(fence_.Signal(100));
+  EXPECT_EQ(calls, "aebdc");  // once each
+  EXPECT_ERROR(Fence().CallAt(1, [] {}), "KA0904");
+}
+
 TEST_F(QueueTest, OneQueueReleasesAnother) {
   CommandQueue other = device_.CreateCommandQueue().value();
   EXPECT_OK(other.Wait(fence_, 9));

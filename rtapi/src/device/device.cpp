@@ -24,14 +24,25 @@ uint64_t mix(uint64_t x) {  // splitmix64's finisher
 }  // namespace
 
 void DeviceImpl::Remove(const Error& reason) {
+  std::vector<std::function<void()>> calls;
   {
     std::lock_guard lock(removed_mutex_);
     if (!removed_.ok()) return;  // the first reason counts
     Error error = reason;
     error.code = ErrorCode::kDeviceRemoved;
     removed_ = error;
+    calls.swap(removal_calls_);
   }
   report(MessageSeverity::kError, reason);
+  for (const auto& call : calls) call();
+}
+
+void DeviceImpl::when_removed(std::function<void()> call) {
+  {
+    std::lock_guard lock(removed_mutex_);
+    if (removed_.ok()) return removal_calls_.push_back(std::move(call));
+  }
+  call();
 }
 
 Status DeviceImpl::removed() const {

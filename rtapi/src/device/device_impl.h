@@ -4,12 +4,14 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <rtapi/device.h>
 
@@ -40,6 +42,8 @@ struct DeviceImpl {
 
   void Remove(const Error& reason);
   Status removed() const;
+  // Calls a function when the device is removed: at once if it is. Each is kept until then.
+  void when_removed(std::function<void()> call);
   void report(MessageSeverity severity, const Error& error) const;
 
   // Finds the slot of a handle. Handles carry no type, so heaps are registered by host address.
@@ -75,6 +79,7 @@ struct DeviceImpl {
   std::map<uintptr_t, HeapRange> heaps_;
   mutable std::mutex removed_mutex_;
   Status removed_;
+  std::vector<std::function<void()>> removal_calls_;
   mutable std::mutex said_mutex_;
   mutable std::set<std::string> said_;  // reasons
   std::atomic<uint32_t> next_identifier_{1};

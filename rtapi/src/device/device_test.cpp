@@ -252,6 +252,11 @@ TEST_F(ResourceTest, FootprintsAsD3D12LaysThemOut) {
   EXPECT_EQ(layouts[3].Offset, 2560u);
   EXPECT_EQ(*total, 2592u);
   EXPECT_ERROR(device_.GetCopyableFootprints(desc, 3, 2, 0, nullptr), "KA0817", "4");
+  // The base offset is kept, and what follows is aligned relative to it.
+  layouts.clear();
+  EXPECT_EQ(device_.GetCopyableFootprints(desc, 1, 2, 7, &layouts).value(), 1280 - 256 + 80u);
+  EXPECT_EQ(layouts[0].Offset, 7u);
+  EXPECT_EQ(layouts[1].Offset, 519u);
 }
 
 // 20 x 10 texels of 16-byte blocks: 5 x 3 blocks, then 10 x 5 texels, 5 x 2, 2 x 1 and 1 x 1.

@@ -334,10 +334,12 @@ Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
       continue;
     }
     if (column_type_of(format) != e.type) {
-      return make_error(Id::kTargetOutput, "pixel shader ", in_quotes(linked.pixel.name),
-                        " writes ", describe(e), "; RTVFormats[", slot, "] is DXGI format ",
-                        static_cast<uint32_t>(format), ", which takes ",
-                        type_name(column_type_of(format)));
+      device.report(
+          MessageSeverity::kWarning,
+          make_error(Id::kTargetOutput, "pixel shader ", in_quotes(linked.pixel.name), " writes ",
+                     describe(e), "; RTVFormats[", slot, "] is DXGI format ",
+                     static_cast<uint32_t>(format), ", which takes ",
+                     type_name(column_type_of(format)), ": the bits are taken as they are"));
     }
   }
   return {};

@@ -322,8 +322,8 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
                       " do not exist in ", named("texture", desc.Name), ", which has ", total);
   }
   const FormatInfo format = GetFormatInfo(desc.Format);
-  uint64_t offset = base_offset;
-  uint64_t end = base_offset;
+  uint64_t offset = 0;  // from base_offset
+  uint64_t end = 0;
   for (uint32_t i = first; i < first + count; ++i) {
     const MipExtent extent = get_mip_elements(desc, i % mips);
     const uint64_t row = uint64_t{extent.width} * format.bytes;
@@ -331,7 +331,7 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
     offset = align_up(offset, kTextureDataPlacementAlignment);
     if (layouts) {
       layouts->push_back(
-          {offset,
+          {base_offset + offset,
            {desc.Format, extent.width * format.block_side, extent.height * format.block_side,
             extent.depth, static_cast<uint32_t>(pitch)}});
     }
@@ -341,7 +341,7 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
     end = offset + pitch * (uint64_t{extent.height} * extent.depth - 1) + row;
     offset += pitch * extent.height * extent.depth;
   }
-  return end - base_offset;
+  return end;
 }
 
 }  // namespace rtapi

@@ -2,6 +2,7 @@
 //
 // Shader resource, unordered access and constant buffer views: checks, then 32 bytes in a heap
 // slot. What concerns textures is in texture_view.cpp.
+#include <algorithm>
 #include <cstring>
 
 #include "rtapi/src/device/device_impl.h"
@@ -157,14 +158,20 @@ Status write_texture_view(const std::shared_ptr<DeviceImpl>& device, const Textu
   return write_slot(*device, dest, *descriptor);
 }
 
+const char* kind_name(const Resource& resource) {
+  return std::holds_alternative<Buffer>(resource) ? "a buffer" : "a texture";
+}
+
 Status write_acceleration_structure_view(const DeviceImpl& device, const Resource& resource,
                                          GpuVirtualAddress location, CpuDescriptorHandle dest) {
   if (Status s = check_has_raytracing(device, "a view of an acceleration structure"); !s.ok()) {
     return s;
   }
   if (!std::holds_alternative<std::monostate>(resource)) {
-    return make_error(Id::kAccelerationStructureView,
-                      "the resource must be empty: the view's Location names the structure");
+    device.report(
+        MessageSeverity::kWarning,
+        make_error(Id::kViewAdjusted, "acceleration structure view: ", kind_name(resource),
+                   " is given beside Location, which names the structure; it is ignored"));
   }
   if (location % kRaytracingAccelerationStructureByteAlignment != 0) {
     return make_error(Id::kAccelerationStructureView, "Location is ",
@@ -180,10 +187,6 @@ Status write_acceleration_structure_view(const DeviceImpl& device, const Resourc
     descriptor.address = location;
   }
   return write_slot(device, dest, descriptor);
-}
-
-const char* kind_name(const Resource& resource) {
-  return std::holds_alternative<Buffer>(resource) ? "a buffer" : "a texture";
 }
 
 }  // namespace
@@ -273,14 +276,21 @@ Status Device::CreateConstantBufferView(const ConstantBufferViewDesc& desc,
                         impl_->describe_address(desc.BufferLocation),
                         "; address and size must be multiples of 256, the size at most 65536");
     }
-    if (!impl_->addresses.contains(desc.BufferLocation, desc.SizeInBytes)) {
+    const uint64_t there = impl_->addresses.bytes_from(desc.BufferLocation);
+    if (there == 0) {
       return make_error(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
-                        impl_->describe_address(desc.BufferLocation),
-                        " are not inside one live buffer");
+                        impl_->describe_address(desc.BufferLocation), " are in no live buffer");
+    }
+    // Buffers lie in heaps, which have the bytes up to the next 64 KiB; here they read as zero.
+    if (there < desc.SizeInBytes) {
+      impl_->report(MessageSeverity::kWarning,
+                    make_error(Id::kViewAdjusted, "constant buffer view: ", desc.SizeInBytes,
+                               " bytes at ", impl_->describe_address(desc.BufferLocation),
+                               ", which has ", there, " from there on; what is past them reads 0"));
     }
     descriptor.kind = DescriptorKind::kConstantBuffer;
     descriptor.address = desc.BufferLocation;
-    descriptor.size_bytes = desc.SizeInBytes;
+    descriptor.size_bytes = std::min<uint64_t>(desc.SizeInBytes, there);
   }
   return write_slot(*impl_, dest, descriptor);
 }

@@ -9,7 +9,7 @@ namespace {
 
 double limited(double value, double low, double high) {
   if (std::isnan(value)) return 0;
-  return std::min(std::max(std::nearbyint(value), low), high);
+  return std::min(std::max(std::trunc(value), low), high);
 }
 
 uint32_t component_bits(rtapi::Format format, int component) {

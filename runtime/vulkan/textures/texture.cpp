@@ -412,7 +412,7 @@ rtapi::Status Textures::clear_buffer(CommandStream& stream,
   const auto& buffer = *static_cast<const runtime::BackendBuffer*>(command.resource.get());
   shader::Descriptor view = command.view;
   view.address = reinterpret_cast<uint64_t>(buffer.host() + (view.address - buffer.address()));
-  runtime::clear_buffer_view(view, command.is_float, command.values);
+  runtime::clear_buffer_view(view, command);
   return {};
 }
 
@@ -436,15 +436,23 @@ rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
   const bool volume = image.type() == VK_IMAGE_TYPE_3D;
   const uint32_t end =
       std::min(view.first_slice + view.slice_count, volume ? extent.depth : image.array_size());
+  const auto parts = runtime::cleared_parts(command, extent.width, extent.height);
   std::vector<VkBufferImageCopy> regions;
   for (uint32_t slice = view.first_slice; slice < end; ++slice) {
-    for (uint32_t y = 0; y < extent.height; y += rows) {
-      VkBufferImageCopy& region = regions.emplace_back();
-      region = {};
-      region.bufferOffset = pattern->offset;
-      region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, view.first_mip, volume ? 0 : slice, 1};
-      region.imageOffset = {0, static_cast<int32_t>(y), volume ? static_cast<int32_t>(slice) : 0};
-      region.imageExtent = {extent.width, std::min(rows, extent.height - y), 1};
+    for (const rtapi::Rect& part : parts) {
+      const auto width = static_cast<uint32_t>(part.right - part.left);
+      for (auto y = static_cast<uint32_t>(part.top); y < static_cast<uint32_t>(part.bottom);
+           y += rows) {
+        VkBufferImageCopy& region = regions.emplace_back();
+        region = {};
+        region.bufferOffset = pattern->offset;
+        region.bufferRowLength = extent.width;
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, view.first_mip, volume ? 0 : slice,
+                                   1};
+        region.imageOffset = {part.left, static_cast<int32_t>(y),
+                              volume ? static_cast<int32_t>(slice) : 0};
+        region.imageExtent = {width, std::min(rows, static_cast<uint32_t>(part.bottom) - y), 1};
+      }
     }
   }
   if (regions.empty()) return {};
