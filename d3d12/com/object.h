@@ -53,9 +53,18 @@ class ComObject : public First, public Rest... {
 
   ULONG STDMETHODCALLTYPE Release() override {
     const ULONG left = references_.fetch_sub(1, std::memory_order_acq_rel) - 1;
-    if (left == 0) delete this;
+    if (left == 0) let_go();
     return left;
   }
+
+  /// What this library's own objects hold does not count as a reference: programs compare what
+  /// AddRef and Release return.
+  ///@{
+  void retain() { holds_.fetch_add(1, std::memory_order_relaxed); }
+  void let_go() {
+    if (holds_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+  }
+  ///@}
 
  protected:
   virtual ~ComObject() = default;
@@ -87,6 +96,30 @@ class ComObject : public First, public Rest... {
   }
 
   std::atomic<ULONG> references_{1};
+  std::atomic<ULONG> holds_{1};  // one of them for all references
+};
+
+/// Keeps an object of this library alive without a reference, see ComObject::retain.
+template <class Object>
+class Held {
+ public:
+  Held() = default;
+  explicit Held(Object* object) : object_(object) {
+    if (object_ != nullptr) object_->retain();
+  }
+  Held(const Held& other) : Held(other.object_) {}
+  Held& operator=(Held other) {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  ~Held() {
+    if (object_ != nullptr) object_->let_go();
+  }
+  explicit operator bool() const { return object_ != nullptr; }
+  Object* operator->() const { return object_; }
+
+ private:
+  Object* object_ = nullptr;
 };
 
 /// Hands a new object to the caller as the interface asked for. The object is freed if it does not

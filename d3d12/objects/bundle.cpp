@@ -36,7 +36,7 @@ Bundle::~Bundle() {
 
 void Bundle::drop_allocator() {
   if (allocator_) allocator_->end();
-  allocator_.Reset();
+  allocator_ = Held<CommandAllocator>();
 }
 
 void Bundle::execute(List* list) const {
@@ -54,7 +54,8 @@ void Bundle::keep(Call call) {
 HRESULT Bundle::Close() {
   drop_allocator();
   if (!open_) {
-    return fail(ErrorId::kCommandList, "ID3D12GraphicsCommandList::Close: the bundle is closed.");
+    fail(ErrorId::kCommandList, "ID3D12GraphicsCommandList::Close: the bundle is closed.");
+    return E_FAIL;
   }
   open_ = false;
   return S_OK;
@@ -68,14 +69,15 @@ HRESULT Bundle::Reset(ID3D12CommandAllocator* allocator, ID3D12PipelineState* in
         "ID3D12GraphicsCommandList::Reset: a bundle takes an allocator of type BUNDLE (1).");
   }
   if (open_) {
-    return fail(ErrorId::kCommandList,
-                "ID3D12GraphicsCommandList::Reset: the bundle is open. Close it first.");
+    fail(ErrorId::kCommandList,
+         "ID3D12GraphicsCommandList::Reset: the bundle is open. Close it first.");
+    return E_FAIL;
   }
   if (!taken->begin()) {
     return fail(ErrorId::kCommandList,
                 "ID3D12GraphicsCommandList::Reset: another list of the allocator records.");
   }
-  allocator_ = taken;
+  allocator_ = Held(taken);
   open_ = true;
   calls_.clear();
   if (initial_state != nullptr) SetPipelineState(initial_state);

@@ -88,7 +88,7 @@ class Bundle final : public DeviceChild<ID3D12GraphicsCommandListEntries> {
 
   std::vector<Call> calls_;
   bool open_;
-  Microsoft::WRL::ComPtr<CommandAllocator> allocator_;  // while the bundle records
+  Held<CommandAllocator> allocator_;  // while the bundle records
 };
 
 }  // namespace kaamos::d3d12

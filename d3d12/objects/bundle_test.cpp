@@ -97,11 +97,11 @@ TEST_F(BundleCalls, WhatIsNoClosedBundleIsRefused) {
   list_->ExecuteBundle(bundle.Get());  // open
   EXPECT_EQ(messages().size(), 3u);
   ComPtr<ID3D12GraphicsCommandList4> second;
-  EXPECT_EQ(create_bundle(nullptr, second), DXGI_ERROR_INVALID_CALL);  // the allocator is taken
+  EXPECT_EQ(create_bundle(nullptr, second), E_INVALIDARG);  // the allocator is taken
   EXPECT_EQ(bundle->Close(), S_OK);
-  EXPECT_EQ(bundle->Close(), DXGI_ERROR_INVALID_CALL);
+  EXPECT_EQ(bundle->Close(), E_FAIL);
   bundle->Dispatch(1, 1, 1);
-  EXPECT_EQ(bundle->Reset(allocator_.Get(), nullptr), DXGI_ERROR_INVALID_CALL);
+  EXPECT_EQ(bundle->Reset(allocator_.Get(), nullptr), E_INVALIDARG);
   messages().clear();
   ID3D12CommandList* lists[] = {bundle.Get()};
   queue_->ExecuteCommandLists(1, lists);

@@ -22,9 +22,9 @@ class CommandAllocator final : public DeviceChild<ID3D12CommandAllocatorEntries>
 
   HRESULT STDMETHODCALLTYPE Reset() override {
     if (recording_) {
-      return fail(
-          ErrorId::kCommandList,
-          "ID3D12CommandAllocator::Reset while a list of it records. Close the list first.");
+      fail(ErrorId::kCommandList,
+           "ID3D12CommandAllocator::Reset while a list of it records. Close the list first.");
+      return E_FAIL;
     }
     return S_OK;
   }

@@ -80,7 +80,9 @@ HRESULT Device::CreateCommandQueue(const D3D12_COMMAND_QUEUE_DESC* desc, REFIID 
   if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateCommandQueue: pDesc.");
   auto made = device_.CreateCommandQueue();
   if (!made) return fail(made.error());
-  return hand_out(new CommandQueue(this, *made, *desc), riid, queue);
+  D3D12_COMMAND_QUEUE_DESC stored = *desc;
+  if (stored.NodeMask == 0) stored.NodeMask = 1;
+  return hand_out(new CommandQueue(this, *made, stored), riid, queue);
 }
 
 HRESULT Device::CreateCommandQueue1(const D3D12_COMMAND_QUEUE_DESC* desc, REFIID, REFIID riid,
@@ -90,6 +92,12 @@ HRESULT Device::CreateCommandQueue1(const D3D12_COMMAND_QUEUE_DESC* desc, REFIID
 
 HRESULT Device::CreateCommandAllocator(D3D12_COMMAND_LIST_TYPE type, REFIID riid,
                                        void** allocator) {
+  if (allocator != nullptr) *allocator = nullptr;
+  if (static_cast<UINT>(type) > D3D12_COMMAND_LIST_TYPE_COPY) {
+    return fail(ErrorId::kCommandList,
+                "CreateCommandAllocator: type " + std::to_string(type) +
+                    "; it is DIRECT (0), BUNDLE (1), COMPUTE (2) or COPY (3).");
+  }
   return hand_out(new CommandAllocator(this, type), riid, allocator);
 }
 

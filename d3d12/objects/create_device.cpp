@@ -69,14 +69,20 @@ bool is_interpreted(rtapi::ErrorId id) {
          id == rtapi::error_ids::api::kFunctionInterpreted;
 }
 
+constexpr auto kFeatureLevel12_2 = static_cast<D3D_FEATURE_LEVEL>(0xC200);
+
 HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, void** device) {
   if (device != nullptr) *device = nullptr;
-  if (level > D3D_FEATURE_LEVEL_12_1) {
+  const bool known = level == D3D_FEATURE_LEVEL_1_0_CORE || level == D3D_FEATURE_LEVEL_11_0 ||
+                     level == D3D_FEATURE_LEVEL_11_1 || level == D3D_FEATURE_LEVEL_12_0 ||
+                     level == D3D_FEATURE_LEVEL_12_1 || level == kFeatureLevel12_2;
+  if (!known || level == kFeatureLevel12_2) {
     char text[16];
     std::snprintf(text, sizeof(text), "0x%X", static_cast<unsigned>(level));
-    return process_reporter().fail(
+    const HRESULT refused = process_reporter().fail(
         ErrorId::kFeatureLevel, std::string("D3D12CreateDevice: MinimumFeatureLevel is ") + text +
-                                    "; the highest is 0xC100 (D3D_FEATURE_LEVEL_12_1).");
+                                    "; it is 0xB000 (11_0) to 0xC100 (12_1).");
+    return known ? refused : E_INVALIDARG;
   }
   rtapi::DeviceDesc desc;
   std::string backend = backend_of(adapter);
@@ -90,6 +96,7 @@ HRESULT create_device(IUnknown* adapter, D3D_FEATURE_LEVEL level, REFIID riid, v
   }
   desc.Backend = backend;
   desc.Checked = debug_layer_enabled();
+  desc.InvalidCalls = rtapi::InvalidCalls::kDropCall;
   if (const auto chosen = read_level(desc); !chosen.ok()) {
     return process_reporter().fail(chosen.error());
   }
@@ -143,8 +150,11 @@ HRESULT WINAPI D3D12EnableExperimentalFeatures(UINT count, const IID* ids, void*
 HRESULT WINAPI D3D12GetInterface(REFCLSID class_id, REFIID riid, void** object) {
   if (class_id == CLSID_D3D12Debug) return get_debug_interface(riid, object);
   if (object != nullptr) *object = nullptr;
-  return process_reporter().fail(
+  // Programs probe for classes of newer systems.
+  const rtapi::Error error = make_error(
       ErrorId::kAdapter, "D3D12GetInterface: the class is not CLSID_D3D12Debug, the only one.");
+  process_reporter().report(D3D12_MESSAGE_SEVERITY_INFO, error);
+  return to_hresult(error.code);
 }
 
 }  // extern "C"

@@ -19,6 +19,7 @@ HRESULT Device::GetDeviceRemovedReason() {
   const rtapi::Status status = device_.GetDeviceRemovedReason();
   if (status.ok()) return S_OK;
   const rtapi::ErrorId id = status.error().id;
+  if (id == rtapi::error_ids::api::kListNotExecutable) return DXGI_ERROR_INVALID_CALL;
   if (id == rtapi::error_ids::backend::kOutOfMemory) return E_OUTOFMEMORY;
   if (id == rtapi::error_ids::backend::kVulkanDeviceLost) return DXGI_ERROR_DEVICE_REMOVED;
   return DXGI_ERROR_DEVICE_HUNG;  // what D3D12 calls an endless loop or too deep a recursion

@@ -103,6 +103,20 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
                                                   D3D12_RESOURCE_STATES state,
                                                   const D3D12_CLEAR_VALUE* clear, REFIID riid,
                                                   void** resource) override;
+  HRESULT STDMETHODCALLTYPE CreateCommittedResource3(
+      const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags, const D3D12_RESOURCE_DESC1* desc,
+      D3D12_BARRIER_LAYOUT layout, const D3D12_CLEAR_VALUE* clear,
+      ID3D12ProtectedResourceSession* session, UINT32 castable_count, DXGI_FORMAT* castable,
+      REFIID riid, void** resource) override;
+  HRESULT STDMETHODCALLTYPE CreatePlacedResource2(ID3D12Heap* heap, UINT64 offset,
+                                                  const D3D12_RESOURCE_DESC1* desc,
+                                                  D3D12_BARRIER_LAYOUT layout,
+                                                  const D3D12_CLEAR_VALUE* clear,
+                                                  UINT32 castable_count, DXGI_FORMAT* castable,
+                                                  REFIID riid, void** resource) override;
+  D3D12_RESOURCE_ALLOCATION_INFO STDMETHODCALLTYPE
+  GetResourceAllocationInfo2(UINT visible_mask, UINT count, const D3D12_RESOURCE_DESC1* descs,
+                             D3D12_RESOURCE_ALLOCATION_INFO1* infos) override;
   D3D12_RESOURCE_ALLOCATION_INFO STDMETHODCALLTYPE GetResourceAllocationInfo(
       UINT visible_mask, UINT count, const D3D12_RESOURCE_DESC* descs) override;
   D3D12_RESOURCE_ALLOCATION_INFO STDMETHODCALLTYPE

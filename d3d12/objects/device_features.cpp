@@ -109,6 +109,28 @@ HRESULT newer_feature(const Query& query, D3D12_FEATURE feature) {
   }
 }
 
+// Planes of any format that DXGI has, whether textures may have it here or not; 0 for numbers that
+// are none.
+UINT8 plane_count(DXGI_FORMAT format) {
+  switch (format) {
+    case DXGI_FORMAT_R32G8X24_TYPELESS:
+    case DXGI_FORMAT_D32_FLOAT_S8X24_UINT:
+    case DXGI_FORMAT_R32_FLOAT_X8X24_TYPELESS:
+    case DXGI_FORMAT_X32_TYPELESS_G8X24_UINT:
+    case DXGI_FORMAT_R24G8_TYPELESS:
+    case DXGI_FORMAT_D24_UNORM_S8_UINT:
+    case DXGI_FORMAT_R24_UNORM_X8_TYPELESS:
+    case DXGI_FORMAT_X24_TYPELESS_G8_UINT:
+    case DXGI_FORMAT_NV12:
+    case DXGI_FORMAT_P010:
+    case DXGI_FORMAT_P016:
+    case DXGI_FORMAT_NV11:
+      return 2;
+    default:
+      return format <= DXGI_FORMAT_B4G4R4A4_UNORM && format != DXGI_FORMAT_R1_UNORM ? 1 : 0;
+  }
+}
+
 HRESULT feature_levels(D3D12_FEATURE_DATA_FEATURE_LEVELS& out) {
   if (out.NumFeatureLevels == 0 || out.pFeatureLevelsRequested == nullptr) return E_INVALIDARG;
   out.MaxSupportedFeatureLevel = {};
@@ -157,14 +179,12 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_MULTISAMPLE_QUALITY_LEVELS:
       return answer<D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS>(query, [](auto& out) {
         out.NumQualityLevels = out.SampleCount == 1 ? 1 : 0;
-        return S_OK;
+        return out.SampleCount == 0 ? E_FAIL : S_OK;
       });
     case D3D12_FEATURE_FORMAT_INFO:
       return answer<D3D12_FEATURE_DATA_FORMAT_INFO>(query, [](auto& out) {
-        const auto format = static_cast<rtapi::Format>(out.Format);
-        if (rtapi::GetFormatInfo(format).bytes == 0) return E_INVALIDARG;
-        out.PlaneCount = rtapi::HasStencil(format) ? 2 : 1;
-        return S_OK;
+        out.PlaneCount = plane_count(out.Format);
+        return out.PlaneCount != 0 ? S_OK : E_INVALIDARG;
       });
     case D3D12_FEATURE_GPU_VIRTUAL_ADDRESS_SUPPORT:
       return options<D3D12_FEATURE_DATA_GPU_VIRTUAL_ADDRESS_SUPPORT>(query, [](auto& out) {

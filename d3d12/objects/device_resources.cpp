@@ -9,6 +9,7 @@ namespace kaamos::d3d12 {
 namespace {
 
 constexpr uint64_t kPlacement = D3D12_DEFAULT_RESOURCE_PLACEMENT_ALIGNMENT;
+constexpr uint64_t kSmallPlacement = D3D12_SMALL_RESOURCE_PLACEMENT_ALIGNMENT;
 
 // Returns which of rtapi's three heap types has these properties. A custom heap is told by its page
 // property. [D3D12: D3D12_HEAP_PROPERTIES]
@@ -76,7 +77,8 @@ rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
                                             const D3D12_CLEAR_VALUE* clear) {
   const auto type = heap_type(heap);
   if (!type) return type.error();
-  if (*type != rtapi::HeapType::kDefault) {
+  // Of custom heaps, as WriteToSubresource and ReadFromSubresource need it.
+  if (*type != rtapi::HeapType::kDefault && heap.Type != D3D12_HEAP_TYPE_CUSTOM) {
     return make_error(ErrorId::kResource, "a texture on heap type " + std::to_string(heap.Type) +
                                               "; textures lie on the default heap (1).");
   }
@@ -99,9 +101,15 @@ rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
 
 HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS flags,
                       const D3D12_RESOURCE_DESC1& desc, D3D12_RESOURCE_STATES state,
-                      const D3D12_CLEAR_VALUE* clear,
-                      const Microsoft::WRL::ComPtr<ID3D12Heap>& placed_in, REFIID riid,
+                      const D3D12_CLEAR_VALUE* clear, Heap* placed_in, REFIID riid,
                       void** resource) {
+  const bool is_target = (desc.Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
+                                        D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) != 0;
+  if (clear != nullptr && !is_target) {
+    return device.reporter().fail(ErrorId::kResource,
+                                  "pOptimizedClearValue is given for a resource without "
+                                  "ALLOW_RENDER_TARGET and ALLOW_DEPTH_STENCIL; pass null.");
+  }
   auto made = desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER
                   ? make_buffer(device.rtapi_device(), heap, desc, state)
                   : make_texture(device.rtapi_device(), heap, desc, state, clear);
@@ -148,6 +156,64 @@ HRESULT Device::CreateCommittedResource(const D3D12_HEAP_PROPERTIES* heap, D3D12
   return CreateCommittedResource1(heap, flags, desc, state, clear, nullptr, riid, resource);
 }
 
+namespace {
+
+// The state that a layout stands for, and that a buffer has without one. [D3D12: enhanced barriers]
+D3D12_RESOURCE_STATES state_of(D3D12_BARRIER_LAYOUT layout, const D3D12_HEAP_PROPERTIES& heap,
+                               const D3D12_RESOURCE_DESC1& desc) {
+  if (desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER) {
+    const auto type = heap_type(heap);
+    if (type.ok() && *type == rtapi::HeapType::kUpload) return D3D12_RESOURCE_STATE_GENERIC_READ;
+    if (type.ok() && *type == rtapi::HeapType::kReadback) return D3D12_RESOURCE_STATE_COPY_DEST;
+    return D3D12_RESOURCE_STATE_COMMON;
+  }
+  switch (layout) {
+    case D3D12_BARRIER_LAYOUT_GENERIC_READ:
+      return D3D12_RESOURCE_STATE_GENERIC_READ;
+    case D3D12_BARRIER_LAYOUT_RENDER_TARGET:
+      return D3D12_RESOURCE_STATE_RENDER_TARGET;
+    case D3D12_BARRIER_LAYOUT_UNORDERED_ACCESS:
+      return D3D12_RESOURCE_STATE_UNORDERED_ACCESS;
+    case D3D12_BARRIER_LAYOUT_DEPTH_STENCIL_WRITE:
+      return D3D12_RESOURCE_STATE_DEPTH_WRITE;
+    case D3D12_BARRIER_LAYOUT_DEPTH_STENCIL_READ:
+      return D3D12_RESOURCE_STATE_DEPTH_READ;
+    case D3D12_BARRIER_LAYOUT_SHADER_RESOURCE:
+      return D3D12_RESOURCE_STATE_ALL_SHADER_RESOURCE;
+    case D3D12_BARRIER_LAYOUT_COPY_SOURCE:
+      return D3D12_RESOURCE_STATE_COPY_SOURCE;
+    case D3D12_BARRIER_LAYOUT_COPY_DEST:
+      return D3D12_RESOURCE_STATE_COPY_DEST;
+    default:
+      return D3D12_RESOURCE_STATE_COMMON;
+  }
+}
+
+}  // namespace
+
+// Formats that views may cast to are those of the format's family, whatever the program lists.
+HRESULT Device::CreateCommittedResource3(const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags,
+                                         const D3D12_RESOURCE_DESC1* desc,
+                                         D3D12_BARRIER_LAYOUT layout,
+                                         const D3D12_CLEAR_VALUE* clear,
+                                         ID3D12ProtectedResourceSession* session, UINT32,
+                                         DXGI_FORMAT*, REFIID riid, void** resource) {
+  const D3D12_RESOURCE_STATES state = heap != nullptr && desc != nullptr
+                                          ? state_of(layout, *heap, *desc)
+                                          : D3D12_RESOURCE_STATE_COMMON;
+  return CreateCommittedResource2(heap, flags, desc, state, clear, session, riid, resource);
+}
+
+HRESULT Device::CreatePlacedResource2(ID3D12Heap* heap, UINT64 offset,
+                                      const D3D12_RESOURCE_DESC1* desc, D3D12_BARRIER_LAYOUT layout,
+                                      const D3D12_CLEAR_VALUE* clear, UINT32, DXGI_FORMAT*,
+                                      REFIID riid, void** resource) {
+  const D3D12_RESOURCE_STATES state = heap != nullptr && desc != nullptr
+                                          ? state_of(layout, heap->GetDesc().Properties, *desc)
+                                          : D3D12_RESOURCE_STATE_COMMON;
+  return CreatePlacedResource1(heap, offset, desc, state, clear, riid, resource);
+}
+
 HRESULT Device::CreateHeap1(const D3D12_HEAP_DESC* desc, ID3D12ProtectedResourceSession*,
                             REFIID riid, void** heap) {
   if (heap != nullptr) *heap = nullptr;
@@ -159,7 +225,13 @@ HRESULT Device::CreateHeap1(const D3D12_HEAP_DESC* desc, ID3D12ProtectedResource
     return fail(ErrorId::kHeap,
                 "Alignment is " + std::to_string(desc->Alignment) + "; it is 0, 65536 or 4194304.");
   }
+  if ((desc->Flags & D3D12_HEAP_FLAG_ALLOW_DISPLAY) != 0) {
+    return fail(ErrorId::kHeap,
+                "Flags has ALLOW_DISPLAY (8), which only committed resources have.");
+  }
   D3D12_HEAP_DESC stored = *desc;
+  if (stored.Properties.CreationNodeMask == 0) stored.Properties.CreationNodeMask = 1;
+  if (stored.Properties.VisibleNodeMask == 0) stored.Properties.VisibleNodeMask = 1;
   if (stored.Alignment == 0) stored.Alignment = kPlacement;
   return hand_out(new Heap(this, stored), riid, heap);
 }
@@ -177,10 +249,7 @@ HRESULT Device::CreatePlacedResource1(ID3D12Heap* heap, UINT64 offset,
     return fail(ErrorId::kNullPointer, "CreatePlacedResource: pHeap or pDesc.");
   }
   const D3D12_HEAP_DESC heap_desc = heap->GetDesc();
-  D3D12_RESOURCE_DESC plain = {
-      desc->Dimension, desc->Alignment, desc->Width,      desc->Height, desc->DepthOrArraySize,
-      desc->MipLevels, desc->Format,    desc->SampleDesc, desc->Layout, desc->Flags};
-  const D3D12_RESOURCE_ALLOCATION_INFO info = GetResourceAllocationInfo(0, 1, &plain);
+  const D3D12_RESOURCE_ALLOCATION_INFO info = GetResourceAllocationInfo2(0, 1, desc, nullptr);
   if (info.SizeInBytes == UINT64_MAX) {
     return fail(ErrorId::kResource, "CreatePlacedResource: the desc describes no resource.");
   }
@@ -192,8 +261,19 @@ HRESULT Device::CreatePlacedResource1(ID3D12Heap* heap, UINT64 offset,
                                     "; the offset is a multiple of " +
                                     std::to_string(info.Alignment) + ".");
   }
-  return make_resource(*this, heap_desc.Properties, heap_desc.Flags, *desc, state, clear, heap,
-                       riid, resource);
+  const bool is_target = (desc->Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
+                                         D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) != 0;
+  const D3D12_HEAP_FLAGS denied = desc->Dimension == D3D12_RESOURCE_DIMENSION_BUFFER
+                                      ? D3D12_HEAP_FLAG_DENY_BUFFERS
+                                  : is_target ? D3D12_HEAP_FLAG_DENY_RT_DS_TEXTURES
+                                              : D3D12_HEAP_FLAG_DENY_NON_RT_DS_TEXTURES;
+  if ((heap_desc.Flags & denied) != 0) {
+    return fail(ErrorId::kHeap,
+                "CreatePlacedResource: Flags of the heap, " + std::to_string(heap_desc.Flags) +
+                    ", deny this kind of resource by flag " + std::to_string(denied) + ".");
+  }
+  return make_resource(*this, heap_desc.Properties, heap_desc.Flags, *desc, state, clear,
+                       static_cast<Heap*>(heap), riid, resource);
 }
 
 HRESULT Device::CreatePlacedResource(ID3D12Heap* heap, UINT64 offset,
@@ -205,41 +285,68 @@ HRESULT Device::CreatePlacedResource(ID3D12Heap* heap, UINT64 offset,
                                resource);
 }
 
-D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo1(
-    UINT, UINT count, const D3D12_RESOURCE_DESC* descs, D3D12_RESOURCE_ALLOCATION_INFO1* infos) {
-  D3D12_RESOURCE_ALLOCATION_INFO all = {0, kPlacement};
-  for (UINT i = 0; i < count; ++i) {
-    uint64_t bytes = descs[i].Width;
-    if (descs[i].Dimension != D3D12_RESOURCE_DIMENSION_BUFFER) {
-      const D3D12_RESOURCE_DESC1 desc1 = with_sampler_feedback(descs[i]);
-      auto texture = texture_desc(desc1);
-      rtapi::Result<uint64_t> total = texture.ok() ? rtapi::Result<uint64_t>(uint64_t{0})
-                                                   : rtapi::Result<uint64_t>(texture.error());
-      if (texture.ok()) {
-        // A chain of mips that rtapi is to count itself has at most 15 levels.
-        const uint32_t slices = descs[i].Dimension == D3D12_RESOURCE_DIMENSION_TEXTURE3D
-                                    ? 1
-                                    : descs[i].DepthOrArraySize;
-        uint32_t mips = descs[i].MipLevels;
-        for (uint32_t side =
-                 std::max<uint32_t>({static_cast<uint32_t>(descs[i].Width), descs[i].Height, 1});
-             descs[i].MipLevels == 0 && side != 0; side /= 2) {
-          ++mips;
-        }
-        std::vector<rtapi::PlacedSubresourceFootprint> layouts;
-        total = device_.GetCopyableFootprints(*texture, 0, mips * slices, 0, &layouts);
-      }
-      if (!total) {
-        fail(total.error());
-        return {UINT64_MAX, kPlacement};
-      }
-      bytes = *total;
-    }
-    const uint64_t size = round_up(std::max<uint64_t>(bytes, 1), kPlacement);
-    if (infos != nullptr) infos[i] = {all.SizeInBytes, kPlacement, size};
-    all.SizeInBytes += size;
+namespace {
+
+// Bytes of a resource's contents.
+rtapi::Result<uint64_t> content_bytes(const rtapi::Device& device,
+                                      const D3D12_RESOURCE_DESC1& desc) {
+  if (desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER) return uint64_t{desc.Width};
+  const auto texture = texture_desc(desc);
+  if (!texture) return texture.error();
+  // A chain of mips that rtapi is to count itself has at most 15 levels.
+  const uint32_t slices =
+      desc.Dimension == D3D12_RESOURCE_DIMENSION_TEXTURE3D ? 1 : desc.DepthOrArraySize;
+  uint32_t mips = desc.MipLevels;
+  for (uint32_t side = std::max<uint32_t>({static_cast<uint32_t>(desc.Width), desc.Height, 1});
+       desc.MipLevels == 0 && side != 0; side /= 2) {
+    ++mips;
   }
+  std::vector<rtapi::PlacedSubresourceFootprint> layouts;
+  return device.GetCopyableFootprints(*texture, 0, mips * slices, 0, &layouts);
+}
+
+// Returns the alignment that the desc asks for, of which textures may have 4 KiB if they are small
+// and no targets. [D3D12: GetResourceAllocationInfo; D3D12_RESOURCE_DESC, Alignment]
+rtapi::Result<uint64_t> placement(const D3D12_RESOURCE_DESC1& desc, uint64_t bytes) {
+  const bool plain = desc.Dimension != D3D12_RESOURCE_DIMENSION_BUFFER &&
+                     (desc.Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
+                                    D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) == 0;
+  if (desc.Alignment == 0 || desc.Alignment == kPlacement) return kPlacement;
+  if (desc.Alignment == kSmallPlacement && plain && bytes <= kPlacement) return kSmallPlacement;
+  return make_error(ErrorId::kResource,
+                    "Alignment is " + std::to_string(desc.Alignment) +
+                        "; it is 0, 65536, or 4096 for textures of up to 65536 bytes that are no "
+                        "targets.");
+}
+
+}  // namespace
+
+D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo2(
+    UINT, UINT count, const D3D12_RESOURCE_DESC1* descs, D3D12_RESOURCE_ALLOCATION_INFO1* infos) {
+  D3D12_RESOURCE_ALLOCATION_INFO all = {0, 1};
+  for (UINT i = 0; i < count; ++i) {
+    const auto bytes = content_bytes(device_, descs[i]);
+    const auto alignment = bytes.ok() ? placement(descs[i], *bytes) : bytes;
+    if (!alignment.ok()) {
+      fail(alignment.error());
+      return {UINT64_MAX, kPlacement};
+    }
+    const uint64_t size = round_up(std::max<uint64_t>(*bytes, 1), *alignment);
+    const uint64_t offset = round_up(all.SizeInBytes, *alignment);
+    if (infos != nullptr) infos[i] = {offset, *alignment, size};
+    all.SizeInBytes = offset + size;
+    all.Alignment = std::max(all.Alignment, *alignment);
+  }
+  all.SizeInBytes = round_up(all.SizeInBytes, all.Alignment);
   return all;
+}
+
+D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo1(
+    UINT visible_mask, UINT count, const D3D12_RESOURCE_DESC* descs,
+    D3D12_RESOURCE_ALLOCATION_INFO1* infos) {
+  std::vector<D3D12_RESOURCE_DESC1> descs1;
+  for (UINT i = 0; i < count; ++i) descs1.push_back(with_sampler_feedback(descs[i]));
+  return GetResourceAllocationInfo2(visible_mask, count, descs1.data(), infos);
 }
 
 D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo(UINT visible_mask, UINT count,

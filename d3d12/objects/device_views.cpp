@@ -143,7 +143,8 @@ void Device::CopyDescriptors(UINT dest_count, const D3D12_CPU_DESCRIPTOR_HANDLE*
     if (dest_count != 0) fail(ErrorId::kNullPointer, "CopyDescriptors: the starts of the ranges.");
     return;
   }
-  // Ranges without sizes are of one descriptor. Both lists name as many in all.
+  // Ranges without sizes are of one descriptor. Both lists name as many in all; if they do not, the
+  // smaller total is copied, as D3D12's runtimes do.
   UINT d = 0, s = 0, in_dest = 0, in_source = 0;
   while (d < dest_count && s < source_count) {
     const UINT dest_size = dest_sizes != nullptr ? dest_sizes[d] : 1;
@@ -165,9 +166,10 @@ void Device::CopyDescriptors(UINT dest_count, const D3D12_CPU_DESCRIPTOR_HANDLE*
     }
   }
   if (d != dest_count || s != source_count) {
-    fail(ErrorId::kView,
-         "CopyDescriptors: the source and destination ranges do not name as many "
-         "descriptors.");
+    report(D3D12_MESSAGE_SEVERITY_WARNING,
+           make_error(ErrorId::kView,
+                      "CopyDescriptors: the source and destination ranges do not name as many "
+                      "descriptors; those that both have are copied."));
   }
 }
 

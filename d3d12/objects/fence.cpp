@@ -3,7 +3,8 @@
 
 #include <windows.h>
 
-#include <thread>
+#include <atomic>
+#include <memory>
 
 #include "d3d12/objects/device.h"
 
@@ -18,33 +19,24 @@ HANDLE duplicate(HANDLE handle) {
   return out;
 }
 
+// An event that a fence sets; closes its handle with the last copy.
+class EventSignal {
+ public:
+  explicit EventSignal(HANDLE event) : event_(event, [](HANDLE handle) { CloseHandle(handle); }) {}
+  void set() const { SetEvent(event_.get()); }
+
+ private:
+  std::shared_ptr<void> event_;
+};
+
 }  // namespace
 
-// Work runs in the call that submits it, so that the value is nearly always reached by now. Only a
-// queue that waits for a fence leaves something to wait for, and then a thread does.
 HRESULT Fence::SetEventOnCompletion(UINT64 value, HANDLE event) {
   if (event == nullptr) return check(fence_.Wait(value));
-  if (fence_.GetCompletedValue() >= value) {
-    SetEvent(event);
-    return S_OK;
-  }
   // The program may close its handle before the value is reached.
   const HANDLE kept = duplicate(event);
   if (kept == nullptr) return fail(ErrorId::kWin32, "SetEventOnCompletion: hEvent is no event.");
-  std::thread([fence = fence_, dropped = dropped_, value, kept] {
-    constexpr uint32_t kTurnMs = 50;
-    while (!fence.Wait(value, kTurnMs).ok()) {
-      // A removed device sets its fences to 2^64 - 1.
-      if (fence.GetCompletedValue() >= value) break;
-      if (*dropped) {
-        CloseHandle(kept);
-        return;
-      }
-    }
-    SetEvent(kept);
-    CloseHandle(kept);
-  }).detach();
-  return S_OK;
+  return check(fence_.CallAt(value, [signal = EventSignal(kept)] { signal.set(); }));
 }
 
 HRESULT Device::CreateFence(UINT64 initial_value, D3D12_FENCE_FLAGS flags, REFIID riid,
@@ -61,48 +53,37 @@ HRESULT Device::SetEventOnMultipleFenceCompletion(ID3D12Fence* const* fences, co
   if (count == 0 || fences == nullptr || values == nullptr) {
     return fail(ErrorId::kNullPointer, "SetEventOnMultipleFenceCompletion: no fences or values.");
   }
-  const bool any = (flags & D3D12_MULTIPLE_FENCE_WAIT_FLAG_ANY) != 0;
-  std::vector<std::pair<rtapi::Fence, UINT64>> waits;
+  if (flags > D3D12_MULTIPLE_FENCE_WAIT_FLAG_ANY) {
+    fail(ErrorId::kWin32, "SetEventOnMultipleFenceCompletion: Flags is " + std::to_string(flags) +
+                              "; it is 0 (ALL) or 1 (ANY).");
+    return E_INVALIDARG;
+  }
   for (UINT i = 0; i < count; ++i) {
     if (fences[i] == nullptr) {
       return fail(ErrorId::kNullPointer,
                   "SetEventOnMultipleFenceCompletion: ppFences[" + std::to_string(i) + "].");
     }
-    waits.emplace_back(static_cast<Fence*>(fences[i])->rtapi_fence(), values[i]);
   }
-  const auto reached = [any](const auto& all) {
-    size_t done = 0;
-    for (const auto& [fence, value] : all) done += fence.GetCompletedValue() >= value ? 1 : 0;
-    return any ? done != 0 : done == all.size();
-  };
-  const auto wait = [reached, any](const auto& all) {
-    constexpr uint32_t kTurnMs = 5;
-    while (!reached(all)) {
-      for (const auto& [fence, value] : all) {
-        if (fence.GetCompletedValue() < value) {
-          (void)fence.Wait(value, kTurnMs);
-          if (any) break;
-        }
-      }
-    }
-  };
-  if (event == nullptr) {
-    wait(waits);
-    return S_OK;
-  }
-  if (reached(waits)) {
-    SetEvent(event);
-    return S_OK;
-  }
-  const HANDLE kept = duplicate(event);
+  const HANDLE kept =
+      event != nullptr ? duplicate(event) : CreateEvent(nullptr, TRUE, FALSE, nullptr);
   if (kept == nullptr) {
     return fail(ErrorId::kWin32, "SetEventOnMultipleFenceCompletion: hEvent is no event.");
   }
-  std::thread([waits, wait, kept] {
-    wait(waits);
-    SetEvent(kept);
-    CloseHandle(kept);
-  }).detach();
+  const EventSignal signal(kept);
+  // How many fences must still reach their value.
+  const bool any = (flags & D3D12_MULTIPLE_FENCE_WAIT_FLAG_ANY) != 0;
+  const auto left = std::make_shared<std::atomic<UINT>>(any ? 1 : count);
+  for (UINT i = 0; i < count; ++i) {
+    const auto reached = [left, signal] {
+      if (left->fetch_sub(1) == 1) signal.set();
+    };
+    if (const HRESULT result =
+            check(static_cast<Fence*>(fences[i])->rtapi_fence().CallAt(values[i], reached));
+        FAILED(result)) {
+      return result;
+    }
+  }
+  if (event == nullptr) WaitForSingleObject(kept, INFINITE);
   return S_OK;
 }
 

@@ -2,8 +2,6 @@
 // ID3D12Fence, and events that wait for it.
 #pragma once
 
-#include <memory>
-
 #include <rtapi/rtapi.h>
 
 #include "d3d12/com/report.h"
@@ -23,14 +21,9 @@ class Fence final : public DeviceChild<ID3D12FenceEntries> {
   HRESULT STDMETHODCALLTYPE Signal(UINT64 value) override { return check(fence_.Signal(value)); }
   D3D12_FENCE_FLAGS STDMETHODCALLTYPE GetCreationFlags() override { return flags_; }
 
- protected:
-  ~Fence() override { *dropped_ = true; }
-
  private:
   rtapi::Fence fence_;
   D3D12_FENCE_FLAGS flags_;
-  // Threads that wait for a value give up once the fence is gone.
-  std::shared_ptr<std::atomic<bool>> dropped_ = std::make_shared<std::atomic<bool>>(false);
 };
 
 }  // namespace kaamos::d3d12

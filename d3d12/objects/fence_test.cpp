@@ -71,5 +71,63 @@ TEST_F(FenceCalls, SeveralFencesAllOrAny) {
   CloseHandle(event);
 }
 
+// No thread stands between them: WaitForSingleObject does not wait.
+TEST_F(FenceCalls, SignalSetsEventsBeforeItReturns) {
+  const auto fence = this->fence(0);
+  HANDLE events[4];
+  for (UINT64 i = 0; i < 4; ++i) {
+    events[i] = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+    ASSERT_EQ(fence->SetEventOnCompletion(i + 1, events[i]), S_OK);
+  }
+  ASSERT_EQ(fence->Signal(2), S_OK);
+  ASSERT_EQ(fence->Signal(1), S_OK);  // back: what was set stays set
+  for (UINT64 i = 0; i < 4; ++i) {
+    EXPECT_EQ(WaitForSingleObject(events[i], 0), i < 2 ? WAIT_OBJECT_0 : WAIT_TIMEOUT) << i;
+  }
+  EXPECT_EQ(fence->GetCompletedValue(), 1u);
+  ASSERT_EQ(queue_->Signal(fence.Get(), 4), S_OK);
+  for (int i = 2; i < 4; ++i) EXPECT_EQ(WaitForSingleObject(events[i], 0), WAIT_OBJECT_0) << i;
+  for (const HANDLE event : events) CloseHandle(event);
+}
+
+TEST_F(FenceCalls, SeveralFencesSetTheirEventWithTheLastOne) {
+  ComPtr<ID3D12Device1> device;
+  ASSERT_EQ(device_.As(&device), S_OK);
+  const auto a = fence(0), b = fence(0);
+  ID3D12Fence* const fences[] = {a.Get(), b.Get()};
+  const UINT64 values[] = {1, 2};
+  const HANDLE all = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+  const HANDLE any = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+  ASSERT_EQ(device->SetEventOnMultipleFenceCompletion(fences, values, 2,
+                                                      D3D12_MULTIPLE_FENCE_WAIT_FLAG_ALL, all),
+            S_OK);
+  ASSERT_EQ(device->SetEventOnMultipleFenceCompletion(fences, values, 2,
+                                                      D3D12_MULTIPLE_FENCE_WAIT_FLAG_ANY, any),
+            S_OK);
+  b->Signal(2);
+  EXPECT_EQ(WaitForSingleObject(all, 0), WAIT_TIMEOUT);
+  EXPECT_EQ(WaitForSingleObject(any, 0), WAIT_OBJECT_0);
+  a->Signal(1);
+  EXPECT_EQ(WaitForSingleObject(all, 0), WAIT_OBJECT_0);
+  EXPECT_EQ(WaitForSingleObject(any, 0), WAIT_TIMEOUT);  // set once
+  EXPECT_EQ(device->SetEventOnMultipleFenceCompletion(
+                fences, values, 2, static_cast<D3D12_MULTIPLE_FENCE_WAIT_FLAGS>(2), all),
+            E_INVALIDARG);
+  CloseHandle(all);
+  CloseHandle(any);
+}
+
+TEST_F(FenceCalls, RemovalSetsEvents) {
+  const auto fence = this->fence(0);
+  const HANDLE event = CreateEvent(nullptr, FALSE, FALSE, nullptr);
+  ASSERT_EQ(fence->SetEventOnCompletion(1, event), S_OK);
+  ID3D12CommandList* lists[] = {list_.Get()};
+  queue_->ExecuteCommandLists(1, lists);  // it is open
+  EXPECT_EQ(device_->GetDeviceRemovedReason(), DXGI_ERROR_INVALID_CALL);
+  EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_OBJECT_0);
+  EXPECT_EQ(fence->GetCompletedValue(), UINT64_MAX);
+  CloseHandle(event);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

@@ -24,7 +24,7 @@ GraphicsCommandList::~GraphicsCommandList() {
 
 void GraphicsCommandList::drop_allocator() {
   if (allocator_) allocator_->end();
-  allocator_.Reset();
+  allocator_ = Held<CommandAllocator>();
 }
 
 void GraphicsCommandList::refuse(ErrorId id, const std::string& detail) {
@@ -37,7 +37,8 @@ void GraphicsCommandList::refuse(ErrorId id, const std::string& detail) {
 HRESULT GraphicsCommandList::Close() {
   drop_allocator();
   if (!list_.is_open()) {
-    return fail(ErrorId::kCommandList, "ID3D12GraphicsCommandList::Close: the list is closed.");
+    fail(ErrorId::kCommandList, "ID3D12GraphicsCommandList::Close: the list is closed.");
+    return E_FAIL;
   }
   for (; open_events_ != 0; --open_events_) list_.EndEvent();
   const std::vector<rtapi::Error> errors = list_.GetErrors();
@@ -54,8 +55,9 @@ HRESULT GraphicsCommandList::Reset(ID3D12CommandAllocator* allocator,
     return fail(ErrorId::kNullPointer, "ID3D12GraphicsCommandList::Reset: pAllocator.");
   }
   if (list_.is_open() && allocator_) {
-    return fail(ErrorId::kCommandList,
-                "ID3D12GraphicsCommandList::Reset: the list is open. Close it first.");
+    fail(ErrorId::kCommandList,
+         "ID3D12GraphicsCommandList::Reset: the list is open. Close it first.");
+    return E_FAIL;
   }
   auto* taken = static_cast<CommandAllocator*>(allocator);
   if (taken->type() != type_) {
@@ -68,7 +70,7 @@ HRESULT GraphicsCommandList::Reset(ID3D12CommandAllocator* allocator,
     return fail(ErrorId::kCommandList,
                 "ID3D12GraphicsCommandList::Reset: another list of the allocator records.");
   }
-  allocator_ = taken;
+  allocator_ = Held(taken);
   if (const rtapi::Status status = list_.Reset(); !status) {
     drop_allocator();
     return fail(status.error());
@@ -78,14 +80,8 @@ HRESULT GraphicsCommandList::Reset(ID3D12CommandAllocator* allocator,
   return S_OK;
 }
 
-// rtapi's state is cleared by a new recording alone, so what D3D12 clears is set anew here.
 void GraphicsCommandList::ClearState(ID3D12PipelineState* pipeline) {
-  list_.IASetIndexBuffer(nullptr);
-  list_.RSSetViewports(std::span<const rtapi::Viewport>());
-  list_.RSSetScissorRects(std::span<const rtapi::Rect>());
-  list_.OMSetRenderTargets(0, nullptr);
-  list_.OMSetBlendFactor(nullptr);
-  if (pipeline != nullptr) SetPipelineState(pipeline);
+  list_.ClearState(pipeline != nullptr ? rtapi_pipeline(pipeline) : rtapi::PipelineState());
 }
 
 HRESULT Device::CreateCommandList(UINT, D3D12_COMMAND_LIST_TYPE type,

@@ -99,6 +99,9 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
                                                        ID3D12Resource* resource,
                                                        const FLOAT values[4], UINT rect_count,
                                                        const D3D12_RECT* rects) override;
+  void STDMETHODCALLTYPE
+  WriteBufferImmediate(UINT count, const D3D12_WRITEBUFFERIMMEDIATE_PARAMETER* parameters,
+                       const D3D12_WRITEBUFFERIMMEDIATE_MODE* modes) override;
   // A discarded resource keeps its values here.
   void STDMETHODCALLTYPE DiscardResource(ID3D12Resource*, const D3D12_DISCARD_REGION*) override {}
   void STDMETHODCALLTYPE EndQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type,
@@ -153,7 +156,7 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
   D3D12_COMMAND_LIST_TYPE type_;
   UINT open_events_ = 0;
   HRESULT refused_ = S_OK;
-  Microsoft::WRL::ComPtr<CommandAllocator> allocator_;  // while the list records
+  Held<CommandAllocator> allocator_;  // while the list records
 };
 
 }  // namespace kaamos::d3d12

@@ -4,6 +4,7 @@
 #include "d3d12/objects/graphics_command_list.h"
 #include "d3d12/objects/pipeline_objects.h"
 #include "d3d12/objects/resource.h"
+#include "d3d12/objects/same_bytes.h"
 
 namespace kaamos::d3d12 {
 
@@ -51,28 +52,26 @@ void GraphicsCommandList::ClearUnorderedAccessViewUint(D3D12_GPU_DESCRIPTOR_HAND
                                                        D3D12_CPU_DESCRIPTOR_HANDLE cpu,
                                                        ID3D12Resource* resource,
                                                        const UINT values[4], UINT rect_count,
-                                                       const D3D12_RECT*) {
-  if (rect_count != 0) {
-    refuse(ErrorId::kCommandList, "ClearUnorderedAccessViewUint: NumRects is " +
-                                      std::to_string(rect_count) +
-                                      "; whole views are cleared here.");
-    return;
-  }
-  list_.ClearUnorderedAccessViewUint({gpu.ptr}, {cpu.ptr}, rtapi_resource(resource), values);
+                                                       const D3D12_RECT* rects) {
+  list_.ClearUnorderedAccessViewUint({gpu.ptr}, {cpu.ptr}, rtapi_resource(resource), values,
+                                     same_bytes<rtapi::Rect>(rects, rect_count));
 }
 
 void GraphicsCommandList::ClearUnorderedAccessViewFloat(D3D12_GPU_DESCRIPTOR_HANDLE gpu,
                                                         D3D12_CPU_DESCRIPTOR_HANDLE cpu,
                                                         ID3D12Resource* resource,
                                                         const FLOAT values[4], UINT rect_count,
-                                                        const D3D12_RECT*) {
-  if (rect_count != 0) {
-    refuse(ErrorId::kCommandList, "ClearUnorderedAccessViewFloat: NumRects is " +
-                                      std::to_string(rect_count) +
-                                      "; whole views are cleared here.");
-    return;
-  }
-  list_.ClearUnorderedAccessViewFloat({gpu.ptr}, {cpu.ptr}, rtapi_resource(resource), values);
+                                                        const D3D12_RECT* rects) {
+  list_.ClearUnorderedAccessViewFloat({gpu.ptr}, {cpu.ptr}, rtapi_resource(resource), values,
+                                      same_bytes<rtapi::Rect>(rects, rect_count));
+}
+
+void GraphicsCommandList::WriteBufferImmediate(
+    UINT count, const D3D12_WRITEBUFFERIMMEDIATE_PARAMETER* parameters,
+    const D3D12_WRITEBUFFERIMMEDIATE_MODE* modes) {
+  list_.WriteBufferImmediate(
+      same_bytes<rtapi::WriteBufferImmediateParameter>(parameters, count),
+      same_bytes<rtapi::WriteBufferImmediateMode>(modes, modes != nullptr ? count : 0));
 }
 
 void GraphicsCommandList::EndQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type, UINT index) {

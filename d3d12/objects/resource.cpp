@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "d3d12/objects/resource.h"
 
+#include <cstring>
+
+#include <rtapi/upload.h>
+
+#include "d3d12/objects/device.h"
+
 namespace kaamos::d3d12 {
 
 Resource::Resource(ID3D12Device* device, rtapi::Resource resource, const D3D12_RESOURCE_DESC1& desc,
-                   const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags,
-                   Microsoft::WRL::ComPtr<ID3D12Heap> placed_in)
+                   const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags, Heap* placed_in)
     : DeviceChild(device),
       resource_(std::move(resource)),
       desc_(desc),
       heap_(heap),
       heap_flags_(heap_flags),
-      placed_in_(std::move(placed_in)) {
+      placed_in_(placed_in) {
+  if (desc_.Alignment == 0) desc_.Alignment = D3D12_DEFAULT_RESOURCE_PLACEMENT_ALIGNMENT;
+  if (heap_.CreationNodeMask == 0) heap_.CreationNodeMask = 1;
+  if (heap_.VisibleNodeMask == 0) heap_.VisibleNodeMask = 1;
   if (const rtapi::Texture texture = this->texture()) {
     desc_.MipLevels = texture.GetDesc().MipLevels;  // 0 asked for the full chain
   }
@@ -27,13 +35,24 @@ rtapi::Texture Resource::texture() const {
   return texture != nullptr ? *texture : rtapi::Texture{};
 }
 
-// Mapped memory stays mapped, so that ranges and the count of Unmap do not matter.
+bool Resource::cpu_sees_texels() const {
+  return heap_.Type == D3D12_HEAP_TYPE_CUSTOM &&
+         heap_.CPUPageProperty != D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE;
+}
+
+// Mapped memory stays mapped, so that ranges and the count of Unmap do not matter. `*data` is not
+// touched by a call that fails.
 HRESULT Resource::Map(UINT subresource, const D3D12_RANGE* read_range, void** data) {
-  if (data != nullptr) *data = nullptr;
   const rtapi::Buffer buffer = this->buffer();
   if (!buffer) {
+    // Texels of an unknown layout are read and written by the two calls below. [D3D12: Map]
+    if (data == nullptr && cpu_sees_texels() && subresource < texture().subresource_count()) {
+      return S_OK;
+    }
     return fail(ErrorId::kMap,
-                "texture \"" + texture().name() + "\": textures are not mapped here.");
+                "texture \"" + texture().name() +
+                    "\": only textures of custom heaps that the CPU sees are mapped, "
+                    "with a null ppData.");
   }
   if (subresource != 0) {
     return fail(ErrorId::kMap, "buffer \"" + buffer.name() + "\": subresource " +
@@ -48,6 +67,85 @@ HRESULT Resource::Map(UINT subresource, const D3D12_RANGE* read_range, void** da
   if (!mapped) return fail(mapped.error());
   if (data != nullptr) *data = mapped->data();
   return S_OK;
+}
+
+HRESULT Resource::WriteToSubresource(UINT subresource, const D3D12_BOX* box, const void* source,
+                                     UINT row_pitch, UINT slice_pitch) {
+  return move_texels("WriteToSubresource", subresource, box, [&](const TexelRows& rows) {
+    for (uint64_t z = 0; z < rows.slices; ++z) {
+      for (uint64_t y = 0; y < rows.count; ++y) {
+        std::memcpy(rows.at(y, z),
+                    static_cast<const std::byte*>(source) + z * slice_pitch + y * row_pitch,
+                    rows.bytes);
+      }
+    }
+    return true;
+  });
+}
+
+HRESULT Resource::ReadFromSubresource(void* dest, UINT row_pitch, UINT slice_pitch,
+                                      UINT subresource, const D3D12_BOX* box) {
+  return move_texels("ReadFromSubresource", subresource, box, [&](const TexelRows& rows) {
+    for (uint64_t z = 0; z < rows.slices; ++z) {
+      for (uint64_t y = 0; y < rows.count; ++y) {
+        std::memcpy(static_cast<std::byte*>(dest) + z * slice_pitch + y * row_pitch, rows.at(y, z),
+                    rows.bytes);
+      }
+    }
+    return false;
+  });
+}
+
+// Reads the whole subresource, lets `move` read or write rows of the box, and writes it back if
+// they were written. In elements: blocks of block-compressed formats.
+HRESULT Resource::move_texels(const char* call, UINT subresource, const D3D12_BOX* box,
+                              const std::function<bool(const TexelRows&)>& move) {
+  const rtapi::Texture texture = this->texture();
+  if (!texture || !cpu_sees_texels() || subresource >= texture.subresource_count()) {
+    return fail(ErrorId::kMap, std::string(call) + ": subresource " + std::to_string(subresource) +
+                                   " of no texture of a custom heap that the CPU sees.");
+  }
+  const rtapi::Device& device = rtapi_device(this->device());
+  std::vector<rtapi::PlacedSubresourceFootprint> layouts;
+  std::vector<uint32_t> row_counts;
+  std::vector<uint64_t> row_bytes;
+  const auto total = device.GetCopyableFootprints(texture.GetDesc(), subresource, 1, 0, &layouts,
+                                                  &row_counts, &row_bytes);
+  if (!total) return fail(total.error());
+  const rtapi::FormatInfo format = rtapi::GetFormatInfo(texture.GetDesc().Format);
+  const rtapi::SubresourceFootprint& whole = layouts[0].Footprint;
+  const UINT side = format.block_side;
+  const D3D12_BOX all = {0, 0, 0, whole.Width, whole.Height, whole.Depth};
+  const D3D12_BOX& b = box != nullptr ? *box : all;
+  const bool inside = b.left <= b.right && b.right <= all.right && b.top <= b.bottom &&
+                      b.bottom <= all.bottom && b.front <= b.back && b.back <= all.back &&
+                      b.left % side == 0 && b.top % side == 0;
+  // One empty side with others that are not is no box; an empty one moves nothing.
+  const int empty_sides = (b.left == b.right) + (b.top == b.bottom) + (b.front == b.back);
+  if (!inside || empty_sides == 1 || empty_sides == 2) {
+    return fail(ErrorId::kMap, std::string(call) + ": the box (" + std::to_string(b.left) + ", " +
+                                   std::to_string(b.top) + ", " + std::to_string(b.front) +
+                                   ") to (" + std::to_string(b.right) + ", " +
+                                   std::to_string(b.bottom) + ", " + std::to_string(b.back) +
+                                   ") is not within " + std::to_string(all.right) + "x" +
+                                   std::to_string(all.bottom) + "x" + std::to_string(all.back) +
+                                   " texels, or empty on some sides only.");
+  }
+  if (empty_sides == 3) return S_OK;
+  auto queue = device.CreateCommandQueue();
+  if (!queue) return fail(queue.error());
+  auto texels = rtapi::ReadbackTexture(device, *queue, texture, subresource);
+  if (!texels) return fail(texels.error());
+  TexelRows rows;
+  rows.row_pitch = row_bytes[0];
+  rows.slice_pitch = row_bytes[0] * row_counts[0];
+  rows.first = texels->data() + b.front * rows.slice_pitch + b.top / side * rows.row_pitch +
+               uint64_t{b.left} / side * format.bytes;
+  rows.bytes = uint64_t{(b.right - b.left + side - 1) / side} * format.bytes;
+  rows.count = (b.bottom - b.top + side - 1) / side;
+  rows.slices = b.back - b.front;
+  if (!move(rows)) return S_OK;
+  return check(rtapi::UploadTexture(device, *queue, texture, subresource, *texels));
 }
 
 D3D12_RESOURCE_DESC Resource::GetDesc() {

@@ -2,10 +2,13 @@
 // ID3D12Resource over rtapi's buffers and textures.
 #pragma once
 
+#include <functional>
+
 #include <rtapi/rtapi.h>
 
 #include "d3d12/com/report.h"
 #include "d3d12/objects/device_child.h"
+#include "d3d12/objects/heap.h"
 
 namespace kaamos::d3d12 {
 
@@ -13,8 +16,7 @@ namespace kaamos::d3d12 {
 class Resource final : public DeviceChild<ID3D12ResourceEntries> {
  public:
   Resource(ID3D12Device* device, rtapi::Resource resource, const D3D12_RESOURCE_DESC1& desc,
-           const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags,
-           Microsoft::WRL::ComPtr<ID3D12Heap> placed_in);
+           const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags, Heap* placed_in);
 
   const rtapi::Resource& rtapi_resource() const { return resource_; }
   bool is_buffer() const { return std::holds_alternative<rtapi::Buffer>(resource_); }
@@ -25,6 +27,11 @@ class Resource final : public DeviceChild<ID3D12ResourceEntries> {
   HRESULT STDMETHODCALLTYPE Map(UINT subresource, const D3D12_RANGE* read_range,
                                 void** data) override;
   void STDMETHODCALLTYPE Unmap(UINT, const D3D12_RANGE*) override {}
+  HRESULT STDMETHODCALLTYPE WriteToSubresource(UINT subresource, const D3D12_BOX* box,
+                                               const void* source, UINT row_pitch,
+                                               UINT slice_pitch) override;
+  HRESULT STDMETHODCALLTYPE ReadFromSubresource(void* dest, UINT row_pitch, UINT slice_pitch,
+                                                UINT subresource, const D3D12_BOX* box) override;
   D3D12_RESOURCE_DESC STDMETHODCALLTYPE GetDesc() override;
   D3D12_RESOURCE_DESC1 STDMETHODCALLTYPE GetDesc1() override { return desc_; }
   D3D12_GPU_VIRTUAL_ADDRESS STDMETHODCALLTYPE GetGPUVirtualAddress() override;
@@ -39,11 +46,28 @@ class Resource final : public DeviceChild<ID3D12ResourceEntries> {
   void rename(const std::string& name) override;
 
  private:
+  // The rows of a box in a subresource, `count` to a slice.
+  struct TexelRows {
+    std::byte* first = nullptr;
+    uint64_t row_pitch = 0;
+    uint64_t slice_pitch = 0;
+    uint64_t bytes = 0;  // of a row of the box
+    uint64_t count = 0;
+    uint64_t slices = 0;
+
+    std::byte* at(uint64_t y, uint64_t z) const { return first + z * slice_pitch + y * row_pitch; }
+  };
+
+  bool cpu_sees_texels() const;
+  // `move` returns whether it wrote.
+  HRESULT move_texels(const char* call, UINT subresource, const D3D12_BOX* box,
+                      const std::function<bool(const TexelRows&)>& move);
+
   rtapi::Resource resource_;
   D3D12_RESOURCE_DESC1 desc_;
   D3D12_HEAP_PROPERTIES heap_;
   D3D12_HEAP_FLAGS heap_flags_;
-  Microsoft::WRL::ComPtr<ID3D12Heap> placed_in_;
+  Held<Heap> placed_in_;
 };
 
 /// Returns the object behind an interface of this library; an empty handle for null.
