@@ -134,6 +134,42 @@ TEST_F(CommandListCalls, ASplitBarrierTakesPlaceAtItsEnd) {
   EXPECT_TRUE(messages().empty());
 }
 
+TEST_F(CommandListCalls, EnhancedBarriersOfEachType) {
+  D3D12_FEATURE_DATA_D3D12_OPTIONS12 options = {};
+  ASSERT_EQ(device_->CheckFeatureSupport(D3D12_FEATURE_D3D12_OPTIONS12, &options, sizeof(options)),
+            S_OK);
+  EXPECT_TRUE(options.EnhancedBarriersSupported);
+  const auto data = buffer(16, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_COMMON);
+  ComPtr<ID3D12GraphicsCommandList7> list;
+  ASSERT_EQ(list_.As(&list), S_OK);
+  D3D12_GLOBAL_BARRIER all = {D3D12_BARRIER_SYNC_ALL, D3D12_BARRIER_SYNC_ALL,
+                              D3D12_BARRIER_ACCESS_COMMON, D3D12_BARRIER_ACCESS_COMMON};
+  D3D12_BUFFER_BARRIER one = {D3D12_BARRIER_SYNC_NONE,
+                              D3D12_BARRIER_SYNC_COPY,
+                              D3D12_BARRIER_ACCESS_NO_ACCESS,
+                              D3D12_BARRIER_ACCESS_COPY_SOURCE,
+                              data.Get(),
+                              0,
+                              UINT64_MAX};
+  D3D12_BARRIER_GROUP groups[2] = {};
+  groups[0].Type = D3D12_BARRIER_TYPE_GLOBAL;
+  groups[0].NumBarriers = 1;
+  groups[0].pGlobalBarriers = &all;
+  groups[1].Type = D3D12_BARRIER_TYPE_BUFFER;
+  groups[1].NumBarriers = 1;
+  groups[1].pBufferBarriers = &one;
+  list->Barrier(2, groups);
+  EXPECT_EQ(read(data.Get(), 1), std::vector<uint32_t>{0});
+  EXPECT_TRUE(messages().empty());
+  one.Size = 8;
+  list->Barrier(1, &groups[1]);
+  list->Barrier(1, nullptr);
+  groups[0].Type = static_cast<D3D12_BARRIER_TYPE>(3);
+  list->Barrier(1, groups);
+  EXPECT_EQ(list_->Close(), E_INVALIDARG);
+  ASSERT_EQ(messages().size(), 3u);
+}
+
 TEST_F(CommandListCalls, WhatIsMissingSaysSo) {
   list_->SOSetTargets(0, 0, nullptr);
   ASSERT_EQ(messages().size(), 1u);

@@ -255,6 +255,7 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_D3D12_OPTIONS12:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS12>(query, [](auto& out) {
         out.MSPrimitivesPipelineStatisticIncludesCulledPrimitives = D3D12_TRI_STATE_FALSE;
+        out.EnhancedBarriersSupported = TRUE;
       });
     case D3D12_FEATURE_D3D12_OPTIONS13:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS13>(query, [](auto& out) {

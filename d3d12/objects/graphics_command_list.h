@@ -10,7 +10,8 @@
 namespace kaamos::d3d12 {
 
 /// A list of any type but bundles (bundle.h). Its methods are in graphics_command_list.cpp (life,
-/// state, root arguments, dispatches), list_copies.cpp, list_draws.cpp and list_raytracing.cpp.
+/// state, root arguments, dispatches), list_barriers.cpp (enhanced ones), list_copies.cpp,
+/// list_draws.cpp and list_raytracing.cpp.
 /// Errors are rtapi's: a call that breaks a rule records nothing, and Close reports all of them.
 class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEntries> {
  public:
@@ -34,6 +35,7 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
                                             ID3D12DescriptorHeap* const* heaps) override;
   void STDMETHODCALLTYPE ResourceBarrier(UINT count,
                                          const D3D12_RESOURCE_BARRIER* barriers) override;
+  void STDMETHODCALLTYPE Barrier(UINT32 count, const D3D12_BARRIER_GROUP* groups) override;
   void STDMETHODCALLTYPE SetComputeRootSignature(ID3D12RootSignature* root_signature) override;
   void STDMETHODCALLTYPE SetGraphicsRootSignature(ID3D12RootSignature* root_signature) override;
   void STDMETHODCALLTYPE SetComputeRootDescriptorTable(UINT parameter,

@@ -390,6 +390,93 @@ SAME_VALUE(rtapi::RaytracingPipelineFlags::kSkipTriangles,
 SAME_VALUE(rtapi::RaytracingPipelineFlags::kSkipProceduralPrimitives,
            D3D12_RAYTRACING_PIPELINE_FLAG_SKIP_PROCEDURAL_PRIMITIVES);
 
+// D3D12_BARRIER_SYNC
+SAME_VALUE(rtapi::BarrierSync::kNone, D3D12_BARRIER_SYNC_NONE);
+SAME_VALUE(rtapi::BarrierSync::kAll, D3D12_BARRIER_SYNC_ALL);
+SAME_VALUE(rtapi::BarrierSync::kDraw, D3D12_BARRIER_SYNC_DRAW);
+SAME_VALUE(rtapi::BarrierSync::kIndexInput, D3D12_BARRIER_SYNC_INPUT_ASSEMBLER);
+SAME_VALUE(rtapi::BarrierSync::kVertexShading, D3D12_BARRIER_SYNC_VERTEX_SHADING);
+SAME_VALUE(rtapi::BarrierSync::kPixelShading, D3D12_BARRIER_SYNC_PIXEL_SHADING);
+SAME_VALUE(rtapi::BarrierSync::kDepthStencil, D3D12_BARRIER_SYNC_DEPTH_STENCIL);
+SAME_VALUE(rtapi::BarrierSync::kRenderTarget, D3D12_BARRIER_SYNC_RENDER_TARGET);
+SAME_VALUE(rtapi::BarrierSync::kComputeShading, D3D12_BARRIER_SYNC_COMPUTE_SHADING);
+SAME_VALUE(rtapi::BarrierSync::kRaytracing, D3D12_BARRIER_SYNC_RAYTRACING);
+SAME_VALUE(rtapi::BarrierSync::kCopy, D3D12_BARRIER_SYNC_COPY);
+SAME_VALUE(rtapi::BarrierSync::kResolve, D3D12_BARRIER_SYNC_RESOLVE);
+SAME_VALUE(rtapi::BarrierSync::kExecuteIndirect, D3D12_BARRIER_SYNC_EXECUTE_INDIRECT);
+SAME_VALUE(rtapi::BarrierSync::kAllShading, D3D12_BARRIER_SYNC_ALL_SHADING);
+SAME_VALUE(rtapi::BarrierSync::kNonPixelShading, D3D12_BARRIER_SYNC_NON_PIXEL_SHADING);
+SAME_VALUE(rtapi::BarrierSync::kEmitPostbuildInfo,
+           D3D12_BARRIER_SYNC_EMIT_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO);
+SAME_VALUE(rtapi::BarrierSync::kClearUnorderedAccessView,
+           D3D12_BARRIER_SYNC_CLEAR_UNORDERED_ACCESS_VIEW);
+SAME_VALUE(rtapi::BarrierSync::kBuildAccelerationStructure,
+           D3D12_BARRIER_SYNC_BUILD_RAYTRACING_ACCELERATION_STRUCTURE);
+SAME_VALUE(rtapi::BarrierSync::kCopyAccelerationStructure,
+           D3D12_BARRIER_SYNC_COPY_RAYTRACING_ACCELERATION_STRUCTURE);
+SAME_VALUE(rtapi::BarrierSync::kSplit, D3D12_BARRIER_SYNC_SPLIT);
+
+// D3D12_BARRIER_ACCESS
+SAME_VALUE(rtapi::BarrierAccess::kCommon, D3D12_BARRIER_ACCESS_COMMON);
+SAME_VALUE(rtapi::BarrierAccess::kVertexBuffer, D3D12_BARRIER_ACCESS_VERTEX_BUFFER);
+SAME_VALUE(rtapi::BarrierAccess::kConstantBuffer, D3D12_BARRIER_ACCESS_CONSTANT_BUFFER);
+SAME_VALUE(rtapi::BarrierAccess::kIndexBuffer, D3D12_BARRIER_ACCESS_INDEX_BUFFER);
+SAME_VALUE(rtapi::BarrierAccess::kRenderTarget, D3D12_BARRIER_ACCESS_RENDER_TARGET);
+SAME_VALUE(rtapi::BarrierAccess::kUnorderedAccess, D3D12_BARRIER_ACCESS_UNORDERED_ACCESS);
+SAME_VALUE(rtapi::BarrierAccess::kDepthStencilWrite, D3D12_BARRIER_ACCESS_DEPTH_STENCIL_WRITE);
+SAME_VALUE(rtapi::BarrierAccess::kDepthStencilRead, D3D12_BARRIER_ACCESS_DEPTH_STENCIL_READ);
+SAME_VALUE(rtapi::BarrierAccess::kShaderResource, D3D12_BARRIER_ACCESS_SHADER_RESOURCE);
+SAME_VALUE(rtapi::BarrierAccess::kStreamOutput, D3D12_BARRIER_ACCESS_STREAM_OUTPUT);
+SAME_VALUE(rtapi::BarrierAccess::kIndirectArgument, D3D12_BARRIER_ACCESS_INDIRECT_ARGUMENT);
+SAME_VALUE(rtapi::BarrierAccess::kCopyDest, D3D12_BARRIER_ACCESS_COPY_DEST);
+SAME_VALUE(rtapi::BarrierAccess::kCopySource, D3D12_BARRIER_ACCESS_COPY_SOURCE);
+SAME_VALUE(rtapi::BarrierAccess::kResolveDest, D3D12_BARRIER_ACCESS_RESOLVE_DEST);
+SAME_VALUE(rtapi::BarrierAccess::kResolveSource, D3D12_BARRIER_ACCESS_RESOLVE_SOURCE);
+SAME_VALUE(rtapi::BarrierAccess::kAccelerationStructureRead,
+           D3D12_BARRIER_ACCESS_RAYTRACING_ACCELERATION_STRUCTURE_READ);
+SAME_VALUE(rtapi::BarrierAccess::kAccelerationStructureWrite,
+           D3D12_BARRIER_ACCESS_RAYTRACING_ACCELERATION_STRUCTURE_WRITE);
+SAME_VALUE(rtapi::BarrierAccess::kNoAccess, D3D12_BARRIER_ACCESS_NO_ACCESS);
+
+// D3D12_BARRIER_LAYOUT
+SAME_VALUE(rtapi::BarrierLayout::kUndefined, D3D12_BARRIER_LAYOUT_UNDEFINED);
+SAME_VALUE(rtapi::BarrierLayout::kCommon, D3D12_BARRIER_LAYOUT_COMMON);
+SAME_VALUE(rtapi::BarrierLayout::kGenericRead, D3D12_BARRIER_LAYOUT_GENERIC_READ);
+SAME_VALUE(rtapi::BarrierLayout::kRenderTarget, D3D12_BARRIER_LAYOUT_RENDER_TARGET);
+SAME_VALUE(rtapi::BarrierLayout::kUnorderedAccess, D3D12_BARRIER_LAYOUT_UNORDERED_ACCESS);
+SAME_VALUE(rtapi::BarrierLayout::kDepthStencilWrite, D3D12_BARRIER_LAYOUT_DEPTH_STENCIL_WRITE);
+SAME_VALUE(rtapi::BarrierLayout::kDepthStencilRead, D3D12_BARRIER_LAYOUT_DEPTH_STENCIL_READ);
+SAME_VALUE(rtapi::BarrierLayout::kShaderResource, D3D12_BARRIER_LAYOUT_SHADER_RESOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kCopySource, D3D12_BARRIER_LAYOUT_COPY_SOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kCopyDest, D3D12_BARRIER_LAYOUT_COPY_DEST);
+SAME_VALUE(rtapi::BarrierLayout::kResolveSource, D3D12_BARRIER_LAYOUT_RESOLVE_SOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kResolveDest, D3D12_BARRIER_LAYOUT_RESOLVE_DEST);
+SAME_VALUE(rtapi::BarrierLayout::kDirectQueueCommon, D3D12_BARRIER_LAYOUT_DIRECT_QUEUE_COMMON);
+SAME_VALUE(rtapi::BarrierLayout::kDirectQueueGenericRead,
+           D3D12_BARRIER_LAYOUT_DIRECT_QUEUE_GENERIC_READ);
+SAME_VALUE(rtapi::BarrierLayout::kDirectQueueUnorderedAccess,
+           D3D12_BARRIER_LAYOUT_DIRECT_QUEUE_UNORDERED_ACCESS);
+SAME_VALUE(rtapi::BarrierLayout::kDirectQueueShaderResource,
+           D3D12_BARRIER_LAYOUT_DIRECT_QUEUE_SHADER_RESOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kDirectQueueCopySource,
+           D3D12_BARRIER_LAYOUT_DIRECT_QUEUE_COPY_SOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kDirectQueueCopyDest, D3D12_BARRIER_LAYOUT_DIRECT_QUEUE_COPY_DEST);
+SAME_VALUE(rtapi::BarrierLayout::kComputeQueueCommon, D3D12_BARRIER_LAYOUT_COMPUTE_QUEUE_COMMON);
+SAME_VALUE(rtapi::BarrierLayout::kComputeQueueGenericRead,
+           D3D12_BARRIER_LAYOUT_COMPUTE_QUEUE_GENERIC_READ);
+SAME_VALUE(rtapi::BarrierLayout::kComputeQueueUnorderedAccess,
+           D3D12_BARRIER_LAYOUT_COMPUTE_QUEUE_UNORDERED_ACCESS);
+SAME_VALUE(rtapi::BarrierLayout::kComputeQueueShaderResource,
+           D3D12_BARRIER_LAYOUT_COMPUTE_QUEUE_SHADER_RESOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kComputeQueueCopySource,
+           D3D12_BARRIER_LAYOUT_COMPUTE_QUEUE_COPY_SOURCE);
+SAME_VALUE(rtapi::BarrierLayout::kComputeQueueCopyDest,
+           D3D12_BARRIER_LAYOUT_COMPUTE_QUEUE_COPY_DEST);
+
+// D3D12_TEXTURE_BARRIER_FLAG
+SAME_VALUE(rtapi::TextureBarrierFlags::kNone, D3D12_TEXTURE_BARRIER_FLAG_NONE);
+SAME_VALUE(rtapi::TextureBarrierFlags::kDiscard, D3D12_TEXTURE_BARRIER_FLAG_DISCARD);
+
 constexpr int kChecks = __COUNTER__ - kFirst - 1;
 
 }  // namespace

@@ -23,7 +23,9 @@ struct NameOf {
   const char* operator()(const CopyBufferCommand&) const { return "CopyBufferRegion"; }
   const char* operator()(const CopyTextureCommand&) const { return "CopyTextureRegion"; }
   const char* operator()(const ClearUavCommand&) const { return "ClearUnorderedAccessView"; }
-  const char* operator()(const BarrierCommand&) const { return "ResourceBarrier"; }
+  const char* operator()(const BarrierCommand& command) const {
+    return command.kind == BarrierCommand::Kind::kAccess ? "Barrier" : "ResourceBarrier";
+  }
   const char* operator()(const DrawCommand& draw) const {
     return draw.indexed ? "DrawIndexedInstanced" : "DrawInstanced";
   }

@@ -185,12 +185,18 @@ struct ClearUavCommand {
 // Orders everything before it against everything after it. A backend that runs commands one after
 // another need not do anything.
 struct BarrierCommand {
-  enum class Kind : uint8_t { kUav, kTransition } kind = Kind::kUav;
+  enum class Kind : uint8_t { kUav, kTransition, kAccess } kind = Kind::kUav;
   std::shared_ptr<BackendBuffer> buffer;  // both null: all resources
   std::shared_ptr<BackendTexture> texture;
   rtapi::ResourceStates before = rtapi::ResourceStates::kCommon;
   rtapi::ResourceStates after = rtapi::ResourceStates::kCommon;
   uint32_t subresource = rtapi::kResourceBarrierAllSubresources;  // of the texture
+  // kAccess: `after` has what the memory may be used for, kCommon: everything. Of textures,
+  // `before` and `after` are the states of the layouts, unless any was there before.
+  bool any_before = false;
+  uint32_t mip_count = 0;  // 0: `subresource` counts; else a range from mip `subresource` on
+  uint32_t first_layer = 0;
+  uint32_t layer_count = 1;
 };
 
 struct EventCommand {

@@ -77,8 +77,27 @@ void Hazards::hold_against(Ranges& ranges, uint64_t begin, uint64_t end, const s
   }
 }
 
+// An enhanced barrier orders everything before it, whatever its scopes are: lists run in order. A
+// global one makes no memory unusable, so that the next use promotes it.
+void Hazards::access_barrier(const runtime::BarrierCommand& command) {
+  if (command.buffer == nullptr) {
+    for (Ranges* ranges : {&written_, &read_, &scratch_}) ranges->clear();
+    states_.clear();
+    return;
+  }
+  const uint64_t begin = command.buffer->address();
+  const uint64_t end = begin + command.buffer->size_bytes();
+  for (Ranges* ranges : {&written_, &read_, &scratch_}) drop(*ranges, begin, end);
+  if (command.after == ResourceStates::kCommon) {
+    states_.erase(begin);
+  } else {
+    states_[begin] = {command.after, false, label_, true};
+  }
+}
+
 void Hazards::barrier(const runtime::BarrierCommand& command) {
   if (command.texture != nullptr) return;
+  if (command.kind == runtime::BarrierCommand::Kind::kAccess) return access_barrier(command);
   if (command.buffer == nullptr) {
     if (command.kind != runtime::BarrierCommand::Kind::kUav) return;
     written_.clear();
@@ -136,11 +155,16 @@ void Hazards::use(uint64_t address, ResourceStates wanted, const std::string& wh
     state.state = state.state | wanted;
     return;
   }
-  reporter_.report(Id::kResourceState,
-                   what + " is in " + buffer_name(*allocation) + ", which is in state " +
-                       state_name(state.state) + " since " + state.by + "; it must be in state " +
-                       state_name(wanted) + ". Record ResourceBarrier::Transition from " +
-                       state_name(state.state) + " to " + state_name(wanted) + " first.");
+  const std::string has = state_name(state.state) + " since " + state.by;
+  const std::string needs = state_name(wanted);
+  reporter_.report(
+      Id::kResourceState,
+      what + " is in " + buffer_name(*allocation) +
+          (state.enhanced ? ", which is visible to " + has + "; it must be to " + needs +
+                                ". Record a BufferBarrier whose AccessAfter allows that first."
+                          : ", which is in state " + has + "; it must be in state " + needs +
+                                ". Record ResourceBarrier::Transition from " +
+                                state_name(state.state) + " to " + needs + " first."));
   state = {wanted, true, label_};
 }
 

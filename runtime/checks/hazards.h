@@ -45,10 +45,12 @@ class Hazards {
   using Ranges = std::map<uint64_t, Range>;
   struct State {
     rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;
-    bool promoted = false;  // by a use, not by a transition
+    bool promoted = false;  // by a use, not by a barrier
     std::string by;
+    bool enhanced = false;  // what an enhanced barrier made it visible to
   };
 
+  void access_barrier(const runtime::BarrierCommand& command);
   static void add(Ranges& ranges, uint64_t begin, uint64_t end, std::string what);
   // Reports the overlapping ranges, then drops them.
   void hold_against(Ranges& ranges, uint64_t begin, uint64_t end, const std::string& what);

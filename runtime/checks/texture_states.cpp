@@ -101,39 +101,47 @@ std::string TextureStates::in_state(const Tracked& texture, uint32_t subresource
          (state.by.empty() ? std::string(" since it was created") : " since " + state.by);
 }
 
+// What a barrier is for.
+Subresources TextureStates::covered(const Tracked& texture,
+                                    const runtime::BarrierCommand& command) {
+  if (command.mip_count != 0) {
+    return {command.subresource, command.mip_count, command.first_layer, command.layer_count};
+  }
+  if (command.subresource == rtapi::kResourceBarrierAllSubresources) return {};
+  return {command.subresource % texture.mips, 1, command.subresource / texture.mips, 1};
+}
+
 void TextureStates::barrier(const runtime::BarrierCommand& command, const std::string& label) {
-  if (command.texture == nullptr) return;
-  if (command.kind != runtime::BarrierCommand::Kind::kTransition) return;
+  if (command.texture == nullptr || command.kind == runtime::BarrierCommand::Kind::kUav) return;
+  const bool enhanced = command.kind == runtime::BarrierCommand::Kind::kAccess;
   const std::lock_guard lock(mutex_);
   const auto it = textures_.find(command.texture.get());
   if (it == textures_.end()) return;
   Tracked& texture = it->second;
-  const uint32_t count = texture.mips * texture.layers;
-  const bool all = command.subresource == rtapi::kResourceBarrierAllSubresources || count == 1;
-  if (!all && command.subresource >= count) return;
-  if (!all && texture.states.size() == 1) {
-    texture.states.resize(count, State(texture.states[0]));
+  const std::vector<uint32_t> indices = split(texture, covered(texture, command));
+  bool told = command.any_before;
+  for (const uint32_t index : indices) {
+    State& state = texture.states[index];
+    const bool fits = state.promoted || state.state == command.before ||
+                      (state.may_be_read && is_read(command.before));
+    // The others are probably wrong in the same way.
+    if (!fits && !std::exchange(told, true)) {
+      reporter_.report(Id::kTransitionBefore,
+                       std::string(enhanced ? "LayoutBefore, which is " : "StateBefore ") +
+                           state_name(command.before) + (enhanced ? ", " : " ") + "is given for " +
+                           in_state(texture, index) + ". Pass the " +
+                           (enhanced ? "layout" : "state") + " that it is in.");
+    }
+    state = {command.after, false, label, false, enhanced};
   }
-  const uint32_t first = all ? 0 : command.subresource;
-  const auto end = all ? static_cast<uint32_t>(texture.states.size()) : first + 1;
-  for (uint32_t i = first; i < end; ++i) {
-    const State& state = texture.states[i];
-    if (state.promoted || state.state == command.before) continue;
-    if (state.may_be_read && is_read(command.before)) continue;
-    reporter_.report(Id::kTransitionBefore, "StateBefore " + state_name(command.before) +
-                                                " is given for " + in_state(texture, i) +
-                                                ". Pass the state that it is in.");
-    break;  // the others are probably wrong in the same way
-  }
-  const State after = {command.after, false, label};
-  if (all) {
-    texture.states = {after};
-  } else {
-    texture.states[first] = after;
-  }
+  if (indices.size() == texture.states.size()) texture.states.resize(1);
 }
 
 std::string TextureStates::demand(const State& state, ResourceStates wanted) {
+  if (state.enhanced) {
+    return "; it must be in " + state_name(wanted) +
+           ". Record a TextureBarrier whose LayoutAfter allows that first.";
+  }
   return "; it must be in state " + state_name(wanted) +
          ". Record ResourceBarrier::Transition from " + state_name(state.state) + " to " +
          state_name(wanted) + " first.";

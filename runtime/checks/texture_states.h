@@ -69,6 +69,7 @@ class TextureStates {
     bool promoted = false;     // by a use, not by a transition
     std::string by;            // empty: since its creation
     bool may_be_read = false;  // a dispatch could have promoted it from the common state
+    bool enhanced = false;     // a layout that an enhanced barrier gave it
   };
   struct Tracked {
     std::weak_ptr<runtime::BackendTexture> texture;
@@ -85,6 +86,7 @@ class TextureStates {
   };
 
   static std::vector<uint32_t> split(Tracked& texture, const Subresources& some);
+  static Subresources covered(const Tracked& texture, const runtime::BarrierCommand& command);
   static bool allows(State& state, rtapi::ResourceStates wanted, const std::string& label);
   static std::string name(const Tracked& texture);
   static std::string in_state(const Tracked& texture, uint32_t subresource);

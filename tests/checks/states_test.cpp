@@ -293,6 +293,69 @@ TEST_P(Textures, SubresourcesHaveStatesOfTheirOwn) {
                         "kNonPixelShaderResource since ResourceBarrier, command 0"});
 }
 
+// --- enhanced barriers ---
+
+GlobalBarrier scopes(BarrierAccess before, BarrierAccess after) {
+  return {BarrierSync::kAll, BarrierSync::kAll, before, after};
+}
+
+TEST_P(Textures, LayoutsOfEnhancedBarriers) {
+  create(kUav, 2);
+  const auto change = [&](CommandList& commands, BarrierLayout before, BarrierLayout after,
+                          BarrierSubresourceRange range = {}) {
+    commands.Barrier(TextureBarrier{scopes(BarrierAccess::kCommon, BarrierAccess::kCommon), before,
+                                    after, texture_, range});
+  };
+  CommandList right = list();
+  record(right, paint_);
+  change(right, BarrierLayout::kUnorderedAccess, BarrierLayout::kShaderResource, {1, 1, 0, 1});
+  record(right, paint_);
+  record(right, look_);
+  change(right, BarrierLayout::kUndefined, BarrierLayout::kDirectQueueCommon);
+  record(right, look_);
+  record(right, paint_);
+  run(right);
+  expect_none();
+  CommandList wrong = list();
+  change(wrong, BarrierLayout::kUnorderedAccess, BarrierLayout::kShaderResource);
+  run(wrong);
+  expect_one("KA0452", {"LayoutBefore, which is kUnorderedAccess, is given for texture \"wall\"",
+                        "Pass the layout that it is in."});
+  CommandList other = list();
+  record(other, paint_);
+  run(other);
+  expect_one("KA0451", {"it must be in kUnorderedAccess. Record a TextureBarrier whose LayoutAfter "
+                        "allows that first."});
+}
+
+TEST_P(Indirect, AccessesOfEnhancedBarriers) {
+  const auto write_and = [&](BarrierAccess after, bool global = false) {
+    CommandList commands = list();
+    commands.CopyBufferRegion(arguments_, 0, upload(std::vector{set_.desc}, "new arguments"), 0,
+                              sizeof(DispatchRaysDesc));
+    const GlobalBarrier barrier = scopes(BarrierAccess::kCopyDest, after);
+    if (global) {
+      commands.Barrier(barrier);
+    } else {
+      commands.Barrier(BufferBarrier{barrier, arguments_});
+    }
+    commands.SetComputeRootSignature(global_);
+    commands.SetComputeRootShaderResourceView(0, top_.GetGPUVirtualAddress());
+    commands.SetComputeRootUnorderedAccessView(1, results_.GetGPUVirtualAddress());
+    commands.SetPipelineState1(pipeline_);
+    commands.ExecuteIndirect(signature_, 1, arguments_, 0);
+    ASSERT_TRUE(execute(commands).ok());
+  };
+  write_and(BarrierAccess::kIndirectArgument);
+  write_and(BarrierAccess::kCommon);
+  write_and(BarrierAccess::kIndirectArgument, true);
+  expect_none();
+  write_and(BarrierAccess::kCopySource);
+  expect_one("KA0451", {"buffer \"arguments\", which is visible to kCopySource since Barrier, "
+                        "command 1; it must be to kIndirectArgument. Record a BufferBarrier whose "
+                        "AccessAfter allows that first."});
+}
+
 INSTANTIATE_TEST_SUITE_P(Embree, Textures, ::testing::Values("embree"));
 INSTANTIATE_TEST_SUITE_P(Vulkan, Textures, ::testing::Values("vulkan"));
 

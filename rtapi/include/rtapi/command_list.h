@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <rtapi/barrier.h>
 #include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
 #include <rtapi/graphics_pipeline.h>
@@ -108,6 +109,23 @@ class CommandList {
   void ResourceBarrier(std::initializer_list<rtapi::ResourceBarrier> barriers) {
     ResourceBarrier(std::span<const rtapi::ResourceBarrier>(barriers.begin(), barriers.size()));
   }
+
+  /// Enhanced barriers, which say apart what is done first, what waits, and which accesses memory
+  /// must be visible to; those of textures change layouts. Each barrier of the span is taken or
+  /// refused by itself. The first half of a split barrier does nothing. Checked mode reports uses
+  /// that no barrier allows, and layouts that are not there (KA0450-0452).
+  /// [D3D12: ID3D12GraphicsCommandList7::Barrier]
+  /// @errors KA0800; KA0858 bits or layouts that are not defined or do not go together, an access
+  /// that the resource does not allow, a range that is not there; KA0903 a resource of another
+  /// device; KA0904 an empty resource.
+  ///@{
+  void Barrier(std::span<const GlobalBarrier> barriers);
+  void Barrier(std::span<const BufferBarrier> barriers);
+  void Barrier(std::span<const TextureBarrier> barriers);
+  void Barrier(const GlobalBarrier& barrier) { Barrier(std::span(&barrier, 1)); }
+  void Barrier(const BufferBarrier& barrier) { Barrier(std::span(&barrier, 1)); }
+  void Barrier(const TextureBarrier& barrier) { Barrier(std::span(&barrier, 1)); }
+  ///@}
 
   /// Sets the heaps that descriptor tables and HLSL's descriptor heaps read: at most one of each
   /// type, shader-visible. Replaces both; a type that is not given has none afterwards.
