@@ -8,6 +8,8 @@
 #include <cstring>
 #include <map>
 #include <string>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "runtime/backend/errors.h"
@@ -346,23 +348,75 @@ RaytracingGeometryDesc desc_of(const runtime::ClusteredGeometry& geometry) {
   return desc;
 }
 
-void append(runtime::ClusteredGeometry& to, const runtime::ClusteredGeometry& from) {
-  const auto first = static_cast<uint32_t>(to.xyz.size() / 3);
-  to.xyz.insert(to.xyz.end(), from.xyz.begin(), from.xyz.end());
-  for (const uint32_t index : from.indices) to.indices.push_back(first + index);
-  const auto add = [](std::vector<uint32_t>& list, const std::vector<uint32_t>& more) {
-    list.insert(list.end(), more.begin(), more.end());
-  };
-  add(to.primitive_index, from.primitive_index);
-  add(to.cluster_id, from.cluster_id);
+// A part of clusters while its triangles are collected. In the order of the driver's numbers.
+using PartGeometries = std::vector<runtime::ClusteredGeometry>;
+
+// What the triangles of a part have in common. Those with the same linkage that have the same
+// geometry index and PrimitiveIndex are in as many layers.
+struct PartKey {
+  uint32_t flags = 0;
+  const runtime::MicromapLinkage* linkage = nullptr;
+  uint32_t layer = 0;
+  auto operator<=>(const PartKey&) const = default;
+};
+struct Part {
+  PartGeometries geometries;
+  std::shared_ptr<const runtime::MicromapLinkage> linked_by;
+};
+
+// Vertices that triangles share within a cluster are the part's, too, where `vertices` maps them.
+void append_triangle(runtime::ClusteredGeometry& to, const runtime::ClusteredGeometry& from,
+                     uint32_t triangle, std::unordered_map<uint32_t, uint32_t>& vertices) {
+  for (uint32_t corner = 0; corner < 3; ++corner) {
+    const uint32_t index = from.indices[3 * size_t{triangle} + corner];
+    const auto [at, is_new] = vertices.try_emplace(index, static_cast<uint32_t>(to.xyz.size() / 3));
+    if (is_new) {
+      const float* xyz = &from.xyz[3 * size_t{index}];
+      to.xyz.insert(to.xyz.end(), xyz, xyz + 3);
+    }
+    to.indices.push_back(at->second);
+  }
+  const uint32_t number = from.primitive_index[triangle];
+  to.primitive_index.push_back(number);
+  to.cluster_id.push_back(from.cluster_id[triangle]);
+  if (from.linkage == nullptr) return;
+  if (to.linkage == nullptr) to.linkage = std::make_shared<runtime::MicromapLinkage>();
+  auto& indices = to.linkage->indices;  // by PrimitiveIndex
+  if (indices.size() <= number) {
+    indices.resize(size_t{number} + 1, static_cast<int32_t>(runtime::SpecialIndex::kClusterSkip));
+  }
+  indices[number] = from.linkage->indices[triangle];
+}
+
+std::map<PartKey, Part> parts_of(std::span<const runtime::ClusteredGeometry> geometries) {
+  std::map<PartKey, Part> parts;
+  std::map<std::tuple<const runtime::MicromapLinkage*, uint32_t, uint32_t>, uint32_t> layers;
+  for (const runtime::ClusteredGeometry& geometry : geometries) {
+    std::map<Part*, std::unordered_map<uint32_t, uint32_t>> vertices;
+    for (uint32_t i = 0; i < geometry.triangles(); ++i) {
+      PartKey key = {static_cast<uint32_t>(geometry.flags), geometry.linkage.get(), 0};
+      if (key.linkage != nullptr) {
+        key.layer = layers[{key.linkage, geometry.geometry_index, geometry.primitive_index[i]}]++;
+      }
+      Part& part = parts[key];
+      part.linked_by = geometry.linkage;
+      PartGeometries& in = part.geometries;
+      for (auto g = static_cast<uint32_t>(in.size()); g <= geometry.geometry_index; ++g) {
+        in.emplace_back().geometry_index = g;
+      }
+      in[geometry.geometry_index].flags = geometry.flags;
+      append_triangle(in[geometry.geometry_index], geometry, i, vertices[&part]);
+    }
+  }
+  return parts;
 }
 
 }  // namespace
 
 // `geometries` are in the order of the driver's numbers.
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build_part(
-    const std::shared_ptr<Gpu>& gpu, std::span<const runtime::ClusteredGeometry> geometries,
-    runtime::BuildFlags flags) {
+    const std::shared_ptr<Gpu>& gpu, std::vector<runtime::ClusteredGeometry> geometries,
+    std::shared_ptr<const runtime::MicromapLinkage> linked_by, runtime::BuildFlags flags) {
   std::shared_ptr<BottomLevel> part(new BottomLevel);
   part->flags_ = flags;
   std::vector<RaytracingGeometryDesc> descs;
@@ -374,36 +428,41 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build_part(
     for (uint32_t i = 0; i < geometry.triangles(); ++i) {
       of_geometry.push_back({geometry.primitive_index[i], geometry.cluster_id[i]});
     }
+    if (linked_by == nullptr) continue;
+    part->linkages_.push_back(geometry.linkage);
+    part->linked_by_.push_back(linked_by);
   }
   if (auto s = BottomLevelBuilder(gpu, descs, nullptr, *part, numbers).run(); !s) return s.error();
   return part;
 }
 
+std::shared_ptr<const runtime::MicromapArray> BottomLevel::micromap_array(size_t geometry) const {
+  if (linkage(geometry) == nullptr) return nullptr;
+  return linked_by_.empty() ? linkage(geometry)->array : linked_by_[geometry]->array;
+}
+
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build_clustered(
     const std::shared_ptr<Gpu>& gpu, std::vector<runtime::ClusteredGeometry> geometries,
     runtime::BuildFlags flags) {
-  std::map<uint32_t, std::vector<runtime::ClusteredGeometry>> parts;  // by flags
   for (const runtime::ClusteredGeometry& geometry : geometries) {
-    if (geometry.geometry_index > kMaxGeometryIndex || geometry.linkage != nullptr) {
-      return runtime::make_error(
-          runtime::Id::kTooManyElements,
-          geometry.linkage != nullptr
-              ? "clusters with opacity micromaps; on Vulkan they have none."
-              : "a cluster has geometry index " + std::to_string(geometry.geometry_index) +
-                    "; on Vulkan it must be at most " + std::to_string(kMaxGeometryIndex) + ".");
-    }
-    if (geometry.triangles() == 0) continue;
-    auto& part = parts[static_cast<uint32_t>(geometry.flags)];
-    for (auto g = static_cast<uint32_t>(part.size()); g <= geometry.geometry_index; ++g) {
-      part.emplace_back().geometry_index = g;
-    }
-    part[geometry.geometry_index].flags = geometry.flags;
-    append(part[geometry.geometry_index], geometry);
+    if (geometry.geometry_index <= kMaxGeometryIndex) continue;
+    return runtime::make_error(
+        runtime::Id::kTooManyElements,
+        "a cluster has geometry index " + std::to_string(geometry.geometry_index) +
+            "; on Vulkan it must be at most " + std::to_string(kMaxGeometryIndex) + ".");
+  }
+  auto parts = parts_of(geometries);
+  if (parts.size() > kMaxParts) {
+    return runtime::make_error(runtime::Id::kTooManyElements,
+                               "a bottom level of clusters with opacity micromaps, " +
+                                   std::to_string(parts.size()) +
+                                   " of which have the same geometry index; on Vulkan at most " +
+                                   std::to_string(kMaxParts) + " may.");
   }
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags & ~runtime::BuildFlags::kAllowUpdate;
-  for (const auto& [part_flags, part] : parts) {
-    auto built = build_part(gpu, part, level->flags_);
+  for (auto& [key, part] : parts) {
+    auto built = build_part(gpu, std::move(part.geometries), part.linked_by, level->flags_);
     if (!built) return built.error();
     if ((*built)->empty()) continue;
     level->held_bytes_ += (*built)->held_bytes();
@@ -427,6 +486,7 @@ void BottomLevel::keep_clusters(std::vector<runtime::ClusteredGeometry> geometri
   clusters_.set(geometries);
   for (runtime::ClusteredGeometry& geometry : geometries) {
     shapes_.push_back(runtime::shape_of(geometry));
+    linkages_.push_back(geometry.linkage);
     inputs_.push_back({std::move(geometry.xyz), std::move(geometry.indices), {}});
   }
   positions_ = runtime::positions_of(*this, flags_);

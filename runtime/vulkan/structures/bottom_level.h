@@ -39,12 +39,15 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
   // EXPERIMENTAL: from clusters. A driver's number of a geometry decides its hit record, and the
   // geometry's flags are those of all of its triangles. So each combination of flags makes a part,
-  // in which the driver's numbers are the application's, with empty geometries in between. Errors:
-  // as above, and KA0794 also a geometry index beyond kMaxGeometryIndex, or opacity micromaps.
+  // in which the driver's numbers are the application's, with empty geometries in between. Shaders
+  // find micromaps by PrimitiveIndex, so triangles with micromaps and equal numbers make parts,
+  // too. Errors: as above, and KA0794 also a geometry index beyond kMaxGeometryIndex, or more than
+  // kMaxParts parts.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build_clustered(
       const std::shared_ptr<Gpu>& gpu, std::vector<runtime::ClusteredGeometry> geometries,
       runtime::BuildFlags flags);
   static constexpr uint32_t kMaxGeometryIndex = 0xFFFF;
+  static constexpr uint32_t kMaxParts = 256;
   bool clustered() const { return !clusters_.empty(); }
   // What instances of a level of clusters are instances of.
   std::span<const std::shared_ptr<BottomLevel>> parts() const { return parts_; }
@@ -65,6 +68,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   const runtime::MicromapLinkage* linkage(size_t geometry) const {
     return linkages_.empty() ? nullptr : linkages_[geometry].get();
   }
+  // The array of a geometry's micromaps; null as long as there is none.
+  std::shared_ptr<const runtime::MicromapArray> micromap_array(size_t geometry) const;
   // spirv::GeometryMicromaps::indices
   uint64_t micromap_indices(size_t geometry) const;
 
@@ -82,8 +87,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   friend class BottomLevelBuilder;
   BottomLevel() = default;
   static rtapi::Result<std::shared_ptr<BottomLevel>> build_part(
-      const std::shared_ptr<Gpu>& gpu, std::span<const runtime::ClusteredGeometry> geometries,
-      runtime::BuildFlags flags);
+      const std::shared_ptr<Gpu>& gpu, std::vector<runtime::ClusteredGeometry> geometries,
+      std::shared_ptr<const runtime::MicromapLinkage> linked_by, runtime::BuildFlags flags);
   void keep_clusters(std::vector<runtime::ClusteredGeometry> geometries);
 
   std::unique_ptr<VulkanStructure> structure_;
@@ -107,6 +112,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   std::vector<Inputs> inputs_;                                             // one per geometry
   std::vector<std::shared_ptr<const runtime::MicromapLinkage>> linkages_;  // likewise, or empty
   std::unique_ptr<GpuBuffer> micromap_indices_;  // of all linked geometries; null: there are none
+  // Parts: by geometry, the linkage that learns of the array.
+  std::vector<std::shared_ptr<const runtime::MicromapLinkage>> linked_by_;
   // Only in a level of clusters:
   std::vector<std::shared_ptr<BottomLevel>> parts_;
   runtime::ClusterTriangles clusters_;

@@ -191,9 +191,8 @@ rtapi::Status TopLevel::link_micromaps(MicromapBuffers& buffers) const {
   for (const auto& base : bottom_levels_) {
     const auto& level = static_cast<const BottomLevel&>(*base);
     for (size_t g = 0; g < level.shapes().size(); ++g, ++out) {
-      const runtime::MicromapLinkage* linkage = level.linkage(g);
-      if (linkage == nullptr || out->array != 0) continue;
-      auto address = buffers.address_of(linkage->array);
+      if (level.linkage(g) == nullptr || out->array != 0) continue;
+      auto address = buffers.address_of(level.micromap_array(g));
       if (!address) return address.error();
       out->array = *address;
     }
