@@ -67,6 +67,23 @@ rtapi::Status measured(Device& device, AccelerationStructure& result, Build&& bu
   return status;
 }
 
+// The level of the last operation is changed in place: no other structure has it, and no ray runs.
+rtapi::Status build_partitioned_level(Device& device,
+                                      const runtime::PartitionedInstances& instances,
+                                      AccelerationStructure& result) {
+  if (result.top_level != nullptr) {
+    const auto level = std::const_pointer_cast<TopLevel>(
+        std::static_pointer_cast<const TopLevel>(result.top_level));
+    auto updated = level->update(instances);
+    if (!updated) return updated.error();
+    if (*updated) return {};
+  }
+  auto level = TopLevel::build_partitioned(device.build_context(), instances);
+  if (!level) return level.error();
+  result.top_level = *level;
+  return {};
+}
+
 runtime::RebuildLevel rebuild_level(Device& device) {
   runtime::RebuildLevel rebuild;
   rebuild.bottom_level = [&device](std::span<const rtapi::RaytracingGeometryDesc> geometries,
@@ -88,6 +105,13 @@ runtime::RebuildLevel rebuild_level(Device& device) {
       result.top_level = *level;
       return {};
     });
+  };
+  rebuild.partitioned_level = [&device](const runtime::PartitionedInstances& instances,
+                                        AccelerationStructure& result) {
+    rtapi::Status status;
+    run_in_arena(device.arena(),
+                 [&] { status = build_partitioned_level(device, instances, result); });
+    return status;
   };
   rebuild.clustered_level = [&device](std::vector<runtime::ClusteredGeometry> geometries,
                                       AccelerationStructure& result) {

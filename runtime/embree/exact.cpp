@@ -38,6 +38,14 @@ ExactFrame ExactFrame::of(const double lower[3], const double upper[3]) {
   return frame;
 }
 
+bool ExactFrame::holds(const double lower[3], const double upper[3]) const {
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) {
+    inside &= lower[i] >= center[i] - radius && upper[i] <= center[i] + radius;
+  }
+  return inside;
+}
+
 RTCBounds ExactFrame::padded(const double lower[3], const double upper[3]) const {
   float low[3];
   float high[3];

@@ -27,6 +27,7 @@ struct ExactFrame {
   double pad() const { return radius * 0x1p-17; }
   // `lower` and `upper` have 3 doubles each. Inverted infinite bounds mean that nothing is inside.
   static ExactFrame of(const double lower[3], const double upper[3]);
+  bool holds(const double lower[3], const double upper[3]) const;
   // A box in Embree's coordinates, padded.
   RTCBounds padded(const double lower[3], const double upper[3]) const;
 };
@@ -111,5 +112,7 @@ void intersect_exact_pack(const RTCIntersectFunctionNArguments* arguments);
 void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments);
 void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments);
 void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments);
+void intersect_exact_member(const RTCIntersectFunctionNArguments* arguments);
+void occlude_exact_member(const RTCOccludedFunctionNArguments* arguments);
 
 }  // namespace kaamos::embree

@@ -303,6 +303,14 @@ void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments) {
   TreeInstances::occlude(arguments);
 }
 
+void intersect_exact_member(const RTCIntersectFunctionNArguments* arguments) {
+  TreeInstances::intersect_member(arguments);
+}
+
+void occlude_exact_member(const RTCOccludedFunctionNArguments* arguments) {
+  TreeInstances::occlude_member(arguments);
+}
+
 void intersect_exactly(RayState& state, RTCRayHit& ray_hit) {
   ListedInstances::intersect(state, ray_hit);
 }

@@ -50,7 +50,18 @@ struct InstanceLevel {
     visit_entered(boxes, entry, ray, [&](uint32_t index) { occlude_one(state, index, ray); });
   }
 
-  // For one that is an Embree scene.
+  // For one that is an Embree scene of PartitionGroups.
+  static void intersect_member(const RTCIntersectFunctionNArguments* arguments) {
+    const bool hit = intersect_one(ray_state_of(arguments->context), member_of(arguments),
+                                   *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
+    shim::set_hit(arguments, hit);
+  }
+  static void occlude_member(const RTCOccludedFunctionNArguments* arguments) {
+    const bool hit = occlude_one(ray_state_of(arguments->context), member_of(arguments),
+                                 *reinterpret_cast<RTCRay*>(arguments->ray));
+    shim::set_hit(arguments, hit);
+  }
+  // For one that is an Embree scene of one geometry.
   static void intersect(const RTCIntersectFunctionNArguments* arguments) {
     const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
                                    *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
@@ -63,6 +74,10 @@ struct InstanceLevel {
   }
 
  private:
+  template <typename Arguments>
+  static uint32_t member_of(const Arguments* arguments) {
+    return static_cast<const uint32_t*>(arguments->geometryUserPtr)[arguments->primID];
+  }
   // 0: the instance is not visited.
   static uint32_t seen_classes(const RayState& state, uint32_t index) {
     const InstanceNode& node = state.top_level->nodes()[index];

@@ -39,17 +39,23 @@ OpacityOverride opacity_of(uint32_t flags) {
 
 }  // namespace
 
+RTCBounds bounds_of(const runtime::Instance& instance) {
+  if (instance.bottom_level == nullptr) return kNoBounds;
+  const runtime::Bounds& b = instance.bounds;
+  return {b.lower[0], b.lower[1], b.lower[2], 0, b.upper[0], b.upper[1], b.upper[2], 0};
+}
+
 TopLevel::~TopLevel() {
   if (scene_ != nullptr) rtcReleaseScene(scene_);
 }
 
-void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds) {
+void TopLevel::set_instance(uint32_t index, const runtime::Instance& instance) {
   const rtapi::RaytracingInstanceDesc& desc = instance.desc;
-  InstanceNode& node = nodes_.emplace_back();
-  WorldToObject& transform = world_to_object_.emplace_back();
+  InstanceNode& node = nodes_[index];
+  WorldToObject& transform = world_to_object_[index];
   float* world_to_object = transform.rows;
-  RTCBounds& box = bounds.emplace_back(kNoBounds);
   node = {};
+  transform = {};
   std::memcpy(node.object_to_world, desc.Transform, sizeof(node.object_to_world));
   node.flags = desc.Flags & kFacingInstanceFlags;
   node.micromap_flags = (desc.Flags >> kMicromapInstanceFlagsShift) & 3;
@@ -57,8 +63,6 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   node.contribution = desc.InstanceContributionToHitGroupIndex;
   transform.instance_id = instance.id;
   if (instance.bottom_level == nullptr) return;
-  const runtime::Bounds& b = instance.bounds;
-  box = {b.lower[0], b.lower[1], b.lower[2], 0, b.upper[0], b.upper[1], b.upper[2], 0};
   std::memcpy(world_to_object, instance.world_to_object, sizeof(transform.rows));
   transform.positions =
       shader::table_of(static_cast<const BottomLevel&>(*instance.bottom_level).positions());
@@ -77,48 +81,62 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   has_exact_ |= node.exact;
   has_robust_ |=
       !node.exact && !node.procedural && context_.exact == BuildContext::Exact::kNonOpaque;
-  bottom_levels_.push_back(instance.bottom_level);
+  ++active_;
+}
+
+void TopLevel::set_exact_instance(uint32_t index, const runtime::Instance& instance) {
+  if (!nodes_[index].exact) return;
+  invert_in_double(&instance.desc.Transform[0][0], exact_instances_[index].world_to_object);
+  exact_instances_[index].frame = &traced_level(instance).exact_frame();
 }
 
 void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances) {
   exact_instances_.resize(instances.size());
-  for (size_t i = 0; i < instances.size(); ++i) {
-    if (!nodes_[i].exact) continue;
-    invert_in_double(&instances[i].desc.Transform[0][0], exact_instances_[i].world_to_object);
-    exact_instances_[i].frame = &traced_level(instances[i]).exact_frame();
-  }
+  for (uint32_t i = 0; i < instances.size(); ++i) set_exact_instance(i, instances[i]);
 }
 
-// Makes bounds relative to a frame around all of them. Those of exact instances are computed anew,
-// in double; the others are traced in float, and widened for it.
+// Those of exact instances are computed in double; the others are traced in float, and widened for
+// it.
+TopLevel::Box TopLevel::box_in_frame(const runtime::Instance& instance,
+                                     const InstanceNode& node) const {
+  Box box = {};
+  const runtime::Bounds object =
+      static_cast<const BottomLevel&>(*instance.bottom_level).object_bounds();
+  const float* matrix = &instance.desc.Transform[0][0];
+  for (int row = 0; row < 3; ++row) {
+    double low = matrix[4 * row + 3];
+    double high = low;
+    for (int column = 0; column < 3; ++column) {
+      const double a = static_cast<double>(matrix[4 * row + column]) * object.lower[column];
+      const double b = static_cast<double>(matrix[4 * row + column]) * object.upper[column];
+      low += std::min(a, b);
+      high += std::max(a, b);
+    }
+    box.lower[row] = node.exact ? low : instance.bounds.lower[row];
+    box.upper[row] = node.exact ? high : instance.bounds.upper[row];
+  }
+  return box;
+}
+
+// Makes bounds relative to a frame around all of them, which is larger by `slack` of their size on
+// each side.
 void TopLevel::move_to_frame(std::span<const runtime::Instance> instances,
-                             std::vector<RTCBounds>& bounds) {
-  struct Box {
-    double lower[3];
-    double upper[3];
-  };
+                             std::vector<RTCBounds>& bounds, double slack) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Box all = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   std::vector<Box> boxes(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level == nullptr) continue;
-    const runtime::Bounds object =
-        static_cast<const BottomLevel&>(*instances[i].bottom_level).object_bounds();
-    const float* matrix = &instances[i].desc.Transform[0][0];
+    boxes[i] = box_in_frame(instances[i], nodes_[i]);
     for (int row = 0; row < 3; ++row) {
-      double low = matrix[4 * row + 3];
-      double high = low;
-      for (int column = 0; column < 3; ++column) {
-        const double a = static_cast<double>(matrix[4 * row + column]) * object.lower[column];
-        const double b = static_cast<double>(matrix[4 * row + column]) * object.upper[column];
-        low += std::min(a, b);
-        high += std::max(a, b);
-      }
-      boxes[i].lower[row] = nodes_[i].exact ? low : instances[i].bounds.lower[row];
-      boxes[i].upper[row] = nodes_[i].exact ? high : instances[i].bounds.upper[row];
       all.lower[row] = std::min(all.lower[row], boxes[i].lower[row]);
       all.upper[row] = std::max(all.upper[row], boxes[i].upper[row]);
     }
+  }
+  for (int row = 0; slack != 0 && row < 3; ++row) {
+    const double room = slack * (all.upper[row] - all.lower[row]);
+    all.lower[row] -= room;
+    all.upper[row] += room;
   }
   frame_ = ExactFrame::of(all.lower, all.upper);
   for (size_t i = 0; i < instances.size(); ++i) {
@@ -152,6 +170,7 @@ void TopLevel::add_twins(std::span<const runtime::Instance> instances, bool all_
 std::vector<runtime::Instance> TopLevel::instances() const {
   std::unordered_map<RTCScene, std::shared_ptr<runtime::BottomLevelBase>> by_scene;
   for (const auto& kept : bottom_levels_) {
+    if (kept == nullptr) continue;
     const auto level = std::const_pointer_cast<runtime::BottomLevelBase>(kept);
     by_scene[static_cast<const BottomLevel&>(*level).scene()] = level;
     const auto twin = twins_.find(level.get());
@@ -204,18 +223,19 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   std::shared_ptr<TopLevel> level(new TopLevel);
   level->context_ = context;
   level->add_twins(instances, all_non_opaque);
-  level->nodes_.reserve(instances.size());
-  level->world_to_object_.reserve(instances.size());
+  level->nodes_.resize(instances.size());
+  level->world_to_object_.resize(instances.size());
   std::vector<RTCBounds> bounds;
   bounds.reserve(instances.size());
-  for (const auto& instance : instances) {
-    level->add_instance(instance, bounds);
-  }
   auto& kept = level->bottom_levels_;
-  const bool any_active = !kept.empty();
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    level->set_instance(i, instances[i]);
+    bounds.push_back(bounds_of(instances[i]));
+    if (instances[i].bottom_level != nullptr) kept.push_back(instances[i].bottom_level);
+  }
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  if (!any_active) return level;
+  if (level->empty()) return level;
   level->pack_filter_ = context.pack_filter;
   const bool exact = level->has_exact_;
   if (exact) level->add_exact_instances(instances);
@@ -223,7 +243,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     level->boxes_.set(bounds);
     return level;
   }
-  if (exact) level->move_to_frame(instances, bounds);
+  if (exact) level->move_to_frame(instances, bounds, 0);
 
   rtcGetDeviceError(context.device);  // clears an earlier build's error
   level->scene_ = rtcNewScene(context.device);

@@ -21,9 +21,14 @@
 #include "runtime/embree/bottom_level.h"
 #include "runtime/embree/instance_boxes.h"
 #include "runtime/embree/instance_node.h"
+#include "runtime/embree/partition_groups.h"
 #include "runtime/structures/instances.h"
+#include "runtime/structures/structure_copies.h"
 
 namespace kaamos::embree {
+
+// The world bounds of an instance; inverted if it cannot be hit.
+RTCBounds bounds_of(const runtime::Instance& instance);
 
 // What only shaders need from an instance.
 using WorldToObject = shader::InstanceTransform;
@@ -33,12 +38,18 @@ class TopLevel final : public runtime::TopLevelBase {
   // `instances` are in input order: the index is InstanceIndex. Errors: KA0792 out of memory.
   static rtapi::Result<std::shared_ptr<TopLevel>> build(
       const BuildContext& context, std::span<const runtime::Instance> instances);
+  // EXPERIMENTAL: the same of partitions, so that update() can follow.
+  static rtapi::Result<std::shared_ptr<TopLevel>> build_partitioned(
+      const BuildContext& context, const runtime::PartitionedInstances& partitioned);
+  // Takes over the changed instances, in time that depends on them and their partitions. False: a
+  // new level has to be built. Errors as above.
+  rtapi::Result<bool> update(const runtime::PartitionedInstances& partitioned);
   ~TopLevel() override;
   TopLevel(const TopLevel&) = delete;
   TopLevel& operator=(const TopLevel&) = delete;
 
   // True if nothing can be hit. Otherwise there is either a list of boxes or a scene.
-  bool empty() const { return bottom_levels_.empty(); }
+  bool empty() const { return active_ == 0; }
   const InstanceBoxes& boxes() const { return boxes_; }
   RTCScene scene() const { return scene_; }
   bool has_procedurals() const { return has_procedurals_; }
@@ -77,14 +88,23 @@ class TopLevel final : public runtime::TopLevelBase {
   const BottomLevel& traced_level(const runtime::Instance& instance) const;
   void add_twins(std::span<const runtime::Instance> instances, bool all_non_opaque);
   void add_exact_instances(std::span<const runtime::Instance> instances);
-  void move_to_frame(std::span<const runtime::Instance> instances, std::vector<RTCBounds>& bounds);
-  void add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds);
+  struct Box {
+    double lower[3];
+    double upper[3];
+  };
+  Box box_in_frame(const runtime::Instance& instance, const InstanceNode& node) const;
+  void move_to_frame(std::span<const runtime::Instance> instances, std::vector<RTCBounds>& bounds,
+                     double slack);
+  void set_instance(uint32_t index, const runtime::Instance& instance);
+  void set_exact_instance(uint32_t index, const runtime::Instance& instance);
+  rtapi::Status commit_groups();
 
   RTCScene scene_ = nullptr;
   InstanceBoxes boxes_;
   bool has_procedurals_ = false;
   bool has_exact_ = false;
   bool has_robust_ = false;  // bottom levels that could be exact, and are not
+  uint32_t active_ = 0;      // instances that can be hit
   BuildContext context_;
   ExactFrame frame_;
   PackFilter pack_filter_ = nullptr;
@@ -92,7 +112,8 @@ class TopLevel final : public runtime::TopLevelBase {
   std::vector<InstanceNode> nodes_;
   std::vector<WorldToObject> world_to_object_;
   std::vector<std::shared_ptr<const runtime::BottomLevelBase>>
-      bottom_levels_;  // kept alive; each appears once
+      bottom_levels_;       // kept alive; each appears once, but of partitions: by instance
+  PartitionGroups groups_;  // only of partitions, and then scene_ is theirs
   // Exact ones that take the place of others.
   std::map<const runtime::BottomLevelBase*, std::shared_ptr<const BottomLevel>> twins_;
 
@@ -116,5 +137,7 @@ void occlude(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane);
 // Callbacks for the traversal of a scene.
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments);
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments);
+void intersect_member(const RTCIntersectFunctionNArguments* arguments);
+void occlude_member(const RTCOccludedFunctionNArguments* arguments);
 
 }  // namespace kaamos::embree

@@ -58,6 +58,14 @@ void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
   Instances::occlude(arguments);
 }
 
+void intersect_member(const RTCIntersectFunctionNArguments* arguments) {
+  Instances::intersect_member(arguments);
+}
+
+void occlude_member(const RTCOccludedFunctionNArguments* arguments) {
+  Instances::occlude_member(arguments);
+}
+
 void intersect(RayState& state, RTCRayHit& ray_hit) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::intersect(top_level.scene(), state.query, &ray_hit);

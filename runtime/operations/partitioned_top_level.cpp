@@ -82,7 +82,12 @@ class Builder {
   void check_write(uint32_t index, WriteArgs& args);
   void check_explicit_box(uint32_t index);
   void disable_removed_members();
-  void count_members();
+  uint32_t place_of(uint32_t partition) const {
+    return partition == kGlobal ? inputs_.PartitionCount : partition;
+  }
+  void count(const PartitionedInstance& slot, uint32_t change);
+  void check_members();
+  rtapi::Status build_level(const RebuildLevel& build, AccelerationStructure& result) const;
   void activate_changed();
   void activate(uint32_t index);
   const Translation& translation_of(uint32_t partition) const;
@@ -103,6 +108,7 @@ class Builder {
   std::vector<uint8_t> is_changed_;  // by instance
   std::vector<uint8_t> is_written_;  // by instance: by WRITE_INSTANCE of this operation
   std::vector<uint8_t> is_updated_;  // by instance: by UPDATE_INSTANCE of this operation
+  bool lost_partitions_ = false;     // there are fewer than before
 };
 
 bool Builder::start() {
@@ -142,6 +148,10 @@ void Builder::resize() {
   is_changed_.assign(count, 0);
   is_written_.assign(count, 0);
   is_updated_.assign(count, 0);
+  lost_partitions_ = inputs_.PartitionCount < level_->inputs.PartitionCount;
+  if (count != before || level_->members.size() != size_t{inputs_.PartitionCount} + 1) {
+    level_->members.clear();  // counted anew at the end
+  }
   level_->slots.resize(count);
   level_->instances.resize(count);
   for (uint32_t i = before; i < count; ++i) mark(i);
@@ -274,7 +284,9 @@ void Builder::write(const Arguments& arguments) {
       notes_.add("instance " + std::to_string(index) +
                  " is written twice by one operation; the last argument counts");
     }
+    count(level_->slots[index], ~0u);
     level_->slots[index] = {args, true};
+    count(level_->slots[index], 1);
     mark(index);
   }
 }
@@ -366,6 +378,7 @@ void Builder::translate(const Arguments& arguments) {
 
 // An instance of a partition that is no more must be written anew when the partition goes.
 void Builder::disable_removed_members() {
+  if (!lost_partitions_) return;
   for (uint32_t i = 0; i < inputs_.InstanceCount; ++i) {
     PartitionedInstance& slot = level_->slots[i];
     const uint32_t partition = slot.args.PartitionIndex;
@@ -378,12 +391,16 @@ void Builder::disable_removed_members() {
   }
 }
 
-void Builder::count_members() {
-  std::vector<uint32_t> members(size_t{inputs_.PartitionCount} + 1, 0);
-  for (const PartitionedInstance& slot : level_->slots) {
-    if (!slot.written || is_degenerate(slot.args.Transform)) continue;
-    ++members[slot.args.PartitionIndex == kGlobal ? inputs_.PartitionCount
-                                                  : slot.args.PartitionIndex];
+void Builder::count(const PartitionedInstance& slot, uint32_t change) {
+  if (level_->members.empty() || !slot.written || is_degenerate(slot.args.Transform)) return;
+  level_->members[place_of(slot.args.PartitionIndex)] += change;
+}
+
+void Builder::check_members() {
+  std::vector<uint32_t>& members = level_->members;
+  if (members.empty()) {
+    members.resize(size_t{inputs_.PartitionCount} + 1);
+    for (const PartitionedInstance& slot : level_->slots) count(slot, 1);
   }
   for (uint32_t i = 0; i <= inputs_.PartitionCount; ++i) {
     const bool global = i == inputs_.PartitionCount;
@@ -471,6 +488,18 @@ void Builder::activate_changed() {
   }
 }
 
+rtapi::Status Builder::build_level(const RebuildLevel& build, AccelerationStructure& result) const {
+  if (!build.partitioned_level) return build.top_level(level_->instances, result);
+  if (source_ != nullptr && in_place()) result.top_level = source_->top_level;
+  const auto partition_of = [this](uint32_t instance) {
+    return place_of(level_->slots[instance].args.PartitionIndex);
+  };
+  const bool prefers_trace = HasAny(inputs_.Flags, rtapi::RtasPartitionedTlasFlags::kFastTrace);
+  return build.partitioned_level(
+      {level_->instances, changed_, inputs_.PartitionCount + 1, prefers_trace, partition_of},
+      result);
+}
+
 rtapi::Status Builder::run(const RebuildLevel& build) {
   const uint64_t dest = data_.DestAccelerationStructureData;
   const uint64_t bytes = partitioned_bytes(inputs_);
@@ -479,7 +508,7 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
   resize();
   read_operations();
   disable_removed_members();
-  count_members();
+  check_members();
   activate_changed();
   AccelerationStructure result;
   result.address = dest;
@@ -488,7 +517,7 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
   result.compacted_bytes = bytes;
   result.instance_count = inputs_.InstanceCount;
   result.partitioned = level_;
-  if (auto s = build.top_level(level_->instances, result); !s) return s;
+  if (auto s = build_level(build, result); !s) return s;
   environment_.structures.place(std::move(result));
   return {};
 }

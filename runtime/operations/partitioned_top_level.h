@@ -34,6 +34,8 @@ struct PartitionedTopLevel {
   // With kEnablePartitionTranslation, by PartitionIndex; otherwise empty, and all are zero.
   std::vector<Translation> translations;
   Translation global_translation = {};
+  // Non-degenerate instances by partition, at the end those of the global one.
+  std::vector<uint32_t> members;
   // What rays meet, by InstanceIndex: with translations, and inactive where nothing can be hit.
   std::vector<Instance> instances;
 };

@@ -17,6 +17,16 @@
 
 namespace kaamos::runtime {
 
+// A partitioned top level, and what an operation changed of it.
+struct PartitionedInstances {
+  std::span<const Instance> instances;  // by InstanceIndex
+  std::span<const uint32_t> changed;    // since the level was built; each once
+  uint32_t partition_count = 0;         // with the global partition, which is the last
+  bool prefers_trace = false;           // kFastTrace: rays count for more than the next operations
+  // Of an instance, by InstanceIndex; only for those that can be hit.
+  std::function<uint32_t(uint32_t instance)> partition_of;
+};
+
 // The functions by which a backend builds what does not come from a BuildCommand: what was
 // deserialized, partitioned top levels, and bottom levels of clusters. All set compacted_bytes as a
 // BuildLevel does.
@@ -29,6 +39,10 @@ struct RebuildLevel {
   std::function<rtapi::Status(const std::vector<Instance>& instances,
                               AccelerationStructure& result)>
       top_level;
+  // A partitioned top level. result.top_level is the level that it was before, to be changed, or
+  // null. Null: the backend has only whole top levels.
+  std::function<rtapi::Status(const PartitionedInstances& instances, AccelerationStructure& result)>
+      partitioned_level;
   // By the entries' order in GeometryContents and linkages, whatever their GeometryIndex.
   std::function<rtapi::Status(std::vector<ClusteredGeometry> geometries,
                               AccelerationStructure& result)>

@@ -218,9 +218,10 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
   if (options.precision_table) return print_precision_table(options, out, errors);
   if (options.raster_table) return print_raster_table(options, out, errors);
   std::vector<Case> cases;
-  for (auto part : {dispatch_cases, build_cases, hlsl_cases, compute_cases, vector_cases,
-                    frame_cases, reference_cases, sorting_cases, light_cases, structure_cases,
-                    micromap_cases, facade_cases, claims_cases, vulkan_cases, raster_cases}) {
+  for (auto part :
+       {dispatch_cases, build_cases, hlsl_cases, compute_cases, vector_cases, frame_cases,
+        reference_cases, sorting_cases, light_cases, structure_cases, micromap_cases,
+        partition_cases, facade_cases, claims_cases, vulkan_cases, raster_cases}) {
     for (Case& one : part()) {
       if (one.name.starts_with(options.only)) cases.push_back(std::move(one));
     }
