@@ -46,7 +46,7 @@ int PrintPixel(const char* name, const Setup& setup, const std::string& text,
 }  // namespace
 
 int Main(int argc, char** argv, const char* name, Body body,
-         const std::vector<std::string>& breakable) {
+         const std::vector<std::string>& breakable, const DeviceDesc& device) {
   std::string backend = "embree";
   std::string size = "640x360";
   std::string out = std::string(name) + ".png";
@@ -81,7 +81,7 @@ int Main(int argc, char** argv, const char* name, Body body,
     return 2;
   }
   try {
-    DeviceDesc desc;
+    DeviceDesc desc = device;
     desc.Backend = backend;
     desc.Checked = !unchecked;
     desc.OnMessage = [&findings](const Message& message) {

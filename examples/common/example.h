@@ -25,9 +25,10 @@ using Body = rtapi::Texture (*)(const Setup&);
 // Parses `--backend NAME --size WxH --out FILE`, runs `body` and writes its picture to
 // "<name>.png"; with `--pixel X,Y` it prints that pixel instead. The device is in checked mode
 // (`--unchecked` turns it off): what checked mode reports is printed and makes the exit code 1, as
-// an error does. With `breakable` there is also `--break WHAT`. Returns the exit code.
+// an error does. With `breakable` there is also `--break WHAT`. `device` is what the device has
+// beside what the command line says. Returns the exit code.
 int Main(int argc, char** argv, const char* name, Body body,
-         const std::vector<std::string>& breakable = {});
+         const std::vector<std::string>& breakable = {}, const rtapi::DeviceDesc& device = {});
 
 // A texture that shaders can write, and a heap whose descriptor 0 is its unordered access view.
 struct Image {

@@ -55,7 +55,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
                                          "05-callable-and-recursion", "06-local-root-signature",
                                          "07-update-and-compaction", "08-compute", "09-ray-query",
                                          "11-triangle-raster", "12-shadow-map", "13-hybrid",
-                                         "14-reordering", "15-opacity-micromaps"),
+                                         "14-reordering", "15-opacity-micromaps",
+                                         "16-partitioned-top-level"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            for (char& c : name) {
