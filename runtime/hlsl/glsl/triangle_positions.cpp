@@ -36,7 +36,7 @@ std::string GlslEmitter::position_table() {
                      "  if ((table & 6UL) != 6UL) return unpackUint2x32(table);\n"
                      "  uint64_t words = table & ~7UL;\n"
                      "  uint at = g_Word(words + uint64_t(geometry) * 4UL).v + "
-                     "((table & 1UL) != 0UL ? 1u : 10u) * id;\n"
+                     "((table & 1UL) != 0UL ? 2u : 10u) * id;\n"
                      "  return unpackUint2x32((words + uint64_t(at) * 4UL) | 2UL | "
                      "(table & 1UL));\n"
                      "}\n");

@@ -267,12 +267,13 @@ std::vector<uint32_t> BottomLevelBuilder::cluster_remap_words() const {
 // spirv_interface.h: kClusterTable.
 std::vector<uint32_t> BottomLevelBuilder::cluster_words() const {
   const bool readable = HasAny(level_.flags_, runtime::BuildFlags::kAllowDataAccess);
-  std::vector<uint32_t> words(geometries_.size());
+  std::vector<uint32_t> words((geometries_.size() + 1) / 2 * 2);
   for (size_t g = 0; g < geometries_.size(); ++g) {
     words[g] = static_cast<uint32_t>(words.size());
     const Decoded& in = decoded_[g];
     for (const SortItem& item : list_.items(g)) {
       words.push_back(numbers_[g][item.primitive].cluster_id);
+      if (!readable) words.push_back(0);
       for (int corner = 0; readable && corner < 3; ++corner) {
         const size_t vertex = in.indices[3 * size_t{item.primitive} + corner];
         for (int axis = 0; axis < 3; ++axis) {

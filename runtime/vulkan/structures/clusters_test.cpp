@@ -65,6 +65,7 @@ TEST(VulkanClusters, FlagsMakePartsWithTheApplicationsGeometryIndices) {
     ASSERT_EQ(numbers[3] + (opaque ? 2u : 1u), opaque ? 7u : 5u);
     for (uint32_t id = 0; id < (opaque ? 2u : 1u); ++id) {
       const uint32_t* triangle = words + words[3] + 10 * id;
+      EXPECT_EQ(reinterpret_cast<uintptr_t>(triangle) % 8, 0u);
       EXPECT_EQ(triangle[0], opaque ? 70u : 71u);
       float z;
       std::memcpy(&z, triangle + 3, sizeof(z));
@@ -88,7 +89,8 @@ TEST(VulkanClusters, WithoutDataAccessOnlyIdsAreKept) {
   EXPECT_EQ(table & 7, shader::spirv::kClusterTable | shader::spirv::kPositionsNotKept);
   const uint32_t* words = words_at(table & ~uint64_t{7});
   EXPECT_EQ(words[words[0]], 5u);
-  EXPECT_EQ(words[words[0] + 1], 5u);
+  EXPECT_EQ(words[words[0] + 2], 5u);
+  EXPECT_EQ(words[0] % 2, 0u);
 }
 
 TEST(VulkanClusters, NothingAndTooMuch) {

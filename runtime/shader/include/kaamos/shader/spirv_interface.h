@@ -174,7 +174,8 @@ inline constexpr uint64_t kPositionsNotKept = 1;  // it was built without ALLOW_
 // words, plus kClusterTable, and plus kPositionsNotKept without ALLOW_DATA_ACCESS. With the
 // driver's numbers,
 //   words[words[gl_GeometryIndexEXT] + n * gl_PrimitiveID]
-// is the ID of the triangle's cluster, before its 9 floats unless they are not kept (n: 10 or 1).
+// is the ID of the triangle's cluster, before its 9 floats unless they are not kept (n: 10 or 2).
+// All of these are at multiples of 8 bytes, which leaves room for the marks.
 // A hit's table is the address of the ID plus kClusterHit, and plus kPositionsNotKept likewise.
 inline constexpr uint64_t kClusterTable = 6;
 inline constexpr uint64_t kClusterHit = 2;
