@@ -116,11 +116,11 @@ struct BufferBarrier : GlobalBarrier {
 /// Subresources of a texture: mips by array elements. [D3D12: D3D12_BARRIER_SUBRESOURCE_RANGE]
 struct BarrierSubresourceRange {
   uint32_t IndexOrFirstMipLevel = 0xFFFFFFFF;  ///< without NumMipLevels: one index, or ~0 for all
-  uint32_t NumMipLevels = 0;
-  uint32_t FirstArraySlice = 0;
-  uint32_t NumArraySlices = 0;
-  uint32_t FirstPlane = 0;
-  uint32_t NumPlanes = 0;
+  uint32_t NumMipLevels = 0;                   ///< mips from the first; 0: an index
+  uint32_t FirstArraySlice = 0;                ///< with NumMipLevels
+  uint32_t NumArraySlices = 0;                 ///< with NumMipLevels; not 0 then
+  uint32_t FirstPlane = 0;                     ///< ignored: textures have one plane
+  uint32_t NumPlanes = 0;                      ///< ignored
 };
 
 /// [D3D12: D3D12_TEXTURE_BARRIER_FLAGS]
@@ -134,11 +134,11 @@ inline constexpr bool kIsFlags<TextureBarrierFlags> = true;
 /// A barrier for subresources of a texture, and a change of their layout.
 /// [D3D12: D3D12_TEXTURE_BARRIER]
 struct TextureBarrier : GlobalBarrier {
-  BarrierLayout LayoutBefore = BarrierLayout::kCommon;  ///< the layout that they have
-  BarrierLayout LayoutAfter = BarrierLayout::kCommon;   ///< the layout that they get
-  rtapi::Texture Resource = {};
-  BarrierSubresourceRange Subresources = {};
-  TextureBarrierFlags Flags = TextureBarrierFlags::kNone;
+  BarrierLayout LayoutBefore = BarrierLayout::kCommon;     ///< the layout that they have
+  BarrierLayout LayoutAfter = BarrierLayout::kCommon;      ///< the layout that they get
+  rtapi::Texture Resource = {};                            ///< not empty
+  BarrierSubresourceRange Subresources = {};               ///< all of them
+  TextureBarrierFlags Flags = TextureBarrierFlags::kNone;  ///< kDiscard
 };
 
 }  // namespace rtapi

@@ -258,6 +258,7 @@ inline constexpr ErrorId kTableArgumentCount{841};  ///< shader table: wrong num
 inline constexpr ErrorId kTableArgumentKind{842};  ///< shader table: wrong kind of local argument
 inline constexpr ErrorId kTableArgumentSize{843};  ///< shader table: wrong size of local argument
 inline constexpr ErrorId kMemoryFreed{856};  ///< command list refers to freed memory
+inline constexpr ErrorId kEnhancedBarrier{858};  ///< invalid enhanced barrier
 inline constexpr ErrorId kNoBackend{900};  ///< no backend
 inline constexpr ErrorId kUnknownBackend{901};  ///< unknown backend
 inline constexpr ErrorId kForeignObject{903};  ///< object belongs to another device

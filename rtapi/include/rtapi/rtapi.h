@@ -5,6 +5,7 @@
 /// `<rtapi/table_description.h>`, `<rtapi/explain.h>` and `<rtapi/explain_draw.h>`.
 #pragma once
 
+#include <rtapi/barrier.h>            // IWYU pragma: export
 #include <rtapi/build_structure.h>    // IWYU pragma: export
 #include <rtapi/command_list.h>       // IWYU pragma: export
 #include <rtapi/command_queue.h>      // IWYU pragma: export
