@@ -319,8 +319,8 @@ TEST_P(Textures, LayoutsOfEnhancedBarriers) {
   CommandList wrong = list();
   change(wrong, BarrierLayout::kUnorderedAccess, BarrierLayout::kShaderResource);
   run(wrong);
-  expect_one("KA0452", {"LayoutBefore, which is kUnorderedAccess, is given for texture \"wall\"",
-                        "Pass the layout that it is in."});
+  expect_one("KA0452", {"LayoutBefore, which is kUnorderedAccess, is given for subresource 0",
+                        "texture \"wall\"", "Pass the layout that it is in."});
   CommandList other = list();
   record(other, paint_);
   run(other);
@@ -351,9 +351,10 @@ TEST_P(Indirect, AccessesOfEnhancedBarriers) {
   write_and(BarrierAccess::kIndirectArgument, true);
   expect_none();
   write_and(BarrierAccess::kCopySource);
-  expect_one("KA0451", {"buffer \"arguments\", which is visible to kCopySource since Barrier, "
-                        "command 1; it must be to kIndirectArgument. Record a BufferBarrier whose "
-                        "AccessAfter allows that first."});
+  expect_one("KA0451",
+             {"buffer \"arguments\" (208 bytes), which is visible to kCopySource since Barrier, "
+              "command 1; it must be to kIndirectArgument. Record a BufferBarrier whose "
+              "AccessAfter allows that first."});
 }
 
 INSTANTIATE_TEST_SUITE_P(Embree, Textures, ::testing::Values("embree"));
