@@ -116,10 +116,12 @@ VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                               VkDebugUtilsMessageTypeFlagsEXT,
                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   auto& instance = *static_cast<Instance*>(self);
-  // Writes to an attachment without a format go nowhere, as D3D12 has it for a null view.
+  // Writes to an attachment without a format go nowhere, as D3D12 has it for a null view. Of
+  // outputs of another type than their target's, which D3D12 takes, KA0725 has warned.
   const std::string_view text = data->pMessage;
   if (text.find("InterfaceTypeMismatch") != text.npos &&
-      text.find("VK_FORMAT_UNDEFINED") != text.npos) {
+      (text.find("VK_FORMAT_UNDEFINED") != text.npos ||
+       text.find("does not match fragment shader output type") != text.npos)) {
     return VK_FALSE;
   }
   const std::lock_guard lock(instance.mutex_);
