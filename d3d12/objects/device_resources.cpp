@@ -77,7 +77,7 @@ rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
                                             const D3D12_CLEAR_VALUE* clear) {
   const auto type = heap_type(heap);
   if (!type) return type.error();
-  // Of custom heaps, as WriteToSubresource and ReadFromSubresource need it.
+  // WriteToSubresource and ReadFromSubresource need a custom heap.
   if (*type != rtapi::HeapType::kDefault && heap.Type != D3D12_HEAP_TYPE_CUSTOM) {
     return make_error(ErrorId::kResource, "a texture on heap type " + std::to_string(heap.Type) +
                                               "; textures lie on the default heap (1).");

@@ -23,7 +23,7 @@ struct PartitionedInstances {
   std::span<const uint32_t> changed;    // since the level was built; each once
   uint32_t partition_count = 0;         // with the global partition, which is the last
   bool prefers_trace = false;           // kFastTrace: rays count for more than the next operations
-  // Of an instance, by InstanceIndex; only for those that can be hit.
+  // Takes an InstanceIndex, of an instance that can be hit.
   std::function<uint32_t(uint32_t instance)> partition_of;
 };
 
