@@ -227,6 +227,26 @@ TEST(Verifier, FindsBrokenRules) {
   EXPECT_NE(verify(*compilation.module), "");
 }
 
+// A function that other stages reach too is copied for pixel shaders.
+TEST(Bindings, CopiesForPixelShadersUseTheSame) {
+  const Compilation compilation(R"(
+Texture2D<float4> one : register(t0);
+Texture2D<float4> many[] : register(t0, space1);
+RWByteAddressBuffer results : register(u0);
+float Look(uint i) {
+  const uint next = i + 1;
+  return many[NonUniformResourceIndex(next)].Load(int3(0, 0, 0)).x;
+}
+[shader("compute")] [numthreads(1, 1, 1)]
+void Count(uint3 id : SV_DispatchThreadID) {
+  results.Store(0, asuint(Look(id.x) + one.Load(int3(0, 0, 0)).x));
+}
+[shader("pixel")] float4 Paint(nointerpolation uint i : ID) : SV_Target { return Look(i); }
+)");
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_EQ(verify(*compilation.module), "");
+}
+
 TEST(Bindings, AutomaticRegistersFillGapsByClass) {
   const Compilation good(
       kernel("results.Store(0, a[0] + b[0] + c[0] + k + many[1][0]);",

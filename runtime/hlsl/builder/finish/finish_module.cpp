@@ -295,12 +295,13 @@ void finish_module(ir::Module& module, IrBuilder& build, ModuleFacts& facts, Fin
   for (const ModuleFacts::Wrapper& one : facts.wrappers) {
     if (run.count(one.function)) module.functions.push_back(one.function);
   }
+  // Before expressions are copied, of which bindings know only the first.
+  assign_registers(module, facts, report);
   for (ir::EntryPoint* entry : square) make_quads_square(module, build, *entry);
   for (const GlobalFacts* global : facts.globals) {
     if (all_globals.count(global)) module.globals.push_back(global->variable);
   }
   make_quad_functions(module, build, facts, report.has_errors());
-  assign_registers(module, facts, report);
   for (size_t i = 0; i < bindings_of.size(); ++i) {
     for (const BindingFacts* binding : bindings_of[i]) {
       module.entry_points[i].bindings.push_back(binding->index);
