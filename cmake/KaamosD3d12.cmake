@@ -108,6 +108,8 @@ function(kaamos_add_d3d12_shader source outputs)
     set(folder "${CMAKE_CURRENT_BINARY_DIR}")  # where CMake puts programs without being told
   endif()
   set(object "${folder}/${arg_OBJECT}")
+  get_filename_component(folder "${object}" DIRECTORY)
+  file(MAKE_DIRECTORY "${folder}")
   set(flags -T ${arg_PROFILE} ${arg_OPTIONS})
   if(arg_ENTRY)
     list(APPEND flags -E ${arg_ENTRY})
