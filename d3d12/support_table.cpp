@@ -19,6 +19,7 @@
 #include "d3d12/objects/fence.h"
 #include "d3d12/objects/graphics_command_list.h"
 #include "d3d12/objects/heap.h"
+#include "d3d12/objects/pipeline_library.h"
 #include "d3d12/objects/pipeline_objects.h"
 #include "d3d12/objects/resource.h"
 #include "d3d12/objects/state_object.h"
@@ -29,8 +30,8 @@ namespace {
 
 using Objects = std::tuple<Device*, GraphicsCommandList*, CommandQueue*, Fence*, Resource*, Heap*,
                            DescriptorHeap*, CommandAllocator*, RootSignature*, PipelineState*,
-                           QueryHeap*, CommandSignature*, StateObject*, InfoQueue*, Factory*,
-                           Adapter*, Output*, SwapChain*>;
+                           PipelineLibrary*, QueryHeap*, CommandSignature*, StateObject*,
+                           InfoQueue*, Factory*, Adapter*, Output*, SwapChain*>;
 
 // The first object that has an interface; void without one.
 template <class Interface, class... Rest>

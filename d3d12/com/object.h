@@ -47,8 +47,11 @@ class ComObject : public First, public Rest... {
     return S_OK;
   }
 
+  /// An object that this library holds gets references again after its last one.
   ULONG STDMETHODCALLTYPE AddRef() override {
-    return references_.fetch_add(1, std::memory_order_relaxed) + 1;
+    const ULONG before = references_.fetch_add(1, std::memory_order_relaxed);
+    if (before == 0) retain();
+    return before + 1;
   }
 
   ULONG STDMETHODCALLTYPE Release() override {

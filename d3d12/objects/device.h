@@ -8,6 +8,7 @@
 #include "d3d12/com/report.h"
 #include "d3d12/objects/info_queue.h"
 #include "d3d12/objects/live_objects.h"
+#include "d3d12/objects/shader_identifiers.h"
 
 namespace kaamos::d3d12 {
 
@@ -21,6 +22,7 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
 
   const rtapi::Device& rtapi_device() const { return device_; }
   LiveObjects& live_objects() { return live_objects_; }
+  ShaderIdentifiers& shader_identifiers() { return shader_identifiers_; }
   Reporter& reporter() const override { return *reporter_; }
 
   // Queues, lists, fences
@@ -179,6 +181,8 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
       const D3D12_GRAPHICS_PIPELINE_STATE_DESC* desc, REFIID riid, void** pipeline) override;
   HRESULT STDMETHODCALLTYPE CreatePipelineState(const D3D12_PIPELINE_STATE_STREAM_DESC* desc,
                                                 REFIID riid, void** pipeline) override;
+  HRESULT STDMETHODCALLTYPE CreatePipelineLibrary(const void* blob, SIZE_T size, REFIID riid,
+                                                  void** library) override;
   HRESULT STDMETHODCALLTYPE CreateStateObject(const D3D12_STATE_OBJECT_DESC* desc, REFIID riid,
                                               void** state_object) override;
   HRESULT STDMETHODCALLTYPE AddToStateObject(const D3D12_STATE_OBJECT_DESC* addition,
@@ -209,6 +213,7 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   LUID luid_;
   std::atomic<bool> removed_{false};
   LiveObjects live_objects_;
+  ShaderIdentifiers shader_identifiers_;
 };
 
 /// The device behind an interface that this library handed out.

@@ -229,8 +229,10 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_D3D12_OPTIONS2:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS2>(query, [](auto&) {});
     case D3D12_FEATURE_D3D12_OPTIONS3:
-      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS3>(
-          query, [](auto& out) { out.CopyQueueTimestampQueriesSupported = TRUE; });
+      return options<D3D12_FEATURE_DATA_D3D12_OPTIONS3>(query, [](auto& out) {
+        out.CopyQueueTimestampQueriesSupported = TRUE;
+        out.CastingFullyTypedFormatSupported = TRUE;
+      });
     case D3D12_FEATURE_D3D12_OPTIONS4:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS4>(
           query, [](auto& out) { out.Native16BitShaderOpsSupported = TRUE; });
@@ -270,7 +272,9 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
       return options<D3D12_FEATURE_DATA_EXISTING_HEAPS>(query, [](auto&) {});
     case D3D12_FEATURE_SHADER_CACHE:
       return options<D3D12_FEATURE_DATA_SHADER_CACHE>(query, [](auto& out) {
-        out.SupportFlags = D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_INPROC_CACHE |
+        out.SupportFlags = D3D12_SHADER_CACHE_SUPPORT_SINGLE_PSO |
+                           D3D12_SHADER_CACHE_SUPPORT_LIBRARY |
+                           D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_INPROC_CACHE |
                            D3D12_SHADER_CACHE_SUPPORT_AUTOMATIC_DISK_CACHE;
       });
     case D3D12_FEATURE_CROSS_NODE:

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Root signatures, compute and graphics pipelines, command signatures.
+// Root signatures, compute and graphics pipelines, libraries of them, command signatures.
 #include <windows.h>
 
 #include <algorithm>
 
-#include <directx/d3dx12.h>
-
+#include "d3d12/com/blob.h"
 #include "d3d12/container/container.h"
 #include "d3d12/container/root_signature_blob.h"
 #include "d3d12/container/shader_bytecode.h"
 #include "d3d12/container/shader_source.h"
+#include "d3d12/objects/cached_pipeline.h"
 #include "d3d12/objects/device.h"
+#include "d3d12/objects/pipeline_library.h"
 #include "d3d12/objects/pipeline_objects.h"
+#include "d3d12/objects/pipeline_stream.h"
 
 namespace kaamos::d3d12 {
 
@@ -134,11 +136,15 @@ HRESULT Device::CreateRootSignature(UINT, const void* blob, SIZE_T size, REFIID 
                   ? declared_root_signature(device_, blob, size, reporter())
                   : serialized_root_signature(device_, blob, size);
   if (!made) return fail(made.error());
-  return hand_out(new RootSignature(this, *made), riid, root_signature);
+  return hand_out(new RootSignature(this, *made, root_signature_identity(blob, size)), riid,
+                  root_signature);
 }
 
 HRESULT Device::create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, REFIID riid,
                                void** pipeline) {
+  const Identity identity = pipeline_identity(desc);
+  const HRESULT cached = check_cached_pipeline(device_, desc.CachedPSO, identity, reporter());
+  if (FAILED(cached)) return cached;
   const auto shader = load_shader(desc.CS.pShaderBytecode, desc.CS.BytecodeLength, reporter());
   if (!shader) return fail(shader.error());
   const auto root_signature = root_signature_for(device_, desc.pRootSignature, desc.CS);
@@ -146,12 +152,15 @@ HRESULT Device::create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, RE
   auto made =
       device_.CreateComputePipelineState({.pRootSignature = *root_signature, .CS = *shader});
   if (!made) return fail(made.error());
-  return hand_out(new PipelineState(this, *made), riid, pipeline);
+  return hand_out(new PipelineState(this, *made, identity), riid, pipeline);
 }
 
 HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, REFIID riid,
                                 void** pipeline) {
   if (const rtapi::Status status = check_graphics(desc); !status) return fail(status.error());
+  const Identity identity = pipeline_identity(desc);
+  const HRESULT cached = check_cached_pipeline(device_, desc.CachedPSO, identity, reporter());
+  if (FAILED(cached)) return cached;
   rtapi::GraphicsPipelineStateDesc out;
   for (auto [bytecode, shader] : {std::pair{&desc.VS, &out.VS}, std::pair{&desc.PS, &out.PS}}) {
     if (bytecode->BytecodeLength == 0) continue;
@@ -182,7 +191,7 @@ HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, 
   out.DSVFormat = static_cast<rtapi::Format>(desc.DSVFormat);
   auto made = device_.CreateGraphicsPipelineState(out);
   if (!made) return fail(made.error());
-  return hand_out(new PipelineState(this, *made), riid, pipeline);
+  return hand_out(new PipelineState(this, *made, identity), riid, pipeline);
 }
 
 HRESULT Device::CreateComputePipelineState(const D3D12_COMPUTE_PIPELINE_STATE_DESC* desc,
@@ -199,25 +208,30 @@ HRESULT Device::CreateGraphicsPipelineState(const D3D12_GRAPHICS_PIPELINE_STATE_
   return create_graphics(*desc, riid, pipeline);
 }
 
-// Microsoft's own helper parses the stream.
 HRESULT Device::CreatePipelineState(const D3D12_PIPELINE_STATE_STREAM_DESC* desc, REFIID riid,
                                     void** pipeline) {
   if (pipeline != nullptr) *pipeline = nullptr;
   if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreatePipelineState: pDesc.");
-  CD3DX12_PIPELINE_STATE_STREAM2_PARSE_HELPER parsed;
-  if (FAILED(D3DX12ParsePipelineStream(*desc, &parsed))) {
-    return fail(ErrorId::kPipeline, "CreatePipelineState: the stream of " +
-                                        std::to_string(desc->SizeInBytes) +
-                                        " bytes is damaged, or names a subobject twice.");
+  const auto parsed = parse_pipeline_stream(*desc, "CreatePipelineState");
+  if (!parsed) return fail(parsed.error());
+  if (parsed->compute) return create_compute(*parsed->compute, riid, pipeline);
+  return create_graphics(*parsed->graphics, riid, pipeline);
+}
+
+HRESULT PipelineState::GetCachedBlob(ID3DBlob** blob) {
+  if (blob == nullptr) return fail(ErrorId::kNullPointer, "GetCachedBlob: ppBlob.");
+  *blob = new Blob(write_cached_pipeline(rtapi_device(device()), identity_));
+  return S_OK;
+}
+
+HRESULT Device::CreatePipelineLibrary(const void* blob, SIZE_T size, REFIID riid, void** library) {
+  if (library != nullptr) *library = nullptr;
+  NamedIdentities pipelines;
+  if (blob != nullptr || size != 0) {
+    const HRESULT result = read_pipeline_library(device_, blob, size, pipelines, reporter());
+    if (FAILED(result)) return result;
   }
-  const D3D12_SHADER_BYTECODE& mesh =
-      static_cast<const D3D12_SHADER_BYTECODE&>(parsed.PipelineStream.MS);
-  if (mesh.BytecodeLength != 0) {
-    return fail(ErrorId::kPipeline, "CreatePipelineState: MS: there are no mesh shaders here.");
-  }
-  const D3D12_COMPUTE_PIPELINE_STATE_DESC compute = parsed.PipelineStream.ComputeDescV0();
-  if (compute.CS.BytecodeLength != 0) return create_compute(compute, riid, pipeline);
-  return create_graphics(parsed.PipelineStream.GraphicsDescV0(), riid, pipeline);
+  return hand_out(new PipelineLibrary(this, pipelines), riid, library);
 }
 
 HRESULT Device::CreateCommandSignature(const D3D12_COMMAND_SIGNATURE_DESC* desc,

@@ -7,27 +7,34 @@
 
 #include "d3d12/com/report.h"
 #include "d3d12/objects/device_child.h"
+#include "d3d12/objects/pipeline_identity.h"
 
 namespace kaamos::d3d12 {
 
 class RootSignature final : public DeviceChild<ID3D12RootSignatureEntries> {
  public:
-  RootSignature(ID3D12Device* device, rtapi::RootSignature root_signature)
-      : DeviceChild(device), root_signature_(std::move(root_signature)) {}
+  RootSignature(ID3D12Device* device, rtapi::RootSignature root_signature, const Identity& identity)
+      : DeviceChild(device), root_signature_(std::move(root_signature)), identity_(identity) {}
   const rtapi::RootSignature& rtapi_root_signature() const { return root_signature_; }
+  const Identity& identity() const { return identity_; }
 
  private:
   rtapi::RootSignature root_signature_;
+  Identity identity_;
 };
 
 class PipelineState final : public DeviceChild<ID3D12PipelineStateEntries> {
  public:
-  PipelineState(ID3D12Device* device, rtapi::PipelineState pipeline)
-      : DeviceChild(device), pipeline_(std::move(pipeline)) {}
+  PipelineState(ID3D12Device* device, rtapi::PipelineState pipeline, const Identity& identity)
+      : DeviceChild(device), pipeline_(std::move(pipeline)), identity_(identity) {}
   const rtapi::PipelineState& rtapi_pipeline() const { return pipeline_; }
+  const Identity& identity() const { return identity_; }
+
+  HRESULT STDMETHODCALLTYPE GetCachedBlob(ID3DBlob** blob) override;
 
  private:
   rtapi::PipelineState pipeline_;
+  Identity identity_;
 };
 
 class QueryHeap final : public DeviceChild<ID3D12QueryHeapEntries> {

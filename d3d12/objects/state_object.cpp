@@ -6,6 +6,12 @@
 
 namespace kaamos::d3d12 {
 
+void* StateObject::GetShaderIdentifier(LPCWSTR export_name) {
+  const rtapi::ShaderIdentifier* id = state_object_.GetShaderIdentifier(to_utf8(export_name));
+  if (id == nullptr) return nullptr;
+  return const_cast<uint8_t*>(device_of(device()).shader_identifiers().keep(*id));  // D3D12's type
+}
+
 HRESULT Device::CreateStateObject(const D3D12_STATE_OBJECT_DESC* desc, REFIID riid,
                                   void** state_object) {
   if (state_object != nullptr) *state_object = nullptr;

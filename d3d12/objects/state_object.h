@@ -21,11 +21,8 @@ class StateObject final
 
   const rtapi::StateObject& rtapi_state_object() const { return state_object_; }
 
-  // Valid as long as the object, or one that grows from it: rtapi owns the bytes.
-  void* STDMETHODCALLTYPE GetShaderIdentifier(LPCWSTR export_name) override {
-    const rtapi::ShaderIdentifier* id = state_object_.GetShaderIdentifier(to_utf8(export_name));
-    return id != nullptr ? const_cast<uint8_t*>(id->data()) : nullptr;  // NOLINT: D3D12's type
-  }
+  // The device owns the bytes, and equal ones have the same address.
+  void* STDMETHODCALLTYPE GetShaderIdentifier(LPCWSTR export_name) override;
   UINT64 STDMETHODCALLTYPE GetShaderStackSize(LPCWSTR export_name) override {
     return state_object_.GetShaderStackSize(to_utf8(export_name));
   }
