@@ -209,7 +209,8 @@ void main(uint3 id : SV_DispatchThreadID) {
   written.InterlockedAdd(4, 5, old);
   items.GetDimensions(count, stride);
   const uint4 sum = raw.Load4(id.x * 4) + uint4(item.a, asuint(item.b.xyz)) +
-                    asuint(transform[id.x & 3]) + tail + written.Load(id.x * 16) + old + count;
+                    asuint(transform[id.x & 3]) + tail + written.Load(id.x * 16) + old + count +
+                    (stride - 20);  // the type's
   results.Store(id.x * 4, 100 + sum.x + sum.y + sum.z + sum.w);
 }
 )";

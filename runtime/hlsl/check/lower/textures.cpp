@@ -3,6 +3,7 @@
 
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
+#include "runtime/hlsl/check/names/layout.h"
 #include "runtime/hlsl/ir/builtin_functions.h"
 #include "runtime/hlsl/ir/builtin_types.h"
 
@@ -334,7 +335,12 @@ Value Textures::call_dimensions(const Value& object, std::vector<Value>& argumen
     if (!lower_.places.require_place(target, target.location, "an output of GetDimensions")) {
       return error_value();
     }
-    const Value value = rvalue(build_.swizzle(all, {outputs[i]}), types_.scalar(Scalar::kUint32));
+    // The stride of a structured buffer is its type's, whatever view is bound. [DXC]
+    const bool is_stride = has_elements(type->resource) && outputs[i] == 1;
+    const ir::Expr* number =
+        is_stride ? build_.uint32(layout_of(type->element, ir::Layout::kStructured).size)
+                  : build_.swizzle(all, {outputs[i]});
+    const Value value = rvalue(number, types_.scalar(Scalar::kUint32));
     lower_.places.store(target, lower_.conversions.convert(value, target.type, target.location));
   }
   return rvalue(build_.int32(0), types_.void_type());
