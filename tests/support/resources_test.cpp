@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -112,6 +113,39 @@ TEST_P(Descriptors, TextureSrv) {
   const Texture source = texture_of(30);
   KAAMOS_SUPPORTED(device_.CreateShaderResourceView(source, slot(kTexture)));
   EXPECT_EQ(compute("FromTexture"), numbers(30));
+}
+
+// Views reinterpret what a typed texture holds. [D3D12: Relaxed Format Casting Rules]
+TEST_P(Descriptors, TextureSrv_casts) {
+  const Texture source = texture_of(200);
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kTexture2D;
+  view.Format = Format::kR8G8B8A8UnormSrgb;
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(source, view, slot(kTexture)));
+  std::vector<uint32_t> linear = numbers(200);
+  for (uint32_t& value : linear) {
+    value = static_cast<uint32_t>(std::pow((value / 255.0 + 0.055) / 1.055, 2.4) * 255 + 0.5);
+  }
+  // Half a step of what is stored, which is less than one here. [D3D11.3: 3.2.3.8 SRGB to FLOAT]
+  const std::vector<uint32_t> found = compute("FromTexture");
+  ASSERT_EQ(found.size(), linear.size());
+  for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], linear[i], 1);
+}
+
+TEST_P(Descriptors, TextureUav_casts) {
+  TextureDesc desc;
+  desc.Width = desc.Height = kCount;
+  desc.Format = Format::kR8G8B8A8Uint;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kUnorderedAccess;
+  const Texture picture = device_.CreateTexture(desc).value();
+  UnorderedAccessViewDesc view;
+  view.ViewDimension = UavDimension::kTexture2D;
+  view.Format = Format::kR8G8B8A8Unorm;
+  KAAMOS_SUPPORTED(device_.CreateUnorderedAccessView(picture, view, slot(kTextureOut)));
+  compute("ToTexture");
+  const auto bytes = ReadbackTexture(device_, queue_, picture, 0).value();
+  for (uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(std::to_integer<uint32_t>(bytes[i * 4]), 10 + i);
 }
 
 TEST_P(Descriptors, AccelerationStructureSrv) {

@@ -169,8 +169,8 @@ struct RaytracingAccelerationStructureSrv {
 /// after Shader4ComponentMapping counts.
 /// [D3D12: D3D12_SHADER_RESOURCE_VIEW_DESC]
 struct ShaderResourceViewDesc {
-  /// Textures: the texture's own format, which kUnknown stands for, or a typed format of a typeless
-  /// one's family. Buffers: see BufferSrv.
+  /// Textures: the texture's own format, which kUnknown stands for, or a typed one of its family;
+  /// FLOAT for FLOAT, and no SNORM for UNORM, unless it is typeless. Buffers: see BufferSrv.
   rtapi::Format Format = rtapi::Format::kUnknown;
   SrvDimension ViewDimension = SrvDimension::kUnknown;  ///< goes with the resource
   /// Textures: 3 bits for each component that a shader sees, red lowest: 0 to 3 is a component of

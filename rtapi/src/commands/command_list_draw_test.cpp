@@ -346,8 +346,9 @@ TEST_F(DrawTest, ViewsAreChecked) {
   EXPECT_ERROR(device_.CreateRenderTargetView(plain, Rtv(0)), "KA0730", "kAllowRenderTarget");
   EXPECT_ERROR(device_.CreateRenderTargetView(typeless, Rtv(0)), "KA0730", "typed format");
   EXPECT_OK(device_.CreateRenderTargetView(typeless, {.Format = Format::kR8G8B8A8Uint}, Rtv(0)));
-  EXPECT_ERROR(device_.CreateRenderTargetView(color, {.Format = Format::kR8G8B8A8Uint}, Rtv(0)),
-               "KA0730", "format 30");
+  EXPECT_OK(device_.CreateRenderTargetView(color, {.Format = Format::kR8G8B8A8Uint}, Rtv(0)));
+  EXPECT_ERROR(device_.CreateRenderTargetView(color, {.Format = Format::kR8G8B8A8Snorm}, Rtv(0)),
+               "KA0730", "format 31");
   EXPECT_ERROR(device_.CreateRenderTargetView(color, Dsv(0)), "KA0731", "kRtv");
   EXPECT_ERROR(device_.CreateDepthStencilView(color, Dsv(0)), "KA0730", "kAllowDepthStencil");
   EXPECT_ERROR(

@@ -277,8 +277,11 @@ TEST_F(DescriptorTest, TextureViewErrors) {
   EXPECT_ERROR(srv({.ViewDimension = SrvDimension::kTexture2DArray,
                     .Texture2DArray = {.FirstArraySlice = 5, .ArraySize = 2}}),
                "KA0630", "5..7");
-  EXPECT_ERROR(srv({.Format = Format::kR8G8B8A8Uint, .ViewDimension = SrvDimension::kTexture2D}),
-               "KA0626", "30", "28");
+  EXPECT_OK(srv({.Format = Format::kR8G8B8A8Uint, .ViewDimension = SrvDimension::kTexture2D}));
+  EXPECT_ERROR(srv({.Format = Format::kR8G8B8A8Snorm, .ViewDimension = SrvDimension::kTexture2D}),
+               "KA0626", "31", "28");
+  EXPECT_ERROR(srv({.Format = Format::kR32Uint, .ViewDimension = SrvDimension::kTexture2D}),
+               "KA0626", "42", "28");
   EXPECT_ERROR(srv({.ViewDimension = SrvDimension::kTexture2D, .Shader4ComponentMapping = 0x1687}),
                "KA0626", "component 7");
   EXPECT_ERROR(device_.CreateUnorderedAccessView(texture, slot_), "KA0627");
@@ -293,7 +296,11 @@ TEST_F(DescriptorTest, TextureViewErrors) {
   };
   EXPECT_OK(cast(Format::kBC4Typeless, Format::kBC4Snorm));
   EXPECT_OK(cast(Format::kBC7Typeless, Format::kBC7UnormSrgb));
-  EXPECT_ERROR(cast(Format::kBC7Unorm, Format::kBC7UnormSrgb), "KA0626", "99", "98");
+  EXPECT_OK(cast(Format::kBC7Unorm, Format::kBC7UnormSrgb));
+  EXPECT_ERROR(cast(Format::kBC4Unorm, Format::kBC4Snorm), "KA0626", "81", "80");
+  EXPECT_OK(cast(Format::kR32Sint, Format::kR32Uint));
+  EXPECT_ERROR(cast(Format::kR32Uint, Format::kR32Float), "KA0626", "41", "42");
+  EXPECT_ERROR(cast(Format::kR16G16Float, Format::kR16G16Unorm), "KA0626");
   EXPECT_ERROR(cast(Format::kBC7Typeless, Format::kBC3Unorm), "KA0626");
   EXPECT_ERROR(cast(Format::kBC1Typeless, Format::kR32G32Uint), "KA0626");
   EXPECT_OK(device_.CreateShaderResourceView(texture, slot_));

@@ -223,6 +223,17 @@ uint32_t format_family(Format format) {
   }
 }
 
+bool castable(Format resource, Format view) {
+  if (resource == view) return true;
+  if (format_family(resource) != format_family(view)) return false;
+  using C = FormatClass;
+  const C from = GetFormatInfo(resource).type, to = GetFormatInfo(view).type;
+  if (from == C::kTypeless) return true;
+  if (IsDepthFormat(resource)) return false;  // [RAS-71]
+  const auto among = [&](C a, C b) { return (from == a && to == b) || (from == b && to == a); };
+  return (from == C::kFloat) == (to == C::kFloat) && !among(C::kUnorm, C::kSnorm);
+}
+
 BufferImpl::~BufferImpl() {
   if (memory) device->addresses.erase(memory->address());
 }

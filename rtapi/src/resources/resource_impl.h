@@ -47,5 +47,8 @@ uint32_t array_size(const TextureDesc& desc);  // 1 for 3-D textures
 
 // Formats of one family share their texel layout; 0 for formats that belong to none.
 uint32_t format_family(Format format);
+// Returns whether views of a resource may have another format than it. [D3D12: Relaxed Format
+// Casting Rules]
+bool castable(Format resource, Format view);
 
 }  // namespace rtapi::detail

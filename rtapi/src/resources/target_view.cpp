@@ -33,12 +33,7 @@ Status check_format(const DeviceImpl& device, const Texture& texture, bool depth
                     Format format) {
   const TextureDesc& desc = texture.GetDesc();
   const FormatInfo info = GetFormatInfo(format);
-  // RGBA8 and its sRGB twin may stand for each other even in a typed texture.
-  // [RAS-118: test_srgb_unorm_mismatch_usage_aliasing]
-  const FormatInfo own = GetFormatInfo(desc.Format);
-  const bool twins = own.type == FormatClass::kUnorm && info.type == FormatClass::kUnorm;
-  const bool fits = format == desc.Format || ((own.type == FormatClass::kTypeless || twins) &&
-                                              format_family(format) == format_family(desc.Format));
+  const bool fits = castable(desc.Format, format);
   const bool right_kind = depth_stencil
                               ? IsDepthFormat(format)
                               : !IsDepthFormat(format) && info.type != FormatClass::kTypeless &&
@@ -47,7 +42,10 @@ Status check_format(const DeviceImpl& device, const Texture& texture, bool depth
     return make_error(Id::kTargetView, "view format ", static_cast<uint32_t>(format), " of ",
                       named("texture", desc.Name), " with format ",
                       static_cast<uint32_t>(desc.Format), "; it must be ",
-                      depth_stencil ? "the depth format" : "a typed format", " of that family");
+                      depth_stencil
+                          ? "the depth format"
+                          : "a typed format, FLOAT only for FLOAT and no SNORM for UNORM,",
+                      " of that family");
   }
   if (device.backend->supports_target(format, false)) return {};
   return make_error(Id::kTargetFormat, "view format ", static_cast<uint32_t>(format), " of ",

@@ -28,8 +28,6 @@ Status check_view_format(const DeviceImpl& device, const Texture& texture,
                          const TextureView& view) {
   const Format own = texture.GetDesc().Format;
   const FormatInfo info = GetFormatInfo(view.format);
-  const bool castable = view.format == own || (GetFormatInfo(own).type == FormatClass::kTypeless &&
-                                               format_family(own) == format_family(view.format));
   if (IsDepthFormat(view.format)) {
     return make_error(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
                       named("texture", texture.name()),
@@ -37,10 +35,13 @@ Status check_view_format(const DeviceImpl& device, const Texture& texture,
                       "typeless format of the family, and view it as R32_FLOAT, R16_UNORM, "
                       "R24_UNORM_X8_TYPELESS or R32_FLOAT_X8X24_TYPELESS");
   }
-  if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless || !castable) {
-    return make_error(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
-                      named("texture", texture.name()), " with format ", static_cast<uint32_t>(own),
-                      "; it must be the same, or a typed member of a typeless format's family");
+  if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless ||
+      !castable(own, view.format)) {
+    return make_error(
+        Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
+        named("texture", texture.name()), " with format ", static_cast<uint32_t>(own),
+        "; it must be the same, or a typed member of its family: FLOAT only for FLOAT, "
+        "and no SNORM for UNORM or the other way round");
   }
   if (!device.backend->supports_format(view.format, view.uav)) {
     return make_error(Id::kViewFormat, "the backend does not support ",

@@ -62,11 +62,11 @@ bool Image::typeless() const {
   return rtapi::GetFormatInfo(desc_.Format).type == rtapi::FormatClass::kTypeless;
 }
 
-// Typeless textures, and targets that may be drawn to as sRGB. [RAS-118]
+// Textures of which views may have another format. Those of floating point have no such relatives.
+// [D3D12: Relaxed Format Casting Rules]
 bool Image::mutable_format() const {
   if ((aspects_ & VK_IMAGE_ASPECT_COLOR_BIT) == 0) return false;
-  return typeless() || (rtapi::HasAny(desc_.Flags, rtapi::ResourceFlags::kAllowRenderTarget) &&
-                        rtapi::GetFormatInfo(desc_.Format).type == rtapi::FormatClass::kUnorm);
+  return rtapi::GetFormatInfo(desc_.Format).type != rtapi::FormatClass::kFloat;
 }
 
 std::string Image::description() const {
