@@ -128,16 +128,31 @@ struct CopyAccelerationStructureCommand {
       rtapi::RaytracingAccelerationStructureCopyMode::kClone;
 };
 
-// An operation of ExecuteIndirectRTASOperations, with the desc that its inputs pointed to.
+// The desc that the inputs of an operation pointed to.
+using RtasInputs =
+    std::variant<rtapi::RtasPartitionedTlasInputsDesc, rtapi::RtasClusterTrianglesInputsDesc,
+                 rtapi::RtasClasInputsDesc, rtapi::RtasClusterTemplateTrianglesInputsDesc,
+                 rtapi::RtasInstantiateClusterTemplateInputsDesc, rtapi::RtasClusterMovesDesc>;
+
+// An operation of ExecuteIndirectRTASOperations.
 struct RtasOperation {
-  rtapi::RtasPartitionedTlasInputsDesc inputs = {};
-  rtapi::RtasPartitionedTlasOperationData data = {};
+  RtasInputs inputs;
+  rtapi::RtasPartitionedTlasOperationData partitioned = {};  // partitioned top levels
+  rtapi::RtasBatchedOperationData batch = {};                // all others
+};
+
+// What an operation on clusters placed.
+struct RtasResult {
+  uint64_t address = 0;
+  uint64_t size_bytes = 0;
 };
 
 // EXPERIMENTAL. Operations whose arguments are in GPU memory; runtime/operations reads them when
 // the command executes.
 struct RtasOperationsCommand {
   std::vector<RtasOperation> operations;
+  // What the last execution placed but partitioned top levels, for checked mode.
+  std::shared_ptr<std::vector<RtasResult>> results = std::make_shared<std::vector<RtasResult>>();
 };
 
 struct CopyBufferCommand {

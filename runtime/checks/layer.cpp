@@ -408,23 +408,65 @@ void Layer::check(const runtime::CopyAccelerationStructureCommand& command) {
 // The operations' arguments are read, and reported, by what runs them.
 void Layer::check(const runtime::RtasOperationsCommand& command) {
   for (const runtime::RtasOperation& operation : command.operations) {
-    const rtapi::RtasPartitionedTlasOperationData& data = operation.data;
-    const auto sizes = runtime::operation_sizes(operation.inputs);
-    hazards_.use(data.IndirectPartitionedTlasOpCount, ResourceStates::kNonPixelShaderResource,
-                 "the number of operations");
-    if (data.IndirectPartitionedTlasOps != 0) {
-      hazards_.use(data.IndirectPartitionedTlasOps, ResourceStates::kNonPixelShaderResource,
-                   "the operations");
+    if (std::holds_alternative<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)) {
+      check_partitioned(operation);
+    } else {
+      check_batch(operation);
     }
-    const uint64_t scratch = data.ScratchAccelerationStructureData;
-    hazards_.use(scratch, ResourceStates::kUnorderedAccess, "the operation's scratch memory");
-    hazards_.use_scratch(scratch, sizes.ScratchDataSizeInBytes);
-    const uint64_t source = data.SourceAccelerationStructureData;
-    const uint64_t dest = data.DestAccelerationStructureData;
-    if (const uint64_t bytes = bytes_at(source); bytes != 0 && source != dest) {
-      hazards_.read_structure(source, bytes, "the operation's source");
-    }
-    hazards_.write_structure(dest, sizes.ResultDataMaxSizeInBytes, "the operation's destination");
+  }
+}
+
+void Layer::check_partitioned(const runtime::RtasOperation& operation) {
+  const rtapi::RtasPartitionedTlasOperationData& data = operation.partitioned;
+  const auto sizes = runtime::operation_sizes(operation.inputs);
+  hazards_.use(data.IndirectPartitionedTlasOpCount, ResourceStates::kNonPixelShaderResource,
+               "the number of operations");
+  if (data.IndirectPartitionedTlasOps != 0) {
+    hazards_.use(data.IndirectPartitionedTlasOps, ResourceStates::kNonPixelShaderResource,
+                 "the operations");
+  }
+  const uint64_t scratch = data.ScratchAccelerationStructureData;
+  hazards_.use(scratch, ResourceStates::kUnorderedAccess, "the operation's scratch memory");
+  hazards_.use_scratch(scratch, sizes.ScratchDataSizeInBytes);
+  const uint64_t source = data.SourceAccelerationStructureData;
+  const uint64_t dest = data.DestAccelerationStructureData;
+  if (const uint64_t bytes = bytes_at(source); bytes != 0 && source != dest) {
+    hazards_.read_structure(source, bytes, "the operation's source");
+  }
+  hazards_.write_structure(dest, sizes.ResultDataMaxSizeInBytes, "the operation's destination");
+}
+
+// What is at the addresses that are read from GPU memory is not followed.
+void Layer::check_batch(const runtime::RtasOperation& operation) {
+  using Resolution = rtapi::RtasOperationAddressResolutionFlags;
+  const rtapi::RtasBatchedOperationData& data = operation.batch;
+  const auto mode = runtime::facts_of(operation.inputs).mode;
+  const auto sizes = runtime::operation_sizes(operation.inputs);
+  const auto use = [&](uint64_t address, Resolution flag, ResourceStates state, const char* what) {
+    const bool indirected = HasAny(data.AddressResolutionFlags, flag);
+    if (address == 0) return;
+    hazards_.use(address, indirected ? ResourceStates::kNonPixelShaderResource : state, what);
+  };
+  use(data.IndirectArgumentArray.StartAddress, Resolution::kIndirectedIndirectArgumentArray,
+      ResourceStates::kNonPixelShaderResource, "the operation's arguments");
+  use(data.IndirectArgumentArraySize, Resolution::kIndirectedIndirectArgumentCount,
+      ResourceStates::kNonPixelShaderResource, "the number of arguments");
+  use(data.ResultSizeArray.StartAddress, Resolution::kIndirectedResultSizeArray,
+      ResourceStates::kUnorderedAccess, "the array of result sizes");
+  const bool implicit = mode == rtapi::RtasOperationMode::kImplicitDestinations;
+  if (mode != rtapi::RtasOperationMode::kGetSizes) {
+    use(data.ResultAddressArray.StartAddress, Resolution::kIndirectedDestinationAddressArray,
+        implicit ? ResourceStates::kUnorderedAccess : ResourceStates::kNonPixelShaderResource,
+        "the array of result addresses");
+  }
+  if (!HasAny(data.AddressResolutionFlags, Resolution::kIndirectedBatchScratch)) {
+    hazards_.use(data.BatchScratchData, ResourceStates::kUnorderedAccess,
+                 "the operation's scratch memory");
+    hazards_.use_scratch(data.BatchScratchData, sizes.ScratchDataSizeInBytes);
+  }
+  if (implicit && !HasAny(data.AddressResolutionFlags, Resolution::kIndirectedBatchResult)) {
+    hazards_.write_structure(data.BatchResultData, sizes.ResultDataMaxSizeInBytes,
+                             "the operation's results");
   }
 }
 
@@ -477,8 +519,12 @@ void Layer::note(const runtime::CopyAccelerationStructureCommand& command) {
 
 void Layer::note(const runtime::RtasOperationsCommand& command) {
   for (const runtime::RtasOperation& operation : command.operations) {
-    structures_.partitioned(operation,
-                            runtime::operation_sizes(operation.inputs).ResultDataMaxSizeInBytes);
+    if (!std::holds_alternative<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)) continue;
+    structures_.operated(operation.partitioned.DestAccelerationStructureData,
+                         runtime::operation_sizes(operation.inputs).ResultDataMaxSizeInBytes, true);
+  }
+  for (const runtime::RtasResult& result : *command.results) {
+    structures_.operated(result.address, result.size_bytes, false);
   }
 }
 

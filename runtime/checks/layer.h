@@ -65,6 +65,8 @@ class Layer : public runtime::CommandObserver {
   void check(const runtime::EmitPostbuildInfoCommand& command);
   void check(const runtime::CopyAccelerationStructureCommand& command);
   void check(const runtime::RtasOperationsCommand& command);
+  void check_partitioned(const runtime::RtasOperation& operation);
+  void check_batch(const runtime::RtasOperation& operation);
   void check(const runtime::CopyBufferCommand& command);
   void check(const runtime::CopyTextureCommand& command);
   void check(const runtime::ClearUavCommand& command);

@@ -138,11 +138,11 @@ void Structures::copied(const runtime::CopyAccelerationStructureCommand& command
   place(std::move(structure));
 }
 
-void Structures::partitioned(const runtime::RtasOperation& operation, uint64_t size_bytes) {
+void Structures::operated(uint64_t address, uint64_t size_bytes, bool top) {
   TrackedStructure structure;
-  structure.address = operation.data.DestAccelerationStructureData;
+  structure.address = address;
   structure.size_bytes = size_bytes;
-  structure.top = true;
+  structure.top = top;
   structure.known = false;
   place(std::move(structure));
 }

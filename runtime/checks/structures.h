@@ -75,8 +75,8 @@ class Structures {
              std::vector<GeometryContents> contents,
              const std::vector<rtapi::RaytracingInstanceDesc>& instances);
   void copied(const runtime::CopyAccelerationStructureCommand& command, uint64_t size_bytes);
-  // A partitioned top level, whose instances only the backend knows.
-  void partitioned(const runtime::RtasOperation& operation, uint64_t size_bytes);
+  // What an operation made, whose contents only the backend knows. `top`: a partitioned top level.
+  void operated(uint64_t address, uint64_t size_bytes, bool top);
   // A command of the list wrote something else there.
   void written(uint64_t address, uint64_t size_bytes) { end_in(address, size_bytes, 0); }
 

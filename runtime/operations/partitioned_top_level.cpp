@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <new>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "runtime/backend/dispatch_checks.h"
 #include "runtime/operations/notes.h"
@@ -64,8 +64,8 @@ class Builder {
           const std::string& label)
       : environment_(environment),
         addresses_(*environment.context.addresses),
-        data_(operation.data),
-        inputs_(operation.inputs),
+        data_(operation.partitioned),
+        inputs_(std::get<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)),
         notes_(environment, label) {}
 
   rtapi::Status run(const RebuildLevel& build);
@@ -527,12 +527,7 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
 rtapi::Status build_partitioned(const StructureEnvironment& environment,
                                 const RtasOperation& operation, const std::string& label,
                                 const RebuildLevel& build) {
-  try {
-    return Builder(environment, operation, label).run(build);
-  } catch (const std::bad_alloc&) {
-    return make_error(Id::kOutOfMemory,
-                      label + ": a partitioned top level could not be allocated.");
-  }
+  return Builder(environment, operation, label).run(build);
 }
 
 }  // namespace kaamos::runtime

@@ -67,15 +67,6 @@ uint32_t index_bytes(rtapi::Format format) {
 
 constexpr int64_t kLastSpecial = static_cast<int64_t>(SpecialIndex::kClusterSkip);
 
-// The value of an index as it lies in memory: special ones are negative in every format.
-int64_t load_index(const uint8_t* in, uint32_t bytes) {
-  uint32_t value = 0;
-  std::memcpy(&value, in, bytes);
-  const int64_t all = (int64_t{1} << 8 * bytes) - 1;
-  const int64_t special = static_cast<int64_t>(value) - all - 1;
-  return special >= kLastSpecial ? special : value;
-}
-
 rtapi::Result<std::shared_ptr<MicromapLinkage>> read_linkage(
     const StructureEnvironment& environment, const BuildCommand& command, uint32_t geometry) {
   const AddressMap& addresses = *environment.context.addresses;
@@ -102,8 +93,8 @@ rtapi::Result<std::shared_ptr<MicromapLinkage>> read_linkage(
   Problem missing;
   Problem skipped;
   for (uint64_t i = 0; i < triangles; ++i) {
-    const int64_t index =
-        indexed ? load_index(in + i * buffer.StrideInBytes, bytes) : static_cast<int64_t>(i);
+    const int64_t index = indexed ? load_micromap_index(in + i * buffer.StrideInBytes, bytes)
+                                  : static_cast<int64_t>(i);
     // The base is not added to special indices.
     const int64_t value = index < 0 ? index : index + desc.OpacityMicromapBaseLocation;
     linkage->indices[i] =
@@ -134,6 +125,14 @@ rtapi::Result<std::shared_ptr<MicromapLinkage>> read_linkage(
 }
 
 }  // namespace
+
+int64_t load_micromap_index(const uint8_t* in, uint32_t bytes) {
+  uint32_t value = 0;
+  std::memcpy(&value, in, bytes);
+  const int64_t all = (int64_t{1} << 8 * bytes) - 1;
+  const int64_t special = static_cast<int64_t>(value) - all - 1;
+  return special >= kLastSpecial ? special : value;
+}
 
 rtapi::Result<std::shared_ptr<const MicromapArray>> read_micromaps(
     const StructureEnvironment& environment, const BuildCommand& command) {

@@ -5,6 +5,7 @@
 // that any-hit shaders decide, with a warning.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,9 @@
 namespace kaamos::runtime {
 
 struct StructureEnvironment;
+
+// An index as it lies in memory, of 1, 2 or 4 bytes: special ones are negative in every format.
+int64_t load_micromap_index(const uint8_t* in, uint32_t bytes);
 
 // Error KA0790: the descs lie outside the live allocations. Warning KA0799: a micromap that cannot
 // be read, or a histogram that does not fit.

@@ -38,6 +38,7 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
   const AddressMap& addresses = *environment.context.addresses;
   auto source = environment.structures.find(command.source);
   if (source == nullptr || source->micromaps != nullptr || source->partitioned != nullptr ||
+      source->is_cluster_object() ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
     return make_error(Id::kUpdate, "there is no acceleration structure of this type " +
                                        at_address(addresses, command.source) + ".");
@@ -244,10 +245,14 @@ rtapi::Status emit_postbuild_info(
                         "postbuild info is requested, but there is no acceleration structure " +
                             at_address(*environment.context.addresses, source) + ".");
     }
-    if (structure->partitioned != nullptr) {
+    if (structure->partitioned != nullptr || structure->is_cluster_object()) {
       return make_error(Id::kStructureSource,
-                        "there is no postbuild info of partitioned top levels, and one is " +
-                            at_address(*environment.context.addresses, source) + ".");
+                        std::string("there is no postbuild info of ") +
+                            (structure->partitioned != nullptr
+                                 ? "partitioned top levels"
+                                 : "clusters, templates and bottom levels of clusters") +
+                            ", and one is " + at_address(*environment.context.addresses, source) +
+                            ".");
     }
     uint64_t bytes = 0;
     if (auto s = write_info(environment, address, desc.InfoType, *structure, bytes); !s) return s;

@@ -141,6 +141,11 @@ rtapi::Status copy(const StructureEnvironment& environment,
                           " cannot be copied; an operation with it as the source and another "
                           "destination makes a second one.");
   }
+  if (source->is_cluster_object()) {
+    return make_error(Id::kStructureSource, "what an operation on clusters made " +
+                                                at_address(addresses, command.source) +
+                                                " cannot be copied or serialized.");
+  }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
                       "the serialized acceleration structure", "kSerialization");

@@ -73,8 +73,11 @@ struct TopLevelBase {
 };
 
 struct PartitionedTopLevel;  // runtime/operations/partitioned_top_level.h
+struct Cluster;              // runtime/structures/cluster.h
+struct ClusterTemplate;      // runtime/structures/cluster.h
 
-// The structure at an address. Exactly one of the two levels and the micromaps is set.
+// The structure at an address. Exactly one of the two levels, the micromaps, the cluster and the
+// template is set.
 struct AccelerationStructure {
   uint64_t address = 0;
   uint8_t* host = nullptr;       // the same address for the host
@@ -84,7 +87,11 @@ struct AccelerationStructure {
   std::shared_ptr<BottomLevelBase> bottom_level;
   std::shared_ptr<const TopLevelBase> top_level;
   std::shared_ptr<const MicromapArray> micromaps;
-  // Bottom levels: by geometry, null for those without; empty if none has one.
+  std::shared_ptr<const Cluster> cluster;
+  std::shared_ptr<const ClusterTemplate> cluster_template;
+  // Bottom levels: it was built from clusters.
+  bool of_clusters = false;
+  // Bottom levels: by geometry, null for those without; empty if none has one. Clusters: theirs.
   std::vector<std::shared_ptr<MicromapLinkage>> linkages;
   uint32_t instance_count = 0;  // top levels: NumDescs
   // Top levels: the records as the build read them. Trees keep neither the addresses nor inactive
@@ -95,6 +102,11 @@ struct AccelerationStructure {
   // Deserialized top levels: how many instances had no bottom level at their address yet.
   uint32_t missing_bottom_levels = 0;
   bool missing_reported = false;
+
+  // It comes from an operation on clusters.
+  bool is_cluster_object() const {
+    return of_clusters || cluster != nullptr || cluster_template != nullptr;
+  }
 };
 
 class StructureMap {

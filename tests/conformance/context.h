@@ -194,6 +194,7 @@ std::vector<RuleTest> ser_compile_tests();
 std::vector<RuleTest> omm_tests();
 std::vector<RuleTest> top_tests();
 std::vector<RuleTest> ptl_tests();
+std::vector<RuleTest> cls_tests();
 std::vector<RuleTest> omm_build_tests();
 std::vector<RuleTest> err_tests();
 std::vector<RuleTest> ras_assembler_tests();

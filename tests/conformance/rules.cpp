@@ -13,6 +13,7 @@ constexpr Rule kRules[] = {
 #include "tests/conformance/rules.inc"
 #define LATER(section, number, tag, title, reason) \
   {#section "-" #number, #tag[0], title, nullptr, nullptr, reason},
+#include "tests/conformance/cls_rules.inc"
 #include "tests/conformance/omm_rules.inc"
 #include "tests/conformance/ptl_rules.inc"
 #include "tests/conformance/ras_rules.inc"
@@ -23,7 +24,7 @@ constexpr Rule kRules[] = {
 };
 
 static_assert(std::count_if(std::begin(kRules), std::end(kRules),
-                            [](const Rule& rule) { return rule.tag == 'R'; }) == 523);
+                            [](const Rule& rule) { return rule.tag == 'R'; }) == 567);
 
 }  // namespace
 

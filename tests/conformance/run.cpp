@@ -112,6 +112,7 @@ std::vector<Section> all_sections() {
           {"omm_build", omm_build_tests()},
           {"top", top_tests()},
           {"ptl", ptl_tests()},
+          {"cls", cls_tests()},
           {"so", so_tests()},
           {"so_collection", so_collection_tests()},
           {"so_object", so_object_tests()},

@@ -15,7 +15,21 @@ void use_memory(CommandListImpl& list, const char* call, const runtime::RtasOper
   const auto use = [&](GpuVirtualAddress address, const char* what) {
     if (address != 0) list.use(call, address, concat("operation ", index, " ", what));
   };
-  const RtasPartitionedTlasOperationData& data = operation.data;
+  if (!is_partitioned(operation)) {
+    const RtasBatchedOperationData& data = operation.batch;
+    const auto mode = mode_of(operation);
+    if (mode == RtasOperationMode::kImplicitDestinations) use(data.BatchResultData, "results");
+    if (mode != RtasOperationMode::kGetSizes) {
+      use(data.ResultAddressArray.StartAddress, "result addresses");
+    }
+    use(data.BatchScratchData, "scratch");
+    use(data.ResultSizeArray.StartAddress, "result sizes");
+    use(data.IndirectArgumentArray.StartAddress, "arguments");
+    use(data.IndirectArgumentArraySize, "count");
+    use(data.ToolsInfo, "tools info");
+    return;
+  }
+  const RtasPartitionedTlasOperationData& data = operation.partitioned;
   use(data.SourceAccelerationStructureData, "source");
   use(data.DestAccelerationStructureData, "dest");
   use(data.ScratchAccelerationStructureData, "scratch");
@@ -43,7 +57,11 @@ void CommandList::ExecuteIndirectRTASOperations(std::span<const RtasOperationDes
     }
     auto operation = describe_operation(device, *desc.pInputs);
     if (!operation) return impl_->fail(operation.error());
-    operation->data = *desc.pPartitionedTlasOperationData;
+    if (is_partitioned(*operation)) {
+      operation->partitioned = *desc.pPartitionedTlasOperationData;
+    } else {
+      operation->batch = *desc.pBatchedOperationData;
+    }
     if (Status s = check_operation_data(device, *operation); !s.ok()) return impl_->fail(s.error());
     use_memory(*impl_, kCall, *operation, i);
     command.operations.push_back(*std::move(operation));

@@ -4,6 +4,8 @@
 // memory.
 #pragma once
 
+#include <variant>
+
 #include <rtapi/result.h>
 #include <rtapi/rtas_operations.h>
 
@@ -11,6 +13,13 @@
 #include "runtime/backend/commands.h"
 
 namespace rtapi::detail {
+
+inline bool is_partitioned(const runtime::RtasOperation& operation) {
+  return std::holds_alternative<RtasPartitionedTlasInputsDesc>(operation.inputs);
+}
+
+// Where the results go; not of partitioned top levels.
+RtasOperationMode mode_of(const runtime::RtasOperation& operation);
 
 // Checks inputs and copies the desc that they point to. KA0549, KA0748.
 Result<runtime::RtasOperation> describe_operation(const DeviceImpl& device,
