@@ -440,7 +440,8 @@ void Layer::check_partitioned(const runtime::RtasOperation& operation) {
 void Layer::check_batch(const runtime::RtasOperation& operation) {
   using Resolution = rtapi::RtasOperationAddressResolutionFlags;
   const rtapi::RtasBatchedOperationData& data = operation.batch;
-  const auto mode = runtime::facts_of(operation.inputs).mode;
+  const auto facts = runtime::facts_of(operation.inputs);
+  const auto mode = facts.mode;
   const auto sizes = runtime::operation_sizes(operation.inputs);
   const auto use = [&](uint64_t address, Resolution flag, ResourceStates state, const char* what) {
     const bool indirected = HasAny(data.AddressResolutionFlags, flag);
@@ -465,8 +466,7 @@ void Layer::check_batch(const runtime::RtasOperation& operation) {
     hazards_.use_scratch(data.BatchScratchData, sizes.ScratchDataSizeInBytes);
   }
   if (implicit && !HasAny(data.AddressResolutionFlags, Resolution::kIndirectedBatchResult)) {
-    hazards_.write_structure(data.BatchResultData, sizes.ResultDataMaxSizeInBytes,
-                             "the operation's results");
+    hazards_.write_structure(data.BatchResultData, facts.all_bytes, "the operation's results");
   }
 }
 

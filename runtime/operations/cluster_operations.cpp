@@ -8,6 +8,8 @@
 
 #include "runtime/operations/batch.h"
 #include "runtime/operations/cluster_level.h"
+#include "runtime/operations/cluster_moves.h"
+#include "runtime/operations/cluster_templates.h"
 #include "runtime/operations/cluster_triangles.h"
 
 namespace kaamos::runtime {
@@ -71,10 +73,61 @@ Status make(const rtapi::RtasClasInputsDesc& inputs, Run& run) {
   return {};
 }
 
-// The others are refused when they are recorded.
-template <class Inputs>
-Status make(const Inputs&, Run&) {
+Status make(const rtapi::RtasClusterTemplateTrianglesInputsDesc& inputs, Run& run) {
+  TemplateReader reader(run.environment, inputs, run.notes);
+  for (uint32_t i = 0; i < run.batch.count(); ++i) {
+    const auto args = run.batch.read<rtapi::RtasBuildClusterTemplatesFromTrianglesArgs>(i);
+    if (!reader.check_counts(args, i)) continue;
+    const auto& counts = args.TrianglesArgs;
+    const uint64_t bytes = kTemplateSize.of(counts.TriangleCount, counts.VertexCount);
+    if (run.batch.only_sizes()) {
+      run.objects[i].bytes = bytes;
+    } else if (auto made = reader.read(args, i)) {
+      run.objects[i].bytes = bytes;
+      run.objects[i].structure.cluster_template = std::move(made);
+    }
+  }
   return {};
+}
+
+Status make(const rtapi::RtasInstantiateClusterTemplateInputsDesc& inputs, Run& run) {
+  TemplateInstantiator instantiator(run.environment, inputs, run.notes);
+  for (uint32_t i = 0; i < run.batch.count(); ++i) {
+    const auto args = run.batch.read<rtapi::RtasInstantiateClusterTemplatesArgs>(i);
+    const auto from = instantiator.find(args, i);
+    if (from == nullptr) continue;
+    const uint64_t bytes = kClusterSize.of(from->cluster.triangles(), from->vertices);
+    if (run.batch.only_sizes()) {
+      run.objects[i].bytes = bytes;
+    } else if (auto made = instantiator.make(*from, args, i)) {
+      keep(run.objects[i], bytes, std::move(made));
+    }
+  }
+  return {};
+}
+
+Status make(const rtapi::RtasClusterMovesDesc& inputs, Run& run) {
+  ClusterMover mover(run.environment, inputs, run.notes);
+  for (uint32_t i = 0; i < run.batch.count(); ++i) {
+    const auto args = run.batch.read<rtapi::RtasMoveClusterObjectsArgs>(i);
+    if (const auto source = mover.find(args, i)) {
+      run.objects[i].bytes = source->size_bytes;
+      if (!run.batch.only_sizes()) run.objects[i].structure = *source;
+    }
+  }
+  return {};
+}
+
+// The inputs of partitioned top levels make no batch.
+Status make(const rtapi::RtasPartitionedTlasInputsDesc&, Run&) {
+  return {};
+}
+
+// What only shows once all destinations are known.
+void check_overlaps(const RtasOperation& operation, const Run& run,
+                    const std::vector<RtasResult>& sources, std::vector<RtasResult> placed) {
+  const auto* moves = std::get_if<rtapi::RtasClusterMovesDesc>(&operation.inputs);
+  if (moves != nullptr) note_overlapping_moves(*moves, sources, std::move(placed), run.notes);
 }
 
 }  // namespace
@@ -89,7 +142,13 @@ Status run_cluster_operation(const StructureEnvironment& environment,
   const Status status =
       std::visit([&](const auto& inputs) { return make(inputs, run); }, operation.inputs);
   if (!status.ok()) return status;
+  std::vector<RtasResult> sources;
+  for (const BatchObject& object : run.objects) {
+    sources.push_back({object.structure.address, object.bytes});
+  }
+  const auto before = static_cast<std::ptrdiff_t>(results.size());
   batch.finish(std::move(run.objects), results);
+  check_overlaps(operation, run, sources, {results.begin() + before, results.end()});
   return {};
 }
 

@@ -619,9 +619,11 @@ std::vector<RuleTest> cls_tests() {
                                {"CLS-35, CLS-36", records},
                                {"CLS-36", largest_geometry},
                                {"CLS-37", flags_of_triangles},
-                               {"CLS-38", data_access},
+                               {"CLS-38, TOP-11", data_access},
                                {"CLS-40", rebuilt}};
-  for (const RuleTest& test : memory_tests()) all.push_back(test);
+  for (const auto& more : {memory_tests(), template_tests()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 

@@ -23,6 +23,9 @@ using Flags = RtasOperationFlags;
 
 RtasOperationInputs inputs_of(const TrianglesDesc& desc);
 RtasOperationInputs inputs_of(const RtasClasInputsDesc& desc);
+RtasOperationInputs inputs_of(const RtasClusterTemplateTrianglesInputsDesc& desc);
+RtasOperationInputs inputs_of(const RtasInstantiateClusterTemplateInputsDesc& desc);
+RtasOperationInputs inputs_of(const RtasClusterMovesDesc& desc);
 
 // Room for `count` clusters of every size.
 TrianglesDesc triangles_desc(uint32_t count = 8, Flags flags = Flags::kNone);
@@ -79,6 +82,8 @@ std::vector<Seen> look(Context& t, const Buffer& top, const std::vector<float>& 
 // t of the first hit; -1: a miss.
 std::vector<float> depths_at(Context& t, const Buffer& top, const std::vector<float>& places);
 
+// The tests of cls_tests that are about templates and moves.
+std::vector<RuleTest> template_tests();
 // The tests of cls_tests that are about arguments and results in GPU memory.
 std::vector<RuleTest> memory_tests();
 

@@ -17,6 +17,27 @@ RtasOperationInputs inputs_of(const RtasClasInputsDesc& desc) {
   return in;
 }
 
+RtasOperationInputs inputs_of(const RtasClusterTemplateTrianglesInputsDesc& desc) {
+  RtasOperationInputs in;
+  in.Type = Type::kBuildClusterTemplatesFromTriangles;
+  in.pClusterTemplateTrianglesDesc = &desc;
+  return in;
+}
+
+RtasOperationInputs inputs_of(const RtasInstantiateClusterTemplateInputsDesc& desc) {
+  RtasOperationInputs in;
+  in.Type = Type::kInstantiateClusterTemplates;
+  in.pInstantiateClusterTemplateDesc = &desc;
+  return in;
+}
+
+RtasOperationInputs inputs_of(const RtasClusterMovesDesc& desc) {
+  RtasOperationInputs in;
+  in.Type = Type::kMoveClusterObjects;
+  in.pClusterMovesDesc = &desc;
+  return in;
+}
+
 TrianglesDesc triangles_desc(uint32_t count, Flags flags) {
   TrianglesDesc desc;
   desc.Limits = {count, kRtasMaximumGeometryIndex, 256, 256, 256, 256 * count, 256 * count, 256};

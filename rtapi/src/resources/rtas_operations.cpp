@@ -118,12 +118,10 @@ Status check_vertex_format(const char* what, RtasVertexFormat format, bool may_b
 
 constexpr uint32_t kClusterFlags = 0x50C;  // all of RtasOperationFlags
 
-Status check_inputs(const RtasClusterTrianglesInputsDesc& desc) {
-  Status s = check_mode(desc.Mode);
-  if (s.ok()) s = check_flags(desc.Flags, kClusterFlags);
-  if (s.ok()) s = check_limits(desc.Limits);
-  if (s.ok()) s = check_vertex_format("VertexFormat", desc.VertexFormat, false);
-  if (s.ok()) s = check_index_format("IndexFormat", desc.IndexFormat, false);
+// Of the inputs of clusters and of templates.
+template <class Desc>
+Status check_index_formats(const Desc& desc) {
+  Status s = check_index_format("IndexFormat", desc.IndexFormat, false);
   if (s.ok()) {
     s = check_index_format("GeometryIndexAndFlagsIndexFormat",
                            desc.GeometryIndexAndFlagsIndexFormat, true);
@@ -132,6 +130,46 @@ Status check_inputs(const RtasClusterTrianglesInputsDesc& desc) {
     s = check_index_format("OpacityMicromapIndexFormat", desc.OpacityMicromapIndexFormat, true);
   }
   return s;
+}
+
+Status check_inputs(const RtasClusterTrianglesInputsDesc& desc) {
+  Status s = check_mode(desc.Mode);
+  if (s.ok()) s = check_flags(desc.Flags, kClusterFlags);
+  if (s.ok()) s = check_limits(desc.Limits);
+  if (s.ok()) s = check_vertex_format("VertexFormat", desc.VertexFormat, false);
+  if (s.ok()) s = check_index_formats(desc);
+  return s;
+}
+
+Status check_inputs(const RtasClusterTemplateTrianglesInputsDesc& desc) {
+  Status s = check_mode(desc.Mode);
+  if (s.ok()) s = check_flags(desc.Flags, kClusterFlags);
+  if (s.ok()) s = check_limits(desc.Limits);
+  if (s.ok()) s = check_vertex_format("VertexHintFormat", desc.VertexHintFormat, true);
+  if (s.ok()) {
+    s = check_vertex_format("VertexInstantiationFormat", desc.VertexInstantiationFormat, false);
+  }
+  if (s.ok()) s = check_index_formats(desc);
+  return s;
+}
+
+Status check_inputs(const RtasInstantiateClusterTemplateInputsDesc& desc) {
+  Status s = check_mode(desc.Mode);
+  if (s.ok()) s = check_flags(desc.Flags, kClusterFlags);
+  if (s.ok()) s = check_limits(desc.Limits);
+  if (s.ok()) s = check_vertex_format("VertexSourceFormat", desc.VertexSourceFormat, false);
+  return s;
+}
+
+Status check_inputs(const RtasClusterMovesDesc& desc) {
+  if (Status s = check_mode(desc.Mode); !s.ok()) return s;
+  const auto flags = static_cast<uint32_t>(desc.Flags);
+  if ((flags & ~0x600u) != 0) {
+    return bad_inputs("Flags are ", hex(flags), "; only the bits of 0x600 are defined for moves");
+  }
+  if (desc.Type <= RtasMoveOperationType::kClusterTemplate) return {};
+  return bad_inputs("the moves' Type is ", static_cast<uint32_t>(desc.Type),
+                    "; it must be 0, 1 or 2");
 }
 
 Status check_inputs(const RtasClasInputsDesc& desc) {
@@ -214,7 +252,7 @@ class BatchChecks {
     Status s;
     if (implicit && !indirected(data_.BatchResultData, Resolution::kIndirectedBatchResult,
                                 "BatchResultData", s)) {
-      s = check_structure(device_, data_.BatchResultData, sizes_.ResultDataMaxSizeInBytes,
+      s = check_structure(device_, data_.BatchResultData, facts_.all_bytes,
                           static_cast<uint32_t>(facts_.alignment), "BatchResultData");
     }
     if (s.ok() && !sizes_only) {
@@ -279,11 +317,14 @@ Result<RtasOperation> describe_operation(const DeviceImpl& device,
       return copy_inputs(inputs.pClusterTrianglesDesc, "pClusterTrianglesDesc");
     case RtasOperationType::kBuildBlasFromClas:
       return copy_inputs(inputs.pClasDesc, "pClasDesc");
-    default:
-      return bad_inputs("Type is ", static_cast<uint32_t>(inputs.Type),
-                        "; only kBuildBlasFromClas (1), kBuildClasFromTriangles (2) and "
-                        "kPartitionedTlas (8) are offered so far");
+    case RtasOperationType::kBuildClusterTemplatesFromTriangles:
+      return copy_inputs(inputs.pClusterTemplateTrianglesDesc, "pClusterTemplateTrianglesDesc");
+    case RtasOperationType::kInstantiateClusterTemplates:
+      return copy_inputs(inputs.pInstantiateClusterTemplateDesc, "pInstantiateClusterTemplateDesc");
+    case RtasOperationType::kMoveClusterObjects:
+      return copy_inputs(inputs.pClusterMovesDesc, "pClusterMovesDesc");
   }
+  return bad_inputs("Type is ", static_cast<uint32_t>(inputs.Type), "; it must be 0 to 4, or 8");
 }
 
 }  // namespace detail
