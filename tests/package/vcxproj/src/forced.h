@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// Included by the project into every source.
+#pragma once
+
+#define FORCED 7
