@@ -202,7 +202,9 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   bool offers(REFIID riid) const override;
 
  private:
-  HRESULT create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, REFIID riid,
+  // `depth_stencil` counts instead of the one in `desc`.
+  HRESULT create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc,
+                          const D3D12_DEPTH_STENCIL_DESC2& depth_stencil, REFIID riid,
                           void** pipeline);
   HRESULT create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, REFIID riid,
                          void** pipeline);

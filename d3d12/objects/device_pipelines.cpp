@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <directx/d3dx12.h>
+
 #include "d3d12/com/blob.h"
 #include "d3d12/container/container.h"
 #include "d3d12/container/root_signature_blob.h"
@@ -89,12 +91,25 @@ rtapi::RasterizerDesc rasterizer_desc(const D3D12_RASTERIZER_DESC& desc) {
   return out;
 }
 
-rtapi::DepthStencilDesc depth_stencil_desc(const D3D12_DEPTH_STENCIL_DESC& desc) {
+rtapi::DepthStencilOpDesc stencil_face(const D3D12_DEPTH_STENCILOP_DESC1& desc) {
+  rtapi::DepthStencilOpDesc out;
+  out.StencilFailOp = static_cast<rtapi::StencilOp>(desc.StencilFailOp);
+  out.StencilDepthFailOp = static_cast<rtapi::StencilOp>(desc.StencilDepthFailOp);
+  out.StencilPassOp = static_cast<rtapi::StencilOp>(desc.StencilPassOp);
+  out.StencilFunc = static_cast<rtapi::ComparisonFunc>(desc.StencilFunc);
+  out.StencilReadMask = desc.StencilReadMask;
+  out.StencilWriteMask = desc.StencilWriteMask;
+  return out;
+}
+
+rtapi::DepthStencilDesc depth_stencil_desc(const D3D12_DEPTH_STENCIL_DESC2& desc) {
   rtapi::DepthStencilDesc out;
   out.DepthEnable = desc.DepthEnable != FALSE;
   out.DepthWriteMask = static_cast<rtapi::DepthWriteMask>(desc.DepthWriteMask);
   out.DepthFunc = static_cast<rtapi::ComparisonFunc>(desc.DepthFunc);
   out.StencilEnable = desc.StencilEnable != FALSE;
+  out.FrontFace = stencil_face(desc.FrontFace);
+  out.BackFace = stencil_face(desc.BackFace);
   return out;
 }
 
@@ -155,10 +170,14 @@ HRESULT Device::create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, RE
   return hand_out(new PipelineState(this, *made, identity), riid, pipeline);
 }
 
-HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, REFIID riid,
+HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc,
+                                const D3D12_DEPTH_STENCIL_DESC2& depth_stencil, REFIID riid,
                                 void** pipeline) {
   if (const rtapi::Status status = check_graphics(desc); !status) return fail(status.error());
-  const Identity identity = pipeline_identity(desc);
+  if (depth_stencil.DepthBoundsTestEnable != FALSE) {
+    return fail(ErrorId::kPipeline, "DepthBoundsTestEnable is true; there is no such test here.");
+  }
+  const Identity identity = pipeline_identity(desc, depth_stencil);
   const HRESULT cached = check_cached_pipeline(device_, desc.CachedPSO, identity, reporter());
   if (FAILED(cached)) return cached;
   rtapi::GraphicsPipelineStateDesc out;
@@ -174,7 +193,7 @@ HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc, 
   out.BlendState = blend_desc(desc.BlendState);
   out.SampleMask = desc.SampleMask;
   out.RasterizerState = rasterizer_desc(desc.RasterizerState);
-  out.DepthStencilState = depth_stencil_desc(desc.DepthStencilState);
+  out.DepthStencilState = depth_stencil_desc(depth_stencil);
   for (UINT i = 0; i < desc.InputLayout.NumElements; ++i) {
     const D3D12_INPUT_ELEMENT_DESC& element = desc.InputLayout.pInputElementDescs[i];
     out.InputLayout.push_back({element.SemanticName != nullptr ? element.SemanticName : "",
@@ -205,7 +224,8 @@ HRESULT Device::CreateGraphicsPipelineState(const D3D12_GRAPHICS_PIPELINE_STATE_
                                             REFIID riid, void** pipeline) {
   if (pipeline != nullptr) *pipeline = nullptr;
   if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateGraphicsPipelineState: pDesc.");
-  return create_graphics(*desc, riid, pipeline);
+  return create_graphics(*desc, CD3DX12_DEPTH_STENCIL_DESC2(desc->DepthStencilState), riid,
+                         pipeline);
 }
 
 HRESULT Device::CreatePipelineState(const D3D12_PIPELINE_STATE_STREAM_DESC* desc, REFIID riid,
@@ -215,7 +235,7 @@ HRESULT Device::CreatePipelineState(const D3D12_PIPELINE_STATE_STREAM_DESC* desc
   const auto parsed = parse_pipeline_stream(*desc, "CreatePipelineState");
   if (!parsed) return fail(parsed.error());
   if (parsed->compute) return create_compute(*parsed->compute, riid, pipeline);
-  return create_graphics(*parsed->graphics, riid, pipeline);
+  return create_graphics(*parsed->graphics, parsed->depth_stencil, riid, pipeline);
 }
 
 HRESULT PipelineState::GetCachedBlob(ID3DBlob** blob) {

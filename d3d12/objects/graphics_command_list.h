@@ -130,9 +130,8 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
                                             BOOL single_handle,
                                             const D3D12_CPU_DESCRIPTOR_HANDLE* depth) override;
   void STDMETHODCALLTYPE OMSetBlendFactor(const FLOAT factor[4]) override;
-  // There is no stencil test: pipelines that have one are refused.
-  void STDMETHODCALLTYPE OMSetStencilRef(UINT) override {}
-  void STDMETHODCALLTYPE OMSetFrontAndBackStencilRef(UINT, UINT) override {}
+  void STDMETHODCALLTYPE OMSetStencilRef(UINT reference) override;
+  void STDMETHODCALLTYPE OMSetFrontAndBackStencilRef(UINT front, UINT back) override;
   void STDMETHODCALLTYPE ClearRenderTargetView(D3D12_CPU_DESCRIPTOR_HANDLE view,
                                                const FLOAT color[4], UINT rect_count,
                                                const D3D12_RECT* rects) override;

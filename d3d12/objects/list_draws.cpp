@@ -53,6 +53,14 @@ void GraphicsCommandList::OMSetBlendFactor(const FLOAT factor[4]) {
   list_.OMSetBlendFactor(factor);
 }
 
+void GraphicsCommandList::OMSetStencilRef(UINT reference) {
+  list_.OMSetStencilRef(reference);
+}
+
+void GraphicsCommandList::OMSetFrontAndBackStencilRef(UINT front, UINT back) {
+  list_.OMSetFrontAndBackStencilRef(front, back);
+}
+
 void GraphicsCommandList::ClearRenderTargetView(D3D12_CPU_DESCRIPTOR_HANDLE view,
                                                 const FLOAT color[4], UINT rect_count,
                                                 const D3D12_RECT* rects) {
@@ -85,12 +93,14 @@ void GraphicsCommandList::BeginRenderPass(UINT count,
       ClearRenderTargetView(targets[i].cpuDescriptor, access.Clear.ClearValue.Color, 0, nullptr);
     }
   }
-  if (depth != nullptr &&
-      depth->DepthBeginningAccess.Type == D3D12_RENDER_PASS_BEGINNING_ACCESS_TYPE_CLEAR) {
-    ClearDepthStencilView(depth->cpuDescriptor, D3D12_CLEAR_FLAG_DEPTH,
-                          depth->DepthBeginningAccess.Clear.ClearValue.DepthStencil.Depth, 0, 0,
-                          nullptr);
-  }
+  if (depth == nullptr) return;
+  const auto clear = [&](const D3D12_RENDER_PASS_BEGINNING_ACCESS& access, D3D12_CLEAR_FLAGS part) {
+    if (access.Type != D3D12_RENDER_PASS_BEGINNING_ACCESS_TYPE_CLEAR) return;
+    const D3D12_DEPTH_STENCIL_VALUE& value = access.Clear.ClearValue.DepthStencil;
+    ClearDepthStencilView(depth->cpuDescriptor, part, value.Depth, value.Stencil, 0, nullptr);
+  };
+  clear(depth->DepthBeginningAccess, D3D12_CLEAR_FLAG_DEPTH);
+  clear(depth->StencilBeginningAccess, D3D12_CLEAR_FLAG_STENCIL);
 }
 
 }  // namespace kaamos::d3d12

@@ -59,11 +59,12 @@ void add_blend(Members& members, const D3D12_BLEND_DESC& desc) {
   }
 }
 
-void add_depth_stencil(Members& members, const D3D12_DEPTH_STENCIL_DESC& desc) {
+void add_depth_stencil(Members& members, const D3D12_DEPTH_STENCIL_DESC2& desc) {
   members.add(desc.DepthEnable, desc.DepthWriteMask, desc.DepthFunc, desc.StencilEnable,
-              desc.StencilReadMask, desc.StencilWriteMask);
-  for (const D3D12_DEPTH_STENCILOP_DESC& face : {desc.FrontFace, desc.BackFace}) {
-    members.add(face.StencilFailOp, face.StencilDepthFailOp, face.StencilPassOp, face.StencilFunc);
+              desc.DepthBoundsTestEnable);
+  for (const D3D12_DEPTH_STENCILOP_DESC1& face : {desc.FrontFace, desc.BackFace}) {
+    members.add(face.StencilFailOp, face.StencilDepthFailOp, face.StencilPassOp, face.StencilFunc,
+                face.StencilReadMask, face.StencilWriteMask);
   }
 }
 
@@ -97,7 +98,8 @@ Identity pipeline_identity(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc) {
   return members.identity();
 }
 
-Identity pipeline_identity(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
+Identity pipeline_identity(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc,
+                           const D3D12_DEPTH_STENCIL_DESC2& depth_stencil) {
   Members members("graphics");
   members.add_root_signature(desc.pRootSignature);
   for (const D3D12_SHADER_BYTECODE& shader : {desc.VS, desc.PS, desc.DS, desc.HS, desc.GS}) {
@@ -110,7 +112,7 @@ Identity pipeline_identity(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
               raster.DepthBias, raster.DepthBiasClamp, raster.SlopeScaledDepthBias,
               raster.DepthClipEnable, raster.MultisampleEnable, raster.AntialiasedLineEnable,
               raster.ForcedSampleCount, raster.ConservativeRaster);
-  add_depth_stencil(members, desc.DepthStencilState);
+  add_depth_stencil(members, depth_stencil);
   add_input_layout(members, desc.InputLayout);
   members.add(desc.IBStripCutValue, desc.PrimitiveTopologyType, desc.NumRenderTargets);
   for (const DXGI_FORMAT format : desc.RTVFormats) members.add(format);

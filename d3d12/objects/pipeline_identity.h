@@ -16,10 +16,11 @@ using Identity = std::array<uint32_t, 4>;
 Identity root_signature_identity(const void* blob, size_t size);
 
 /// Those of pipelines: of all members but NodeMask, CachedPSO and Flags, with the bytes of shaders
-/// and root signatures.
+/// and root signatures. `depth_stencil` stands in place of the desc's own.
 ///@{
 Identity pipeline_identity(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc);
-Identity pipeline_identity(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc);
+Identity pipeline_identity(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc,
+                           const D3D12_DEPTH_STENCIL_DESC2& depth_stencil);
 ///@}
 
 }  // namespace kaamos::d3d12

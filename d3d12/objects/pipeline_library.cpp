@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include <directx/d3dx12.h>
+
 #include "d3d12/com/text.h"
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/pipeline_stream.h"
@@ -64,7 +66,9 @@ HRESULT PipelineLibrary::LoadGraphicsPipeline(LPCWSTR name,
   if (name == nullptr || desc == nullptr) {
     return fail(ErrorId::kNullPointer, "LoadGraphicsPipeline: pName or pDesc.");
   }
-  return load(name, pipeline_identity(*desc), riid, pipeline, [&](ID3D12PipelineState** made) {
+  const CD3DX12_DEPTH_STENCIL_DESC2 depth_stencil(desc->DepthStencilState);
+  const Identity identity = pipeline_identity(*desc, depth_stencil);
+  return load(name, identity, riid, pipeline, [&](ID3D12PipelineState** made) {
     return device()->CreateGraphicsPipelineState(desc, IID_ID3D12PipelineState,
                                                  reinterpret_cast<void**>(made));
   });
@@ -91,8 +95,13 @@ HRESULT PipelineLibrary::LoadPipeline(LPCWSTR name, const D3D12_PIPELINE_STATE_S
   }
   const auto parsed = parse_pipeline_stream(*desc, "LoadPipeline");
   if (!parsed) return fail(parsed.error());
-  if (parsed->compute) return LoadComputePipeline(name, &*parsed->compute, riid, pipeline);
-  return LoadGraphicsPipeline(name, &*parsed->graphics, riid, pipeline);
+  const Identity identity = parsed->compute
+                                ? pipeline_identity(*parsed->compute)
+                                : pipeline_identity(*parsed->graphics, parsed->depth_stencil);
+  return load(name, identity, riid, pipeline, [&](ID3D12PipelineState** made) {
+    return device_of(device()).CreatePipelineState(desc, IID_ID3D12PipelineState,
+                                                   reinterpret_cast<void**>(made));
+  });
 }
 
 std::vector<std::byte> PipelineLibrary::serialized() {

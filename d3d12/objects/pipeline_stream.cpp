@@ -14,7 +14,7 @@ namespace kaamos::d3d12 {
 // Microsoft's own helper parses the stream.
 rtapi::Result<ParsedPipeline> parse_pipeline_stream(const D3D12_PIPELINE_STATE_STREAM_DESC& stream,
                                                     const char* call) {
-  CD3DX12_PIPELINE_STATE_STREAM2_PARSE_HELPER parsed;
+  CD3DX12_PIPELINE_STATE_STREAM3_PARSE_HELPER parsed;
   if (FAILED(D3DX12ParsePipelineStream(stream, &parsed))) {
     return make_error(ErrorId::kPipeline, std::string(call) + ": the stream of " +
                                               std::to_string(stream.SizeInBytes) +
@@ -32,6 +32,8 @@ rtapi::Result<ParsedPipeline> parse_pipeline_stream(const D3D12_PIPELINE_STATE_S
     out.compute = compute;
   } else {
     out.graphics = parsed.PipelineStream.GraphicsDescV0();
+    out.depth_stencil =
+        static_cast<const CD3DX12_DEPTH_STENCIL_DESC2&>(parsed.PipelineStream.DepthStencilState);
   }
   return out;
 }

@@ -14,6 +14,8 @@ namespace kaamos::d3d12 {
 struct ParsedPipeline {
   std::optional<D3D12_COMPUTE_PIPELINE_STATE_DESC> compute;
   std::optional<D3D12_GRAPHICS_PIPELINE_STATE_DESC> graphics;
+  /// In place of graphics->DepthStencilState, which has fewer members.
+  D3D12_DEPTH_STENCIL_DESC2 depth_stencil = {};
 };
 
 /// `call`: "CreatePipelineState", for messages. [D3D12: D3D12_PIPELINE_STATE_STREAM_DESC]

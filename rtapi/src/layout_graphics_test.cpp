@@ -45,6 +45,16 @@ SAME_VALUE(rtapi::DsvFlags::kNone, D3D12_DSV_FLAG_NONE);
 SAME_VALUE(rtapi::DsvFlags::kReadOnlyDepth, D3D12_DSV_FLAG_READ_ONLY_DEPTH);
 SAME_VALUE(rtapi::DsvFlags::kReadOnlyStencil, D3D12_DSV_FLAG_READ_ONLY_STENCIL);
 
+// D3D12_STENCIL_OP
+SAME_VALUE(rtapi::StencilOp::kKeep, D3D12_STENCIL_OP_KEEP);
+SAME_VALUE(rtapi::StencilOp::kZero, D3D12_STENCIL_OP_ZERO);
+SAME_VALUE(rtapi::StencilOp::kReplace, D3D12_STENCIL_OP_REPLACE);
+SAME_VALUE(rtapi::StencilOp::kIncrSat, D3D12_STENCIL_OP_INCR_SAT);
+SAME_VALUE(rtapi::StencilOp::kDecrSat, D3D12_STENCIL_OP_DECR_SAT);
+SAME_VALUE(rtapi::StencilOp::kInvert, D3D12_STENCIL_OP_INVERT);
+SAME_VALUE(rtapi::StencilOp::kIncr, D3D12_STENCIL_OP_INCR);
+SAME_VALUE(rtapi::StencilOp::kDecr, D3D12_STENCIL_OP_DECR);
+
 // D3D12_CLEAR_FLAG
 SAME_VALUE(rtapi::ClearFlags::kDepth, D3D12_CLEAR_FLAG_DEPTH);
 SAME_VALUE(rtapi::ClearFlags::kStencil, D3D12_CLEAR_FLAG_STENCIL);

@@ -53,6 +53,8 @@ struct DrawState {
   std::array<rtapi::VertexBufferView, rtapi::kIAVertexInputResourceSlotCount> vertex_buffers;
   rtapi::IndexBufferView index_buffer;
   float blend_factor[4] = {1, 1, 1, 1};
+  uint8_t front_stencil = 0;  // references
+  uint8_t back_stencil = 0;
 };
 
 struct DrawCommand {

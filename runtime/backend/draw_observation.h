@@ -57,6 +57,7 @@ struct DrawCounts {
 
   // Pixels, once for each triangle.
   uint64_t covered = 0;
+  uint64_t failed_stencil = 0;
   uint64_t failed_depth = 0;
   uint64_t shaded = 0;  // without helpers
   uint64_t discarded = 0;
@@ -81,6 +82,7 @@ inline void DrawCounts::add(const DrawCounts& other) {
   culled += other.culled;
   no_pixel += other.no_pixel;
   covered += other.covered;
+  failed_stencil += other.failed_stencil;
   failed_depth += other.failed_depth;
   shaded += other.shaded;
   discarded += other.discarded;
@@ -120,9 +122,12 @@ struct PixelEvent {
   uint32_t instance = 0;
   uint32_t primitive_id = 0;
   bool front_facing = false;
-  bool culled = false;              // by facing; nothing else happened
-  float weights[3] = {0, 0, 0};     // of its corners on the screen
-  float z = 0;                      // of the triangle
+  bool culled = false;           // by facing; nothing else happened
+  float weights[3] = {0, 0, 0};  // of its corners on the screen
+  float z = 0;                   // of the triangle
+  bool stencil_tested = false;
+  bool stencil_passed = true;       // true if not tested
+  uint8_t stored_stencil = 0;       // before the test
   bool tested = false;              // against the depth buffer
   bool late = false;                // after the pixel shader
   float tested_depth = 0;           // as converted, or SV_Depth

@@ -68,12 +68,14 @@ void Draws::created(const runtime::LinkedGraphics& pipeline) {
                          "before the shader runs. Remove one of the two.");
   }
   const rtapi::DepthStencilDesc& depth = pipeline.depth_stencil;
-  if ((flags & shader::kGraphicsDiscards) != 0 && depth.DepthEnable &&
-      depth.DepthWriteMask == rtapi::DepthWriteMask::kAll) {
+  const bool stores_depth =
+      depth.DepthEnable && depth.DepthWriteMask == rtapi::DepthWriteMask::kAll;
+  if ((flags & shader::kGraphicsDiscards) != 0 && (stores_depth || changes_stencil(depth))) {
     reporter_.report(Id::kEarlyDepth,
-                     who +
-                         "can discard, but depth is written before it runs, also for pixels that "
-                         "it discards. Remove the attribute, or set DepthWriteMask to kZero.");
+                     who + "can discard, but " + (stores_depth ? "depth" : "stencil") +
+                         " is written before it runs, also for pixels that it discards. Remove "
+                         "the attribute, or set " +
+                         (stores_depth ? "DepthWriteMask to kZero." : "operations to kKeep."));
   }
 }
 
@@ -303,6 +305,10 @@ void Draws::report_nothing_drawn(const runtime::DrawCommand& command, const Draw
                 all + " are outside of what can be seen (-w to w in x and y" +
                     (raster.DepthClipEnable ? ", 0 to w in z" : "") +
                     "). Are the matrices set, and in the right order?");
+  }
+  if (counts.failed_stencil != 0 && counts.failed_stencil + counts.failed_depth == counts.covered) {
+    drawn.arrived = true;  // hidden by other draws, which is what stencil is for
+    return;
   }
   if (counts.covered != 0 && counts.failed_depth == counts.covered) {
     const runtime::TargetView& depth = command.state->targets.depth;

@@ -69,7 +69,9 @@ void Layer::check_feedback(const runtime::DrawCommand& command, std::vector<Shad
   for (uint32_t i = 0; i < targets.color_count; ++i) {
     drop(targets.color[i], "render target " + std::to_string(i));
   }
-  if (writes_depth(command)) drop(targets.depth, "the depth buffer, which is written,");
+  if (writes_depth(command) || writes_stencil(command)) {
+    drop(targets.depth, "the depth buffer, which is written,");
+  }
 }
 
 }  // namespace kaamos::checks

@@ -34,7 +34,22 @@ bool reads_destination(const rtapi::RenderTargetBlendDesc& blend) {
          uses(blend.SrcBlend) || uses(blend.SrcBlendAlpha);
 }
 
+// Whether the test depends on what is stored.
+bool compares_stencil(const rtapi::DepthStencilOpDesc& face) {
+  return face.StencilFunc != ComparisonFunc::kAlways && face.StencilFunc != ComparisonFunc::kNever;
+}
+
 }  // namespace
+
+bool changes_stencil(const rtapi::DepthStencilDesc& desc) {
+  const auto changes = [](const rtapi::DepthStencilOpDesc& face) {
+    constexpr auto kKeep = rtapi::StencilOp::kKeep;
+    return face.StencilWriteMask != 0 &&
+           (face.StencilFailOp != kKeep || face.StencilDepthFailOp != kKeep ||
+            face.StencilPassOp != kKeep);
+  };
+  return desc.StencilEnable && (changes(desc.FrontFace) || changes(desc.BackFace));
+}
 
 bool tests_depth(const runtime::DrawCommand& command) {
   return command.linked->depth_stencil.DepthEnable &&
@@ -45,6 +60,17 @@ bool writes_depth(const runtime::DrawCommand& command) {
   return tests_depth(command) &&
          command.linked->depth_stencil.DepthWriteMask == rtapi::DepthWriteMask::kAll &&
          !command.state->targets.depth.read_only_depth;
+}
+
+bool tests_stencil(const runtime::DrawCommand& command) {
+  const TargetView& view = command.state->targets.depth;
+  return command.linked->depth_stencil.StencilEnable && view.texture != nullptr &&
+         rtapi::HasStencil(view.format);
+}
+
+bool writes_stencil(const runtime::DrawCommand& command) {
+  if (!tests_stencil(command) || command.state->targets.depth.read_only_stencil) return false;
+  return changes_stencil(command.linked->depth_stencil);
 }
 
 const char* comparison_name(ComparisonFunc func) {
@@ -78,26 +104,52 @@ void Targets::check_formats(const runtime::DrawCommand& command, const std::stri
                          ". Bind another view or make the pipeline with the view's format.");
   }
   const rtapi::DepthStencilDesc& depth = linked.depth_stencil;
-  if (!depth.DepthEnable) return;
+  if (!depth.DepthEnable && !depth.StencilEnable) return;
   const TargetView& view = targets.depth;
+  check_stencil_view(command, who);
   if (view.texture == nullptr) {
-    reporter_.report(
-        Id::kDepthNotBound,
-        who + ": DepthEnable is true with " + comparison_name(depth.DepthFunc) +
-            ", but OMSetRenderTargets bound no depth-stencil view, so that every pixel "
-            "passes. Bind one, or make a pipeline with DepthEnable false.");
+    const std::string enabled = depth.DepthEnable ? std::string("DepthEnable is true with ") +
+                                                        comparison_name(depth.DepthFunc)
+                                                  : "StencilEnable is true";
+    reporter_.report(Id::kDepthNotBound,
+                     who + ": " + enabled +
+                         ", but OMSetRenderTargets bound no depth-stencil view, so that every "
+                         "pixel passes. Bind one, or make a pipeline with " +
+                         (depth.DepthEnable ? "DepthEnable" : "StencilEnable") + " false.");
   } else if (view.format != linked.depth_format) {
     reporter_.report(Id::kTargetFormat,
                      who + ": the depth buffer is " + states_.name_of(view.texture.get()) +
                          ", viewed as " + format_name(view.format) +
                          ", but DSVFormat of the pipeline is " + format_name(linked.depth_format) +
                          ". Bind another view or make the pipeline with the view's format.");
-  } else if (view.read_only_depth && depth.DepthWriteMask == rtapi::DepthWriteMask::kAll) {
+  } else if (depth.DepthEnable && view.read_only_depth &&
+             depth.DepthWriteMask == rtapi::DepthWriteMask::kAll) {
     reporter_.report(Id::kReadOnlyDepth,
                      who + ": DepthWriteMask is kAll, but the depth-stencil view of " +
                          states_.name_of(view.texture.get()) +
                          " has kReadOnlyDepth, so that no depth is written. Set DepthWriteMask to "
                          "kZero, or bind a view without the flag.");
+  }
+}
+
+void Targets::check_stencil_view(const runtime::DrawCommand& command, const std::string& who) {
+  const rtapi::DepthStencilDesc& desc = command.linked->depth_stencil;
+  const TargetView& view = command.state->targets.depth;
+  if (!desc.StencilEnable || view.texture == nullptr) return;
+  if (!rtapi::HasStencil(view.format)) {
+    reporter_.report(Id::kDepthNotBound,
+                     who + ": StencilEnable is true, but " + states_.name_of(view.texture.get()) +
+                         ", viewed as " + format_name(view.format) +
+                         ", has no stencil, so that every pixel passes. Take "
+                         "D24_UNORM_S8_UINT or D32_FLOAT_S8X24_UINT, or make a pipeline with "
+                         "StencilEnable false.");
+  } else if (view.read_only_stencil && changes_stencil(desc)) {
+    reporter_.report(Id::kReadOnlyDepth,
+                     who +
+                         ": stencil operations are not all kKeep, but the depth-stencil view of " +
+                         states_.name_of(view.texture.get()) +
+                         " has kReadOnlyStencil, so that no stencil is written. Set the "
+                         "operations to kKeep, or bind a view without the flag.");
   }
 }
 
@@ -146,9 +198,9 @@ void Targets::check_states(const runtime::DrawCommand& command, const std::strin
     if (targets.color[i].texture == nullptr) continue;
     use(targets.color[i], ResourceStates::kRenderTarget, who + ": " + slot_name(i), label);
   }
-  if (!tests_depth(command)) return;
+  if (!tests_depth(command) && !tests_stencil(command)) return;
   const TargetView& depth = targets.depth;
-  if (writes_depth(command)) {
+  if (writes_depth(command) || writes_stencil(command)) {
     use(depth, ResourceStates::kDepthWrite, who + ": the depth buffer", label);
   } else if (!states_.is_in(depth.texture.get(), subresources_of(depth),
                             ResourceStates::kDepthWrite)) {
@@ -178,6 +230,12 @@ void Targets::check_contents(const runtime::DrawCommand& command, const std::str
     if (linked.pixel_columns.targets[i].first_column == runtime::kNoColumn) continue;
     if (!reads_destination(linked.blend[i]) || was_written(view)) continue;
     never(view, "blending reads " + slot_name(i));
+  }
+  const rtapi::DepthStencilDesc& desc = linked.depth_stencil;
+  if (tests_stencil(command) &&
+      (compares_stencil(desc.FrontFace) || compares_stencil(desc.BackFace)) &&
+      !was_written(targets.depth)) {
+    never(targets.depth, "the stencil test reads");
   }
   if (!tests_depth(command)) return;
   const ComparisonFunc func = linked.depth_stencil.DepthFunc;
@@ -237,10 +295,10 @@ void Targets::note(const runtime::DrawCommand& command) {
     written(view.texture);
     bound_before_.insert(view.texture.get());
   }
-  if (!tests_depth(command)) return;
+  if (!tests_depth(command) && !tests_stencil(command)) return;
   bound_before_.insert(targets.depth.texture.get());
+  if (writes_depth(command) || writes_stencil(command)) written(targets.depth.texture);
   if (!writes_depth(command)) return;
-  written(targets.depth.texture);
   for (uint32_t slice = 0; slice < targets.depth.slice_count; ++slice) {
     cleared_.erase(
         {targets.depth.texture.get(), targets.depth.mip, targets.depth.first_slice + slice});

@@ -46,6 +46,7 @@ class Targets {
   using Place = std::tuple<const runtime::BackendTexture*, uint32_t, uint32_t>;  // mip, slice
 
   void check_formats(const runtime::DrawCommand& command, const std::string& who);
+  void check_stencil_view(const runtime::DrawCommand& command, const std::string& who);
   void check_sizes(const runtime::DrawCommand& command, const std::string& who);
   void check_states(const runtime::DrawCommand& command, const std::string& who,
                     const std::string& label);
@@ -62,9 +63,13 @@ class Targets {
   std::set<const runtime::BackendTexture*> bound_before_;  // drawn to in this list
 };
 
+// Returns whether some operation may change stencil.
+bool changes_stencil(const rtapi::DepthStencilDesc& desc);
 // Returns whether a draw has a depth test and a depth buffer for it.
 bool tests_depth(const runtime::DrawCommand& command);
 bool writes_depth(const runtime::DrawCommand& command);
+bool tests_stencil(const runtime::DrawCommand& command);
+bool writes_stencil(const runtime::DrawCommand& command);
 const char* comparison_name(rtapi::ComparisonFunc func);  // "LESS_EQUAL"
 
 }  // namespace kaamos::checks

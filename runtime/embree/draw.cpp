@@ -47,6 +47,7 @@ raster::Surface surface_of(const runtime::TargetView& view) {
   surface.slices = view.slice_count;
   surface.format = view.format;
   surface.read_only = view.read_only_depth;
+  surface.read_only_stencil = view.read_only_stencil;
   return surface;
 }
 

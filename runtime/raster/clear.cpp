@@ -135,7 +135,7 @@ void clear(const Surface& surface, const runtime::ClearTargetCommand& command) {
 
 bool set_cleared(Surface& surface, const runtime::ClearTargetCommand& command) {
   if (surface.texels == nullptr || !command.whole || surface.read_only) return false;
-  // A tile has no stencil.
+  // A tile keeps depth and stencil apart; `value` is a word of depth.
   if (command.depth_stencil && rtapi::HasStencil(surface.format)) return false;
   const Fill fill = fill_of(surface.format, command);
   if (!fill.all_bits) return false;

@@ -23,6 +23,7 @@ struct Surface {
   uint32_t slices = 1;
   rtapi::Format format = rtapi::Format::kUnknown;  // of the view
   bool read_only = false;                          // depth: tested but never written
+  bool read_only_stencil = false;                  // the same
   // The texels count as `value`, whatever they hold, and the pass writes all of them.
   bool cleared = false;
   std::array<uint32_t, 4> value = {};  // words of a texel, as of TargetCodec

@@ -4,6 +4,7 @@
 namespace kaamos::raster {
 namespace {
 
+using runtime::DrawState;
 using runtime::kNoColumn;
 using shader::Interpolation;
 
@@ -28,19 +29,29 @@ void plan_rows(const runtime::LinkedGraphics& linked, DrawPlan& plan) {
   add(Interpolation::kThirdVertex, plan.flat);
 }
 
-void plan_depth(const runtime::LinkedGraphics& linked, const Surface& surface, DrawPlan& plan) {
+void plan_depth_stencil(const DrawState& state, const runtime::LinkedGraphics& linked,
+                        const Surface& surface, DrawPlan& plan) {
   const rtapi::DepthStencilDesc& desc = linked.depth_stencil;
-  if (surface.texels == nullptr || !desc.DepthEnable) return;
-  plan.depth = depth_kind(surface.format);
-  if (plan.depth == DepthKind::kNone) return;
-  plan.depth_func = static_cast<uint32_t>(desc.DepthFunc) - 1;
-  const bool writes = desc.DepthWriteMask == rtapi::DepthWriteMask::kAll && !surface.read_only;
+  if (surface.texels == nullptr) return;
+  if (desc.DepthEnable) plan.depth = depth_kind(surface.format);
+  const bool has_stencil = desc.StencilEnable && rtapi::HasStencil(surface.format);
+  if (plan.depth == DepthKind::kNone && !has_stencil) return;
+  if (has_stencil) {
+    plan.stencil =
+        std::make_shared<StencilTables>(stencil_tables(desc, state, surface.read_only_stencil));
+  }
+  const bool tests_depth = plan.depth != DepthKind::kNone;
+  if (tests_depth) plan.depth_func = static_cast<uint32_t>(desc.DepthFunc) - 1;
+  const bool writes =
+      tests_depth && desc.DepthWriteMask == rtapi::DepthWriteMask::kAll && !surface.read_only;
   const uint32_t flags = plan.has_pixel ? linked.pixel_desc().flags : 0;
   const bool forced = (flags & shader::kGraphicsEarlyDepthStencil) != 0;
-  const bool has_depth = plan.has_pixel && linked.pixel_columns.depth != kNoColumn;
+  const bool has_depth = tests_depth && plan.has_pixel && linked.pixel_columns.depth != kNoColumn;
   const bool stores =
       (flags & (shader::kGraphicsWritesMemory | shader::kGraphicsOrdersPixels)) != 0;
-  if (!forced && (stores || has_depth)) {
+  // Discarded pixels do nothing to stencil, not even if they fail a test.
+  const bool keeps_stencil = plan.discards && has_stencil && plan.stencil->writes;
+  if (!forced && (stores || has_depth || keeps_stencil)) {
     plan.late_test = true;
     plan.late_write = writes;
   } else {
@@ -154,11 +165,12 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
     plan.has_pixel = false;
     plan.needs_z = false;
   }
-  plan_depth(linked, targets.depth, plan);
+  plan_depth_stencil(*draw.state, linked, targets.depth, plan);
   plan.needs_z = plan.needs_z || plan.late_test || plan.late_write;
   for (int i = 0; i < 4; ++i) plan.blend_factor[i] = draw.state->blend_factor[i];
-  plan.draws_nothing = !any_viewport || (linked.sample_mask & 1) == 0 ||
-                       (!plan.has_pixel && plan.depth == DepthKind::kNone);
+  plan.draws_nothing =
+      !any_viewport || (linked.sample_mask & 1) == 0 ||
+      (!plan.has_pixel && plan.depth == DepthKind::kNone && plan.stencil == nullptr);
   return plan;
 }
 

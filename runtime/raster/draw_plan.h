@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "runtime/raster/draw.h"
+#include "runtime/raster/stencil.h"
 #include "runtime/raster/target_codec.h"
 #include "runtime/raster/viewport.h"
 
@@ -69,9 +71,11 @@ struct DrawPlan {
   float bias_clamp = 0;
   float slope_bias = 0;
 
-  // Pixels. A test or write is early if it happens before the pixel shader runs.
-  DepthKind depth = DepthKind::kNone;  // kNone: neither tested nor written
-  uint32_t depth_func = 7;             // bit 0: passes if less, bit 1: if equal, bit 2: if greater
+  // Pixels. A test or write is early if it happens before the pixel shader runs. Stencil is tested
+  // and written where depth is tested.
+  std::shared_ptr<const StencilTables> stencil;  // null: neither tested nor written
+  DepthKind depth = DepthKind::kNone;            // kNone: neither tested nor written
+  uint32_t depth_func = 7;  // bit 0: passes if less, bit 1: if equal, bit 2: if greater
   bool early_test = false;
   bool early_write = false;
   bool late_test = false;

@@ -139,7 +139,8 @@ void TileObserver::block(const Triangle& triangle, const ObservedBlock& block) {
   const bool tested = block.stored_depth != nullptr && plan_->early_test;
   if (!culled) {
     counts_.covered += count(block.covered);
-    counts_.failed_depth += count(block.covered & ~block.passed);
+    counts_.failed_stencil += count(block.failed_stencil);
+    counts_.failed_depth += count(block.covered & ~block.passed & ~block.failed_stencil);
     if (!plan_->has_pixel) counts_.written += count(block.passed);
     for (uint32_t bits = map_ == nullptr ? 0 : block.covered; bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(bits));
@@ -154,14 +155,20 @@ void TileObserver::block(const Triangle& triangle, const ObservedBlock& block) {
   if ((block.covered >> lane & 1) == 0) return;
   runtime::PixelEvent event = begin_event(triangle);
   if (block.z != nullptr) event.z = block.z[lane];
-  if (tested) {
+  const bool failed_stencil = (block.failed_stencil >> lane & 1) != 0;
+  if (block.stored_stencil != nullptr) {
+    event.stencil_tested = true;
+    event.stored_stencil = block.stored_stencil[lane];
+    event.stencil_passed = !failed_stencil;
+  }
+  if (tested && !failed_stencil) {
     event.tested = true;
     event.tested_depth = converted(event.z, triangle);
     event.stored_depth = depth_of(block.stored_depth[lane]);
     event.passed = (block.passed >> lane & 1) != 0;
     event.writes_depth = event.passed && plan_->early_write;
   }
-  event.written = !culled && !plan_->has_pixel && event.passed;
+  event.written = !culled && !plan_->has_pixel && event.stencil_passed && event.passed;
   log_->events.push_back(std::move(event));
   logged_ = &triangle;
 }
@@ -223,7 +230,8 @@ void TileObserver::note_odd(const ObservedQuads& quads) {
 void TileObserver::shaded(const Triangle& triangle, const ObservedQuads& quads) {
   counts_.shaded += count(quads.covered);
   counts_.discarded += count(quads.covered & ~quads.live);
-  counts_.failed_depth += count(quads.live & ~quads.written);
+  counts_.failed_stencil += count(quads.failed_stencil);
+  counts_.failed_depth += count(quads.live & ~quads.written & ~quads.failed_stencil);
   counts_.written += count(quads.written);
   note_odd(quads);
   for (uint32_t bits = map_ == nullptr ? 0 : quads.covered; bits != 0; bits &= bits - 1) {
@@ -244,7 +252,14 @@ void TileObserver::shaded(const Triangle& triangle, const ObservedQuads& quads) 
       event.outputs.push_back(quads.outputs[c][lane]);
     }
     event.written = (quads.written >> lane & 1) != 0;
-    if (!event.discarded && quads.stored_depth != nullptr) {
+    const bool failed_stencil = (quads.failed_stencil >> lane & 1) != 0;
+    if (!event.discarded && quads.stored_stencil != nullptr) {
+      event.stencil_tested = true;
+      event.late = true;
+      event.stored_stencil = quads.stored_stencil[lane];
+      event.stencil_passed = !failed_stencil;
+    }
+    if (!event.discarded && !failed_stencil && quads.stored_depth != nullptr) {
       const float z =
           plan_->reads_depth_output
               ? std::bit_cast<float>(quads.outputs[plan_->linked->pixel_columns.depth][lane])

@@ -28,11 +28,13 @@ struct Observation {
 
 // A triangle in a block of 4 x 2 pixels, two quads of a tile.
 struct ObservedBlock {
-  uint32_t quad;                 // the first quad's number in the tile
-  uint32_t covered;              // bits, in the order of pixel shaders
-  uint32_t passed;               // the early depth test
-  const float* z;                // of the eight pixels; null if nothing needs it
-  const uint32_t* stored_depth;  // words before the test; null if there is none
+  uint32_t quad;                  // the first quad's number in the tile
+  uint32_t covered;               // bits, in the order of pixel shaders
+  uint32_t passed;                // the early tests
+  const float* z;                 // of the eight pixels; null if nothing needs it
+  const uint32_t* stored_depth;   // words before the test; null if there is none
+  const uint8_t* stored_stencil;  // the same
+  uint32_t failed_stencil;        // of `covered`
 };
 
 // Two quads after the pixel shader.
@@ -43,7 +45,9 @@ struct ObservedQuads {
   uint32_t live;     // after the shader
   uint32_t written;  // after late tests
   const shader::Column* outputs;
-  const uint32_t* stored_depth;  // of both quads before a late test; null if there is none
+  const uint32_t* stored_depth;   // of both quads before a late test; null if there is none
+  const uint8_t* stored_stencil;  // the same
+  uint32_t failed_stencil;        // of `live`
 };
 
 // Lives outside of the frames of a task, as a fault may leave the task.

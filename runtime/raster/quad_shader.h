@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs the pixel shader on quads of one triangle, two at a time: attributes, late depth test,
+// Runs the pixel shader on quads of one triangle, two at a time: attributes, late tests,
 // render targets.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include "runtime/raster/observer.h"
 #include "runtime/raster/output_merger.h"
 #include "runtime/raster/pixel_depth.h"
+#include "runtime/raster/pixel_stencil.h"
 #include "runtime/raster/tile.h"
 
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
@@ -57,6 +58,7 @@ class QuadShader {
   void set_up_attributes();
   // Whether vertices 1 and 2 are the primitive's 2 and 1.
   bool swaps_vertices() const { return (triangle_->flags & (kSwapped | kClipped)) == kSwapped; }
+  bool tests_late() const { return plan_->late_test || plan_->late_write; }
   void shade(uint32_t first, bool pair);
   KAAMOS_INLINE void set_attributes(const QuadPlaces& places);
   // Exact values of the two edges and of what they leave of the area, at the pixels of two quads.
@@ -69,6 +71,8 @@ class QuadShader {
   KAAMOS_INLINE void set_barycentrics(const Weights8& weights);
   void finish_observed(uint32_t first, bool pair, const QuadPlaces& places, uint32_t live);
   uint32_t test_late(uint32_t first, bool pair, uint32_t live);
+  uint32_t test_late_depth(uint32_t first, bool pair, uint32_t live);
+  void load_stencil(uint32_t first, bool pair, uint8_t stored[8]) const;
   template <DepthKind kKind>
   uint32_t test_late_as(uint32_t* quads[2], const Floats8& z, uint32_t live) const;
 
@@ -171,7 +175,7 @@ inline void QuadShader::shade(uint32_t first, bool pair) {
   if (scratch_.observer != nullptr) [[unlikely]] {
     return finish_observed(first, pair, places, live);
   }
-  if (live != 0 && (plan_->late_test || plan_->late_write)) live = test_late(first, pair, live);
+  if (live != 0 && tests_late()) live = test_late(first, pair, live);
   if (live != 0) write_targets(*plan_, scratch_.colors, places, outputs_, live);
 }
 
@@ -215,7 +219,14 @@ inline void QuadShader::finish_observed(uint32_t first, bool pair, const QuadPla
   const QuadQueue& queue = scratch_.queue;
   const uint32_t covered =
       queue.covered[first] | (pair ? static_cast<uint32_t>(queue.covered[first + 1]) << 4 : 0u);
-  const bool late = plan_->late_test || plan_->late_write;
+  const bool late = tests_late();
+  const bool stencil = plan_->late_test && plan_->stencil != nullptr;
+  uint8_t stored_stencil[8] = {};
+  uint32_t failed_stencil = 0;
+  if (stencil) {
+    load_stencil(first, pair, stored_stencil);
+    failed_stencil = live & ~StencilTest(*plan_->stencil, *triangle_).run(stored_stencil, live);
+  }
   uint32_t stored[8] = {};
   if (late) {
     for (uint32_t i = 0; i < (pair ? 2u : 1u); ++i) {
@@ -228,7 +239,8 @@ inline void QuadShader::finish_observed(uint32_t first, bool pair, const QuadPla
   observer.before_write(queue.quad + first, pair);
   if (written != 0) write_targets(*plan_, scratch_.colors, places, outputs_, written);
   observer.shaded(*triangle_, {queue.quad + first, pair, covered, live, written, outputs_,
-                               late ? stored : nullptr});
+                               late && plan_->depth != DepthKind::kNone ? stored : nullptr,
+                               stencil ? stored_stencil : nullptr, failed_stencil});
 }
 
 inline void QuadShader::set_attributes(const QuadPlaces& places) {
@@ -321,7 +333,30 @@ inline uint32_t QuadShader::test_late_as(uint32_t* quads[2], const Floats8& z,
   return bits_of(test.run(quads[0], quads[1], z, lanes_of(live), plan_->late_write));
 }
 
+inline void QuadShader::load_stencil(uint32_t first, bool pair, uint8_t stored[8]) const {
+  const QuadQueue& queue = scratch_.queue;
+  for (uint32_t i = 0; i < (pair ? 2u : 1u); ++i) {
+    __builtin_memcpy(stored + 4 * i, scratch_.stencil.bytes + queue.quad[first + i] * 4, 4);
+  }
+}
+
 inline uint32_t QuadShader::test_late(uint32_t first, bool pair, uint32_t live) {
+  // Stencil that was tested early is done.
+  if (!plan_->late_test || plan_->stencil == nullptr) return test_late_depth(first, pair, live);
+  const StencilTest stencil(*plan_->stencil, *triangle_);
+  uint8_t stored[8] = {};
+  load_stencil(first, pair, stored);
+  const uint32_t passed = stencil.run(stored, live);
+  const uint32_t passed_depth = passed == 0 ? 0 : test_late_depth(first, pair, passed);
+  stencil.update(stored, live, passed, passed_depth);
+  const QuadQueue& queue = scratch_.queue;
+  for (uint32_t i = 0; i < (pair ? 2u : 1u); ++i) {
+    __builtin_memcpy(scratch_.stencil.bytes + queue.quad[first + i] * 4, stored + 4 * i, 4);
+  }
+  return passed_depth;
+}
+
+inline uint32_t QuadShader::test_late_depth(uint32_t first, bool pair, uint32_t live) {
   const QuadQueue& queue = scratch_.queue;
   uint32_t alone[4] = {};  // where there is no second quad
   uint32_t* quads[2] = {scratch_.depth.words + queue.quad[first] * 4,

@@ -35,6 +35,16 @@ bool each_pair(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice, c
   return true;
 }
 
+// Calls f(byte of stencil, number of its pixel).
+template <class F>
+void each_stencil(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice, const F& f) {
+  if (surface.format == rtapi::Format::kD24UnormS8Uint) {
+    each_texel<4>(surface, x, y, slice, [&](uint8_t* texel, uint32_t i) { f(texel[3], i); });
+  } else {
+    each_texel<8>(surface, x, y, slice, [&](uint8_t* texel, uint32_t i) { f(texel[4], i); });
+  }
+}
+
 }  // namespace
 
 void TileDepth::load(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) {
@@ -84,6 +94,14 @@ void TileDepth::store(const Surface& surface, uint32_t x, uint32_t y, uint32_t s
       each_texel<4>(surface, x, y, slice,
                     [&](uint8_t* texel, uint32_t word) { std::memcpy(texel, &words[word], 4); });
   }
+}
+
+void TileStencil::load(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) {
+  each_stencil(surface, x, y, slice, [&](uint8_t texel, uint32_t i) { bytes[i] = texel; });
+}
+
+void TileStencil::store(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) const {
+  each_stencil(surface, x, y, slice, [&](uint8_t& texel, uint32_t i) { texel = bytes[i]; });
 }
 
 }  // namespace kaamos::raster

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile of the targets while its triangles are drawn: depth and colours are in buffers of its own,
-// in the order of pixel shaders.
+// A tile of the targets while its triangles are drawn: depth, stencil and colours are in buffers of
+// its own, in the order of pixel shaders.
 #pragma once
 
 #include <algorithm>
@@ -29,6 +29,14 @@ struct alignas(64) TileDepth {
   void store(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) const;
 };
 
+// The same with a byte for each pixel, of formats that have stencil.
+struct alignas(64) TileStencil {
+  uint8_t bytes[kTilePixels];
+
+  void load(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice);
+  void store(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) const;
+};
+
 // Quads of one triangle that wait for the pixel shader.
 struct QuadQueue {
   static constexpr uint32_t kCapacity = 64;
@@ -44,6 +52,7 @@ struct Observation;
 // Memory of one thread.
 struct TileScratch {
   TileDepth depth;
+  TileStencil stencil;  // only where a draw tests it
   TileColors colors;
   QuadQueue queue;
   Storage<uint32_t> columns;         // inputs and outputs of the pixel shader

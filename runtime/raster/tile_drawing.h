@@ -22,6 +22,8 @@ class TileDrawing {
     const Surface& depth = job_.targets->depth;
     bool loaded = depth.cleared;
     bool written = depth.cleared;
+    bool stencil_loaded = false;
+    bool stencil_written = false;
     if (depth.cleared) scratch_.depth.fill(depth.value[0]);
     for (uint32_t i = 0; i < job_.run_count; ++i) {
       const TileJob::Run& run = job_.runs[i];
@@ -32,9 +34,16 @@ class TileDrawing {
         loaded = true;
       }
       written = written || plan.early_write || plan.late_write;
+      if (plan.stencil != nullptr && !stencil_loaded) {
+        scratch_.stencil.load(depth, job_.x, job_.y, job_.slice);
+        stencil_loaded = true;
+      }
+      stencil_written = stencil_written || (plan.stencil != nullptr && plan.stencil->writes);
       draw(run, plan);
     }
     if (written) scratch_.depth.store(depth, job_.x, job_.y, job_.slice);
+    // After depth, whose words may hold stencil as it was loaded.
+    if (stencil_written) scratch_.stencil.store(depth, job_.x, job_.y, job_.slice);
     scratch_.colors.store();
     if constexpr (kObserved) scratch_.observer->end_tile();
   }
@@ -43,6 +52,7 @@ class TileDrawing {
   void draw(const TileJob::Run& run, const DrawPlan& plan) {
     if (plan.has_pixel) quads_.begin_batch(*run.batch, plan);
     if constexpr (kObserved) scratch_.observer->begin_batch(*run.batch, plan);
+    if (plan.early_test && plan.stencil != nullptr) return draw_stencil(run, plan);
     switch (plan.early_test ? plan.depth : DepthKind::kNone) {
       case DepthKind::kFloat32:
         return draw_float32(run, plan);
@@ -72,17 +82,29 @@ class TileDrawing {
     }
   }
 
-  template <DepthKind kKind, uint32_t kFunc = kAnyFunc>
+  // Formats with stencil, with or without a depth test.
+  void draw_stencil(const TileJob::Run& run, const DrawPlan& plan) {
+    switch (plan.depth) {
+      case DepthKind::kFloat32:
+        return draw_as<DepthKind::kFloat32, kAnyFunc, true>(run, plan);
+      case DepthKind::kUnorm24:
+        return draw_as<DepthKind::kUnorm24, kAnyFunc, true>(run, plan);
+      default:
+        return draw_as<DepthKind::kNone, kAnyFunc, true>(run, plan);
+    }
+  }
+
+  template <DepthKind kKind, uint32_t kFunc = kAnyFunc, bool kStencil = false>
   void draw_as(const TileJob::Run& run, const DrawPlan& plan) {
     if (plan.has_pixel) {
-      draw_triangles<kKind, kFunc, true>(run, plan);
+      draw_triangles<kKind, kFunc, kStencil, true>(run, plan);
     } else {
-      draw_triangles<kKind, kFunc, false>(run, plan);
+      draw_triangles<kKind, kFunc, kStencil, false>(run, plan);
     }
   }
 
   // Draws the blocks of one triangle.
-  template <DepthKind kKind, uint32_t kFunc, bool kShades>
+  template <DepthKind kKind, uint32_t kFunc, bool kStencil, bool kShades>
   struct Blocks {
     TileDrawing& tile;
     const DrawPlan& plan;
@@ -103,15 +125,29 @@ class TileDrawing {
       if (needs_z) z = plane.at_block(z_of_row, block_x, block_y);
       uint32_t stored[8];
       if constexpr (kObserved) __builtin_memcpy(stored, tile.scratch_.depth.words + quad * 4, 32);
+      uint8_t* const stencil = tile.scratch_.stencil.bytes + quad * 4;
+      uint8_t stored_stencil[8];
+      uint32_t active = 0;
+      uint32_t passed_stencil = 0;
+      if constexpr (kStencil) {
+        __builtin_memcpy(stored_stencil, stencil, 8);
+        active = bits_of(covered);
+        passed_stencil = StencilTest(*plan.stencil, triangle).run(stencil, active);
+        pass = lanes_of(passed_stencil);
+      }
       if constexpr (kKind != DepthKind::kNone) {
-        pass = test.run(tile.scratch_.depth.words + quad * 4, z, covered, plan.early_write);
+        pass = test.run(tile.scratch_.depth.words + quad * 4, z, pass, plan.early_write);
+      }
+      if constexpr (kStencil) {
+        StencilTest(*plan.stencil, triangle).update(stencil, active, passed_stencil, bits_of(pass));
       }
       if constexpr (kObserved) {
         float values[8];
         store(values, z);
         tile.scratch_.observer->block(
             triangle, {quad, bits_of(covered), bits_of(pass), needs_z ? values : nullptr,
-                       kKind != DepthKind::kNone ? stored : nullptr});
+                       kKind != DepthKind::kNone ? stored : nullptr,
+                       kStencil ? stored_stencil : nullptr, active & ~passed_stencil});
       }
       if constexpr (kShades) tile.put(quad, bits_of(pass), z, plan.needs_z);
     }
@@ -126,11 +162,11 @@ class TileDrawing {
     void block(int32_t block_x, int32_t block_y, const lanes& covered) {
       const auto quad =
           static_cast<uint32_t>(block_y) * kQuadsPerRow + static_cast<uint32_t>(block_x) * 2;
-      observer.block(triangle, {quad, bits_of(covered), 0, nullptr, nullptr});
+      observer.block(triangle, {quad, bits_of(covered), 0, nullptr, nullptr, nullptr, 0});
     }
   };
 
-  template <DepthKind kKind, uint32_t kFunc, bool kShades>
+  template <DepthKind kKind, uint32_t kFunc, bool kStencil, bool kShades>
   void draw_triangles(const TileJob::Run& run, const DrawPlan& plan) {
     const Triangle* triangles = run.batch->triangles.data() + run.first;
     const auto x = static_cast<int32_t>(job_.x);
@@ -159,7 +195,7 @@ class TileDrawing {
           continue;
         }
       }
-      Blocks<kKind, kFunc, kShades> blocks{*this, plan, test, triangle, {}, {}};
+      Blocks<kKind, kFunc, kStencil, kShades> blocks{*this, plan, test, triangle, {}, {}};
       if (blocks.needs_z) blocks.plane.begin(triangle, x, y);
       if constexpr (kShades) {
         reach(triangle, plan);

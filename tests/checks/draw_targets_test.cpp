@@ -96,6 +96,63 @@ TEST_F(DrawTargets, WritesThroughAReadOnlyView) {
   expect_none();
 }
 
+TEST_F(DrawTargets, StencilTestWithoutStencil) {
+  GraphicsPipelineStateDesc tested = desc();
+  tested.DepthStencilState.StencilEnable = true;
+  CommandList list = begin();
+  draw(list, tested);
+  run(list);
+  expect_one("KA0444",
+             {"StencilEnable is true", "texture \"depth\", viewed as D32_FLOAT", "has no stencil"});
+  CommandList unbound = begin();
+  bind(unbound, 0, -1);
+  tested.DepthStencilState.DepthEnable = false;
+  draw(unbound, tested);
+  run(unbound);
+  expect_one("KA0444",
+             {"StencilEnable is true", "bound no depth-stencil view", "StencilEnable false"});
+}
+
+// Masks that hide a whole draw are what stencil is for.
+TEST_F(DrawTargets, StencilOfATarget) {
+  const Texture both = texture("both", Format::kR24G8Typeless, ResourceFlags::kAllowDepthStencil,
+                               ResourceStates::kDepthWrite);
+  DepthStencilViewDesc view;
+  const auto bind_both = [&](CommandList& list, DsvFlags flags) {
+    view.Flags = flags;
+    device_.CreateDepthStencilView(both, view, dsvs_.GetCPUDescriptorHandle(1)).value();
+    bind(list, 0, 1);
+  };
+  GraphicsPipelineStateDesc equal = desc();
+  equal.DSVFormat = Format::kD24UnormS8Uint;
+  equal.DepthStencilState.DepthEnable = false;
+  equal.DepthStencilState.StencilEnable = true;
+  equal.DepthStencilState.FrontFace.StencilFunc = ComparisonFunc::kEqual;
+  CommandList unwritten = begin();
+  bind_both(unwritten, DsvFlags::kNone);
+  draw(unwritten, equal);
+  run(unwritten);
+  expect_one("KA0484", {"the stencil test reads texture \"both\""});
+  CommandList hidden = begin();
+  bind_both(hidden, DsvFlags::kNone);
+  hidden.ClearDepthStencilView(dsvs_.GetCPUDescriptorHandle(1), ClearFlags::kStencil, 0, 1);
+  draw(hidden, equal);
+  run(hidden);
+  expect_none();
+  equal.DepthStencilState.FrontFace.StencilPassOp = StencilOp::kIncr;
+  CommandList read_only = begin();
+  bind_both(read_only, DsvFlags::kReadOnlyStencil);
+  draw(read_only, equal);
+  run(read_only);
+  expect_one("KA0445", {"stencil operations are not all kKeep", "\"both\" has kReadOnlyStencil"});
+  CommandList state = begin();
+  bind_both(state, DsvFlags::kNone);
+  transition(state, both, ResourceStates::kDepthWrite, ResourceStates::kDepthRead);
+  draw(state, equal);
+  run(state);
+  expect_one("KA0451", {"the depth buffer is in texture \"both\"", "kDepthWrite"});
+}
+
 TEST_F(DrawTargets, SizesDiffer) {
   CommandList list = begin();
   const float black[4] = {0, 0, 0, 0};

@@ -319,6 +319,7 @@ std::vector<RuleTest> ras_depth_tests() {
   tests.insert(tests.end(), bias.begin(), bias.end());
   tests.push_back({"RAS-69", shaders_write_depth, "*"});
   tests.push_back({"RAS-71", formats_of_depth});
+  tests.push_back(ras_stencil_test());
   return tests;
 }
 

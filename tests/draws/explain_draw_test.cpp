@@ -77,6 +77,50 @@ TEST_F(ExplainDraws, TellsTheTrianglesOfAPixelInOrder) {
   EXPECT_TRUE(found.Triangles[4].TestedLate);
 }
 
+TEST_F(ExplainDraws, TellsTheStencilTest) {
+  const Texture both = canvas_.device
+                           .CreateTexture({.Width = kSize,
+                                           .Height = kSize,
+                                           .Format = Format::kD24UnormS8Uint,
+                                           .Flags = ResourceFlags::kAllowDepthStencil,
+                                           .InitialState = ResourceStates::kDepthWrite})
+                           .value();
+  const CpuDescriptorHandle dsv = canvas_.dsvs.GetCPUDescriptorHandle(0);
+  const CpuDescriptorHandle rtv = canvas_.rtvs.GetCPUDescriptorHandle(0);
+  canvas_.device.CreateDepthStencilView(both, dsv).value();
+  CommandList list = canvas_.list([&](CommandList& l) {
+    l.ClearDepthStencilView(dsv, ClearFlags::kStencil, 0, 5);
+    l.OMSetRenderTargets(1, &rtv, false, &dsv);
+    l.OMSetStencilRef(5);
+    for (const char* pixel : {"Constant", "Counted"}) {
+      GraphicsPipelineStateDesc equal = desc(pixel);
+      equal.DSVFormat = Format::kD24UnormS8Uint;
+      equal.DepthStencilState.StencilEnable = true;
+      equal.DepthStencilState.DepthFunc = ComparisonFunc::kAlways;
+      equal.DepthStencilState.FrontFace.StencilFunc = ComparisonFunc::kEqual;
+      equal.DepthStencilState.FrontFace.StencilPassOp = StencilOp::kIncr;
+      draw(l, equal, {1, 0, 0, 0.5f});
+    }
+  });
+  const DrawPixelExplanation found =
+      ExplainDrawPixel(canvas_.queue, list, {.X = 9, .Y = 9}).value();
+  ASSERT_EQ(found.Triangles.size(), 2u);
+  const ExplainedTriangle& first = found.Triangles[0];
+  EXPECT_TRUE(first.StencilTested && first.StencilPassed);
+  EXPECT_EQ(first.StoredStencil, 5);
+  EXPECT_EQ(first.Outcome, TriangleOutcome::kWritten);
+  const ExplainedTriangle& second = found.Triangles[1];
+  EXPECT_TRUE(second.StencilTested && second.TestedLate);
+  EXPECT_FALSE(second.StencilPassed || second.DepthTested || second.DepthWritten);
+  EXPECT_EQ(second.StoredStencil, 6);
+  EXPECT_EQ(second.Outcome, TriangleOutcome::kFailedStencil);
+  const std::string text = ToText(found);
+  EXPECT_NE(text.find("failed the stencil test"), std::string::npos) << text;
+  EXPECT_NE(text.find("stencil 6 after the pixel shader: failed"), std::string::npos) << text;
+  EXPECT_NE(text.find("stencil 5 before the pixel shader: passed"), std::string::npos) << text;
+  EXPECT_NE(ToJson(found).find("stencil_test"), std::string::npos);
+}
+
 TEST_F(ExplainDraws, JsonNamesTheSame) {
   CommandList list = five_draws();
   const std::string json =

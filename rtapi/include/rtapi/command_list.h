@@ -287,6 +287,14 @@ class CommandList {
   /// [D3D12: OMSetBlendFactor]
   /// @errors KA0800.
   void OMSetBlendFactor(const float factor[4]);
+  /// Sets the reference of the stencil test, of which the lower 8 bits count; at first 0.
+  /// [D3D12: OMSetStencilRef]
+  /// @errors KA0800.
+  void OMSetStencilRef(uint32_t reference);
+  /// Sets the references of front facing triangles and of the others.
+  /// [D3D12: OMSetFrontAndBackStencilRef]
+  /// @errors KA0800.
+  void OMSetFrontAndBackStencilRef(uint32_t front, uint32_t back);
   /// Sets every texel of a render target view, or those in rectangles, to a colour, which is
   /// converted to the format like a pixel shader's output. Viewports, scissors, masks and blending
   /// do not count. [D3D12: ClearRenderTargetView]

@@ -41,10 +41,11 @@ struct ExplainDrawDesc {
 
 /// The outcome of a triangle at a pixel that it covers.
 enum class TriangleOutcome : uint32_t {
-  kWritten,       ///< passed everything
-  kCulledByFace,  ///< CullMode: nothing was drawn of it
-  kFailedDepth,   ///< the depth test
-  kDiscarded,     ///< by the pixel shader
+  kWritten,        ///< passed everything
+  kCulledByFace,   ///< CullMode: nothing was drawn of it
+  kFailedDepth,    ///< the depth test
+  kDiscarded,      ///< by the pixel shader
+  kFailedStencil,  ///< the stencil test
 };
 
 /// A texel of a render target.
@@ -57,16 +58,19 @@ struct ExplainedTexel {
 
 /// A triangle that covers the pixel.
 struct ExplainedTriangle {
-  uint32_t Draw = 0;          ///< its number
-  std::string Command = {};   ///< "DrawInstanced, command 3"
-  std::string Pipeline = {};  ///< name of the pipeline state
-  uint32_t InstanceID = 0;    ///< SV_InstanceID
-  uint32_t PrimitiveID = 0;   ///< SV_PrimitiveID
-  bool FrontFace = false;     ///< SV_IsFrontFace
-  float Weights[3] = {};      ///< of its corners on the screen, at the pixel's centre
-  float Z = 0;                ///< at the pixel's centre, with depth bias
-  bool DepthTested = false;   ///< whether there is a depth test; the next members are its
-  bool TestedLate = false;    ///< after the pixel shader
+  uint32_t Draw = 0;           ///< its number
+  std::string Command = {};    ///< "DrawInstanced, command 3"
+  std::string Pipeline = {};   ///< name of the pipeline state
+  uint32_t InstanceID = 0;     ///< SV_InstanceID
+  uint32_t PrimitiveID = 0;    ///< SV_PrimitiveID
+  bool FrontFace = false;      ///< SV_IsFrontFace
+  float Weights[3] = {};       ///< of its corners on the screen, at the pixel's centre
+  float Z = 0;                 ///< at the pixel's centre, with depth bias
+  bool StencilTested = false;  ///< whether there is a stencil test, before that of depth
+  bool StencilPassed = true;   ///< what it gave
+  uint8_t StoredStencil = 0;   ///< before the test
+  bool DepthTested = false;    ///< whether there is a depth test; the next members are its
+  bool TestedLate = false;     ///< both tests: after the pixel shader
   ComparisonFunc DepthFunc = ComparisonFunc::kAlways;  ///< TestedDepth DepthFunc StoredDepth
   float TestedDepth = 0;         ///< z or SV_Depth, clamped to the viewport, in the target's format
   float StoredDepth = 0;         ///< before the test
@@ -95,7 +99,7 @@ struct DrawPixelExplanation {
 struct PixelOverdraw {
   uint32_t Covered = 0;  ///< those that cover it and are not culled
   uint32_t Shaded = 0;   ///< calls of the pixel shader, without helper lanes
-  uint32_t Written = 0;  ///< those that passed depth test and discard
+  uint32_t Written = 0;  ///< those that passed stencil test, depth test and discard
 };
 
 /// The counts of CollectOverdraw.

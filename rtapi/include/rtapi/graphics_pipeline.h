@@ -120,13 +120,40 @@ struct RasterizerDesc {
 /// Tells whether pixels that pass the depth test write their depth. [D3D12: D3D12_DEPTH_WRITE_MASK]
 enum class DepthWriteMask : uint32_t { kZero = 0, kAll = 1 };
 
-/// Describes the depth test: a pixel passes if its depth compared with the stored one holds. The
-/// stencil test is not offered. [D3D12: D3D12_DEPTH_STENCIL_DESC]
+/// What becomes of a stored stencil value, 0 to 255. [D3D12: D3D12_STENCIL_OP]
+enum class StencilOp : uint32_t {
+  kKeep = 1,
+  kZero = 2,
+  kReplace = 3,  ///< by the reference of CommandList::OMSetStencilRef
+  kIncrSat = 4,  ///< 1 more; 255 stays
+  kDecrSat = 5,  ///< 1 less; 0 stays
+  kInvert = 6,   ///< every bit
+  kIncr = 7,     ///< 1 more; 255 becomes 0
+  kDecr = 8,     ///< 1 less; 0 becomes 255
+};
+
+/// The stencil test of triangles that face one way: a pixel passes if (reference & StencilReadMask)
+/// StencilFunc (stored & StencilReadMask) holds. [D3D12: D3D12_DEPTH_STENCILOP_DESC1]
+struct DepthStencilOpDesc {
+  StencilOp StencilFailOp = StencilOp::kKeep;            ///< if the stencil test fails
+  StencilOp StencilDepthFailOp = StencilOp::kKeep;       ///< if it passes and the depth test fails
+  StencilOp StencilPassOp = StencilOp::kKeep;            ///< if both pass
+  ComparisonFunc StencilFunc = ComparisonFunc::kAlways;  ///< unsigned
+  uint8_t StencilReadMask = 0xFF;                        ///< bits that are compared
+  uint8_t StencilWriteMask = 0xFF;                       ///< bits that operations change
+};
+
+/// Describes the depth test, in which a pixel passes if its depth compared with the stored one
+/// holds, and the stencil test before it. Both pass where there is no depth-stencil view, and the
+/// stencil test where the view's format has no stencil. A pixel that the shader discards changes
+/// neither, unless the shader has [earlydepthstencil]. [D3D12: D3D12_DEPTH_STENCIL_DESC2]
 struct DepthStencilDesc {
   bool DepthEnable = true;                                         ///< false: no test and no write
   rtapi::DepthWriteMask DepthWriteMask = DepthWriteMask::kAll;     ///< whether to write
   rtapi::ComparisonFunc DepthFunc = rtapi::ComparisonFunc::kLess;  ///< new depth DepthFunc stored
-  bool StencilEnable = false;                                      ///< true is refused (KA0721)
+  bool StencilEnable = false;         ///< false: no stencil test, and no operation
+  DepthStencilOpDesc FrontFace = {};  ///< of triangles that are front facing
+  DepthStencilOpDesc BackFace = {};   ///< of the others
 };
 
 /// A factor of blending. [D3D12: D3D12_BLEND]
@@ -201,12 +228,12 @@ struct GraphicsShader {
 struct GraphicsPipelineStateDesc {
   RootSignature pRootSignature = {};  ///< a global one that feeds every resource of both shaders
   GraphicsShader VS = {};             ///< the vertex shader; it writes SV_Position
-  GraphicsShader PS = {};             ///< the pixel shader; without one only depth is written
+  GraphicsShader PS = {};             ///< the pixel shader; without one only depth and stencil
   rtapi::BlendDesc BlendState = {};   ///< blending and write masks
   /// Bit 0 clear: nothing is drawn.
   uint32_t SampleMask = 0xFFFFFFFFu;
   rtapi::RasterizerDesc RasterizerState = {};      ///< culling, bias, clipping
-  rtapi::DepthStencilDesc DepthStencilState = {};  ///< the depth test
+  rtapi::DepthStencilDesc DepthStencilState = {};  ///< depth and stencil test
   std::vector<InputElementDesc> InputLayout = {};  ///< at most 32; spare ones are allowed
   IndexBufferStripCutValue IBStripCutValue = IndexBufferStripCutValue::kDisabled;  ///< for strips
   rtapi::PrimitiveTopologyType PrimitiveTopologyType =

@@ -22,6 +22,12 @@ runtime::DrawState& CommandListImpl::writable_draw_state() {
   return *draw_state;
 }
 
+void CommandListImpl::set_stencil_references(uint32_t front, uint32_t back) {
+  runtime::DrawState& state = writable_draw_state();
+  state.front_stencil = static_cast<uint8_t>(front);
+  state.back_stencil = static_cast<uint8_t>(back);
+}
+
 namespace {
 
 constexpr uint32_t kMaxVertexStride = 2048;
@@ -280,6 +286,16 @@ void CommandList::OMSetBlendFactor(const float factor[4]) {
   if (!impl_ || !impl_->check_open("OMSetBlendFactor")) return;
   float* const to = impl_->writable_draw_state().blend_factor;
   for (int i = 0; i < 4; ++i) to[i] = factor ? factor[i] : 1.0f;
+}
+
+void CommandList::OMSetStencilRef(uint32_t reference) {
+  if (!impl_ || !impl_->check_open("OMSetStencilRef")) return;
+  impl_->set_stencil_references(reference, reference);
+}
+
+void CommandList::OMSetFrontAndBackStencilRef(uint32_t front, uint32_t back) {
+  if (!impl_ || !impl_->check_open("OMSetFrontAndBackStencilRef")) return;
+  impl_->set_stencil_references(front, back);
 }
 
 void CommandList::ClearRenderTargetView(CpuDescriptorHandle view, const float color[4],

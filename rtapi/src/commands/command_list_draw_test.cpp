@@ -56,6 +56,7 @@ TEST_F(DrawTest, DrawsTakeASnapshotOfWhatIsSet) {
   list_.IASetIndexBuffer(&indices);
   list_.DrawIndexedInstanced(6, 1, 2, -4, 5);
   list_.OMSetBlendFactor(nullptr);
+  list_.OMSetStencilRef(0x1FE);
   list_.IASetIndexBuffer(nullptr);
   list_.DrawInstanced(3, 1, 0, 0);
   EXPECT_OK(list_.Close());
@@ -72,6 +73,7 @@ TEST_F(DrawTest, DrawsTakeASnapshotOfWhatIsSet) {
   EXPECT_EQ(first.state->targets.color_count, 1u);
   EXPECT_EQ(first.state->targets.color[0].texture, color.impl()->memory);
   EXPECT_EQ(first.state->blend_factor[1], 1.0f);
+  EXPECT_EQ(first.state->front_stencil, 0);
   const auto& second = Executed<runtime::DrawCommand>(1);
   EXPECT_TRUE(second.indexed);
   EXPECT_EQ(second.arguments.BaseVertexLocation, -4);
@@ -80,6 +82,8 @@ TEST_F(DrawTest, DrawsTakeASnapshotOfWhatIsSet) {
   EXPECT_EQ(second.state->index_buffer.SizeInBytes, 12u);
   const auto& third = Executed<runtime::DrawCommand>(2);
   EXPECT_EQ(third.state->blend_factor[0], 1.0f);
+  EXPECT_EQ(third.state->front_stencil, 0xFE);
+  EXPECT_EQ(third.state->back_stencil, 0xFE);
   EXPECT_EQ(third.state->index_buffer.BufferLocation, 0u);
 }
 

@@ -56,6 +56,7 @@ struct CommandListImpl {
   runtime::RootBindings snapshot(const char* call, const RootState& root);
   // Returns state that no recorded draw shares, so that it can be written.
   runtime::DrawState& writable_draw_state();
+  void set_stencil_references(uint32_t front, uint32_t back);
   // The next command uses the memory at an address; one that is in no live buffer is ignored.
   void use(const char* call, GpuVirtualAddress address, std::string role);
   // Returns the pipeline if one is set and fits the root signature; else null, with an error kept.

@@ -95,6 +95,9 @@ ExplainedTriangle Explain(const runtime::DrawObservation::LoggedDraw& draw,
   out.FrontFace = event.front_facing;
   std::copy(std::begin(event.weights), std::end(event.weights), out.Weights);
   out.Z = event.z;
+  out.StencilTested = event.stencil_tested;
+  out.StencilPassed = event.stencil_passed;
+  out.StoredStencil = event.stored_stencil;
   out.DepthTested = event.tested;
   out.TestedLate = event.late;
   out.DepthFunc = linked.depth_stencil.DepthFunc;
@@ -110,10 +113,11 @@ ExplainedTriangle Explain(const runtime::DrawObservation::LoggedDraw& draw,
     out.Texels.push_back({change.slot, change.format, TexelText(change.format, change.before),
                           TexelText(change.format, change.after)});
   }
-  out.Outcome = event.culled      ? TriangleOutcome::kCulledByFace
-                : !event.passed   ? TriangleOutcome::kFailedDepth
-                : event.discarded ? TriangleOutcome::kDiscarded
-                                  : TriangleOutcome::kWritten;
+  out.Outcome = event.culled            ? TriangleOutcome::kCulledByFace
+                : !event.stencil_passed ? TriangleOutcome::kFailedStencil
+                : !event.passed         ? TriangleOutcome::kFailedDepth
+                : event.discarded       ? TriangleOutcome::kDiscarded
+                                        : TriangleOutcome::kWritten;
   return out;
 }
 

@@ -28,6 +28,8 @@ const char* outcome_name(TriangleOutcome outcome) {
       return "failed the depth test";
     case TriangleOutcome::kDiscarded:
       return "discarded";
+    case TriangleOutcome::kFailedStencil:
+      return "failed the stencil test";
   }
   return "";
 }
@@ -75,6 +77,11 @@ std::string ToText(const DrawPixelExplanation& e) {
     out += concat("    weights ", number_text(t.Weights[0]), " ", number_text(t.Weights[1]), " ",
                   number_text(t.Weights[2]), "\n");
     if (t.Outcome == TriangleOutcome::kCulledByFace) continue;
+    if (t.StencilTested) {
+      out += concat("    stencil ", uint32_t{t.StoredStencil},
+                    t.TestedLate ? " after the pixel shader: " : " before the pixel shader: ",
+                    t.StencilPassed ? "passed" : "failed", "\n");
+    }
     out += concat("    ", depth_text(t), "\n");
     if (!t.PixelShader.empty()) {
       out += concat("    pixel ", in_quotes(t.PixelShader),
@@ -102,6 +109,10 @@ std::string ToJson(const DrawPixelExplanation& e) {
                  {"front_face", t.FrontFace},
                  {"weights", Json::array({t.Weights[0], t.Weights[1], t.Weights[2]})},
                  {"z", depth_number(t.Z)}};
+    if (t.StencilTested) {
+      json["stencil_test"] = {
+          {"late", t.TestedLate}, {"stored", t.StoredStencil}, {"passed", t.StencilPassed}};
+    }
     if (t.DepthTested) {
       json["depth_test"] = {{"late", t.TestedLate},
                             {"func", func_name(t.DepthFunc)},

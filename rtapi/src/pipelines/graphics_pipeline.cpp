@@ -48,7 +48,6 @@ Status check_rasterizer(const RasterizerDesc& desc) {
 }
 
 Status check_depth(const DepthStencilDesc& desc) {
-  if (desc.StencilEnable) return unsupported("StencilEnable is true: there is no stencil test");
   if (!desc.DepthEnable) return {};
   if (desc.DepthFunc < ComparisonFunc::kNever || desc.DepthFunc > ComparisonFunc::kAlways) {
     return make_error(Id::kGraphicsDesc, "DepthFunc is ", static_cast<uint32_t>(desc.DepthFunc),
@@ -59,6 +58,28 @@ Status check_depth(const DepthStencilDesc& desc) {
                       static_cast<uint32_t>(desc.DepthWriteMask), "; it must be 0 or 1");
   }
   return {};
+}
+
+Status check_stencil_face(const DepthStencilOpDesc& desc, const char* face) {
+  const std::pair<const char*, StencilOp> ops[] = {{"StencilFailOp", desc.StencilFailOp},
+                                                   {"StencilDepthFailOp", desc.StencilDepthFailOp},
+                                                   {"StencilPassOp", desc.StencilPassOp}};
+  for (const auto& [name, op] : ops) {
+    if (op >= StencilOp::kKeep && op <= StencilOp::kDecr) continue;
+    return make_error(Id::kGraphicsDesc, face, ".", name, " is ", static_cast<uint32_t>(op),
+                      "; it must be 1 to 8", kZeroed);
+  }
+  if (desc.StencilFunc < ComparisonFunc::kNever || desc.StencilFunc > ComparisonFunc::kAlways) {
+    return make_error(Id::kGraphicsDesc, face, ".StencilFunc is ",
+                      static_cast<uint32_t>(desc.StencilFunc), "; it must be 1 to 8", kZeroed);
+  }
+  return {};
+}
+
+Status check_stencil(const DepthStencilDesc& desc) {
+  if (!desc.StencilEnable) return {};
+  if (Status s = check_stencil_face(desc.FrontFace, "FrontFace"); !s.ok()) return s;
+  return check_stencil_face(desc.BackFace, "BackFace");
 }
 
 bool reads_second_source(Blend blend) {
@@ -269,6 +290,7 @@ Result<PipelineState> Device::CreateGraphicsPipelineState(
   }
   if (Status s = check_rasterizer(desc.RasterizerState); !s.ok()) return s.error();
   if (Status s = check_depth(desc.DepthStencilState); !s.ok()) return s.error();
+  if (Status s = check_stencil(desc.DepthStencilState); !s.ok()) return s.error();
   if (Status s = check_topology(desc); !s.ok()) return s.error();
   auto linked = std::make_shared<runtime::LinkedGraphics>();
   linked->rasterizer = desc.RasterizerState;

@@ -282,6 +282,18 @@ TEST_F(GraphicsTest, ZeroedDescriptionsAreNoticed) {
   desc.DepthStencilState.DepthEnable = false;
   EXPECT_OK(Make(desc));
   desc = Desc();
+  desc.DepthStencilState.BackFace.StencilFailOp = StencilOp{};
+  desc.DepthStencilState.FrontFace.StencilFunc = ComparisonFunc{9};
+  EXPECT_OK(Make(desc));
+  desc.DepthStencilState.StencilEnable = true;
+  EXPECT_ERROR(Make(desc), "KA0720", "FrontFace.StencilFunc is 9", "1 to 8");
+  desc.DepthStencilState.FrontFace.StencilFunc = ComparisonFunc::kAlways;
+  EXPECT_ERROR(Make(desc), "KA0720", "BackFace.StencilFailOp is 0", "1 to 8");
+  desc.DepthStencilState.BackFace.StencilFailOp = StencilOp::kDecr;
+  EXPECT_OK(Make(desc));
+  desc.DepthStencilState.BackFace.StencilDepthFailOp = StencilOp{9};
+  EXPECT_ERROR(Make(desc), "KA0720", "BackFace.StencilDepthFailOp is 9");
+  desc = Desc();
   desc.BlendState.RenderTarget[0].BlendEnable = true;
   desc.BlendState.RenderTarget[0].SrcBlend = Blend{};
   EXPECT_ERROR(Make(desc), "KA0720", "SrcBlend");
@@ -307,7 +319,6 @@ TEST_F(GraphicsTest, WhatIsNotOfferedIsNamed) {
   };
   without([](auto& d) { d.RasterizerState.FillMode = FillMode::kWireframe; }, "kWireframe");
   without([](auto& d) { d.PrimitiveTopologyType = PrimitiveTopologyType::kLine; }, "kTriangle");
-  without([](auto& d) { d.DepthStencilState.StencilEnable = true; }, "StencilEnable");
   without([](auto& d) { d.BlendState.AlphaToCoverageEnable = true; }, "AlphaToCoverageEnable");
   without([](auto& d) { d.BlendState.RenderTarget[0].LogicOpEnable = true; }, "LogicOpEnable");
   without(

@@ -39,6 +39,11 @@ bool writes_depth(const runtime::DrawCommand& command) {
          !command.state->targets.depth.read_only_depth;
 }
 
+uint32_t stencil_write_mask(const runtime::DrawCommand& command,
+                            const rtapi::DepthStencilOpDesc& face) {
+  return command.state->targets.depth.read_only_stencil ? 0u : face.StencilWriteMask;
+}
+
 bool is_unbound(const rtapi::VertexBufferView& view) {
   return view.BufferLocation == 0;
 }
@@ -188,6 +193,13 @@ rtapi::Status DrawPass::set_state(VkCommandBuffer commands, const runtime::DrawC
   vk.vkCmdSetPrimitiveTopology(commands, topology_of(state.topology));
   vk.vkCmdSetPrimitiveRestartEnable(commands, restarts);
   vk.vkCmdSetDepthWriteEnable(commands, writes_depth(command));
+  const rtapi::DepthStencilDesc& desc = command.linked->depth_stencil;
+  vk.vkCmdSetStencilWriteMask(commands, VK_STENCIL_FACE_FRONT_BIT,
+                              stencil_write_mask(command, desc.FrontFace));
+  vk.vkCmdSetStencilWriteMask(commands, VK_STENCIL_FACE_BACK_BIT,
+                              stencil_write_mask(command, desc.BackFace));
+  vk.vkCmdSetStencilReference(commands, VK_STENCIL_FACE_FRONT_BIT, state.front_stencil);
+  vk.vkCmdSetStencilReference(commands, VK_STENCIL_FACE_BACK_BIT, state.back_stencil);
   return bind_vertices(commands, command);
 }
 

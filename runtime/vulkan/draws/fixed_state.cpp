@@ -58,6 +58,10 @@ VkBlendOp op_of(rtapi::BlendOp op) {
 VkCompareOp compare_op(rtapi::ComparisonFunc func) {
   return static_cast<VkCompareOp>(static_cast<uint32_t>(func) - 1);
 }
+VkStencilOp stencil_op(rtapi::StencilOp op) {
+  return static_cast<VkStencilOp>(static_cast<uint32_t>(op) - 1);
+}
+static_assert(VK_STENCIL_OP_DECREMENT_AND_WRAP == static_cast<int>(rtapi::StencilOp::kDecr) - 1);
 static_assert(VK_BLEND_OP_MAX == static_cast<int>(rtapi::BlendOp::kMax) - 1);
 static_assert(VK_COMPARE_OP_GREATER_OR_EQUAL ==
               static_cast<int>(rtapi::ComparisonFunc::kGreaterEqual) - 1);
@@ -74,6 +78,17 @@ VkPipelineColorBlendAttachmentState blend_state(const rtapi::RenderTargetBlendDe
   state.srcAlphaBlendFactor = factor_at(desc.SrcBlendAlpha, format);
   state.dstAlphaBlendFactor = factor_at(desc.DestBlendAlpha, format);
   state.alphaBlendOp = op_of(desc.BlendOpAlpha);
+  return state;
+}
+
+// The write mask and the reference are dynamic.
+VkStencilOpState stencil_state(const rtapi::DepthStencilOpDesc& desc) {
+  VkStencilOpState state = {};
+  state.failOp = stencil_op(desc.StencilFailOp);
+  state.depthFailOp = stencil_op(desc.StencilDepthFailOp);
+  state.passOp = stencil_op(desc.StencilPassOp);
+  state.compareOp = compare_op(desc.StencilFunc);
+  state.compareMask = desc.StencilReadMask;
   return state;
 }
 
@@ -119,6 +134,11 @@ FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
   depth.depthTestEnable =
       linked.depth_stencil.DepthEnable && wanted.depth != rtapi::Format::kUnknown;
   if (depth.depthTestEnable) depth.depthCompareOp = compare_op(linked.depth_stencil.DepthFunc);
+  depth.stencilTestEnable = linked.depth_stencil.StencilEnable && rtapi::HasStencil(wanted.depth);
+  if (depth.stencilTestEnable) {
+    depth.front = stencil_state(linked.depth_stencil.FrontFace);
+    depth.back = stencil_state(linked.depth_stencil.BackFace);
+  }
 
   for (uint32_t i = 0; i < wanted.color_count; ++i) {
     const bool written =

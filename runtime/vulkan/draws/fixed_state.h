@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Rasterizer, depth test, blending and masks of a graphics pipeline, in Vulkan's terms.
+// Rasterizer, tests of depth and stencil, blending and masks of a graphics pipeline, in Vulkan's
+// terms.
 #pragma once
 
 #include <array>

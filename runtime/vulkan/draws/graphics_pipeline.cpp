@@ -22,6 +22,8 @@ constexpr VkDynamicState kDynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT_WITH_COUN
                                              VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
                                              VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
                                              VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+                                             VK_DYNAMIC_STATE_STENCIL_WRITE_MASK,
+                                             VK_DYNAMIC_STATE_STENCIL_REFERENCE,
                                              VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE};
 constexpr uint32_t kDynamicStateCount = std::size(kDynamicStates);
 
