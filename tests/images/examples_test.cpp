@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
                                          "07-update-and-compaction", "08-compute", "09-ray-query",
                                          "11-triangle-raster", "12-shadow-map", "13-hybrid",
                                          "14-reordering", "15-opacity-micromaps",
-                                         "16-partitioned-top-level"),
+                                         "16-partitioned-top-level", "17-clusters"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            for (char& c : name) {

@@ -285,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, VulkanExamples,
                                          "07-update-and-compaction", "08-compute", "09-ray-query",
                                          "11-triangle-raster", "12-shadow-map", "13-hybrid",
                                          "14-reordering", "15-opacity-micromaps",
-                                         "16-partitioned-top-level"),
+                                         "16-partitioned-top-level", "17-clusters"),
                          [](const auto& tested) { return name_of(tested.param); });
 
 // The largest error of reads between two texels, measured in a process of its own: the driver reads

@@ -50,6 +50,10 @@ FrontendOptions options_of(const fs::path& path) {
   const std::string rest(std::istreambuf_iterator<char>(file), {});
   const auto has = [&](const char* word) { return rest.find(word) != std::string::npos; };
   if (has("dx::HitObject") && has("[raypayload]")) options.target = "lib_6_9";
+  if (has("ClusterID()") && has("[raypayload]")) {
+    options.target = "lib_6_10";
+    options.experimental = true;
+  }
   return options;
 }
 
