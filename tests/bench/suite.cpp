@@ -221,7 +221,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
   for (auto part :
        {dispatch_cases, build_cases, hlsl_cases, compute_cases, vector_cases, frame_cases,
         reference_cases, sorting_cases, light_cases, structure_cases, micromap_cases,
-        partition_cases, facade_cases, claims_cases, vulkan_cases, raster_cases}) {
+        partition_cases, cluster_cases, facade_cases, claims_cases, vulkan_cases, raster_cases}) {
     for (Case& one : part()) {
       if (one.name.starts_with(options.only)) cases.push_back(std::move(one));
     }

@@ -68,6 +68,7 @@ std::vector<Case> light_cases();      // light_cases.cpp
 std::vector<Case> structure_cases();  // structure_cases.cpp
 std::vector<Case> micromap_cases();   // micromap_cases.cpp
 std::vector<Case> partition_cases();  // partition_cases.cpp
+std::vector<Case> cluster_cases();    // cluster_cases.cpp
 std::vector<Case> frame_cases();      // frame_cases.cpp
 std::vector<Case> reference_cases();  // reference_cases.cpp
 std::vector<Case> facade_cases();     // facade_cases.cpp; empty without the D3D12 facade
