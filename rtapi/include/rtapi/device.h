@@ -64,8 +64,8 @@ struct DeviceDesc {
   /// kExperimentalShaderModel, and at least what the tier needs: 6.3 for 1.0, 6.5 for 1.1, 6.9 for
   /// 1.2 (KA0914).
   rtapi::ShaderModel ShaderModel = kHighestShaderModel;
-  /// EXPERIMENTAL: ExecuteIndirectRTASOperations, so far with partitioned top levels
-  /// only. Needs tier 1.1 and shader model 6.10 (KA0914).
+  /// EXPERIMENTAL: ExecuteIndirectRTASOperations of partitioned top levels, clusters and bottom
+  /// levels of clusters. Needs tier 1.1 and shader model 6.10 (KA0914).
   /// [DXR 2.0: ClustersAndPTLASSupported]
   bool IndirectRtasOperations = false;
   /// Lanes of a wave in compute shaders on the CPU: 4, 8, 16 or 32 (KA0914); 0: 8. Vulkan ignores
