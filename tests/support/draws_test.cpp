@@ -102,9 +102,9 @@ TEST_P(Draws, CreateGraphicsPipelineState) {
 
 TEST_P(Draws, CreateRenderTargetView) {
   KAAMOS_SUPPORTED(make_targets());
-  RenderTargetViewDesc as_int;
-  as_int.Format = Format::kR32Sint;
-  EXPECT_FALSE(device_.CreateRenderTargetView(color_, as_int, rtv_).ok());
+  RenderTargetViewDesc other;
+  other.Format = Format::kR8G8B8A8Unorm;
+  EXPECT_FALSE(device_.CreateRenderTargetView(color_, other, rtv_).ok());
 }
 
 TEST_P(Draws, CreateDepthStencilView) {
