@@ -13,8 +13,8 @@
 
 namespace kaamos::vcxproj {
 
-// A path below the project's $(OutDir) as one below the program's folder: "" for $(OutDir) itself.
-// Of a path elsewhere only the last name is left.
+// Returns a path below the project's $(OutDir) as one below the program's folder: "" for $(OutDir)
+// itself. A path elsewhere keeps only its last name.
 std::string below_output(const Evaluation& evaluation, std::string_view path);
 
 // Whether an item of a content type is copied: Content and CopyFileToFolders are unless they say

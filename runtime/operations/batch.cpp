@@ -117,18 +117,18 @@ uint64_t Batch::implicit_destination(uint32_t index, uint64_t bytes) {
     next_ += bytes;
     return address;
   }
-  notes_.add("argument " + std::to_string(index) + ": its result takes " + std::to_string(bytes) +
-             " bytes, which do not fit what is left of the " + std::to_string(facts_.all_bytes) +
-             " bytes for results " + at_address(addresses_, data_.BatchResultData) +
-             "; it is left out");
+  notes_.add_about(index, "its result takes " + std::to_string(bytes) +
+                              " bytes, which do not fit what is left of the " +
+                              std::to_string(facts_.all_bytes) + " bytes for results " +
+                              at_address(addresses_, data_.BatchResultData) + "; it is left out");
   return 0;
 }
 
 uint64_t Batch::explicit_destination(uint32_t index, uint64_t bytes) {
   const auto address = load_element<uint64_t>(result_addresses_, index);
   const auto leave_out = [&](const std::string& why) {
-    notes_.add("argument " + std::to_string(index) + ": its result is to go " +
-               at_address(addresses_, address) + why + "; it is left out");
+    notes_.add_about(
+        index, "its result is to go " + at_address(addresses_, address) + why + "; it is left out");
     return uint64_t{0};
   };
   if (address % facts_.alignment != 0) {

@@ -75,7 +75,7 @@ std::vector<ClusteredGeometry> geometries_of(const Clusters& clusters) {
 }
 
 void ClusterLevelBuilder::note(uint32_t index, const std::string& what) {
-  notes_.add("argument " + std::to_string(index) + ": " + what);
+  notes_.add_about(index, what);
 }
 
 bool ClusterLevelBuilder::leave_out(uint32_t index, const std::string& why) {

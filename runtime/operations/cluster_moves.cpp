@@ -35,24 +35,25 @@ bool has_micromaps(const AccelerationStructure& structure) {
 
 std::shared_ptr<const AccelerationStructure> ClusterMover::find(const Args& args, uint32_t index) {
   const uint64_t address = args.SourceAccelerationStructure;
-  const std::string where = "argument " + std::to_string(index) + ": ";
   auto source = environment_.structures.find(address);
   if (source == nullptr || !is_of(*source, inputs_.Type)) {
     static constexpr const char* kNames[] = {"bottom level of clusters", "cluster",
                                              "cluster template"};
-    notes_.add(where + "there is no " + kNames[static_cast<uint32_t>(inputs_.Type)] + " " +
-               at_address(*environment_.context.addresses, address) + "; it is left out");
+    notes_.add_about(
+        index, std::string("there is no ") + kNames[static_cast<uint32_t>(inputs_.Type)] + " " +
+                   at_address(*environment_.context.addresses, address) + "; it is left out");
     return nullptr;
   }
   if (has_micromaps(*source) && !HasAny(inputs_.Flags, Flags::kAllowOmm)) {
-    notes_.add(where + "its source has opacity micromaps, but the operation lacks kAllowOmm");
+    notes_.add_about(index, "its source has opacity micromaps, but the operation lacks kAllowOmm");
   }
   const uint64_t before = total_bytes_;
   total_bytes_ += source->size_bytes;
   const bool counts = inputs_.Mode != rtapi::RtasOperationMode::kGetSizes;
   if (counts && before <= inputs_.MaxBytesMoved && total_bytes_ > inputs_.MaxBytesMoved) {
-    notes_.add(where + "there are now " + std::to_string(total_bytes_) +
-               " bytes to move, but MaxBytesMoved is " + std::to_string(inputs_.MaxBytesMoved));
+    notes_.add_about(index, "there are now " + std::to_string(total_bytes_) +
+                                " bytes to move, but MaxBytesMoved is " +
+                                std::to_string(inputs_.MaxBytesMoved));
   }
   return source;
 }

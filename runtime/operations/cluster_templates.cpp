@@ -19,9 +19,8 @@ bool TemplateReader::read_box(uint64_t address, uint32_t index, ClusterTemplate&
   const AddressMap& addresses = *environment_.context.addresses;
   if (address % rtapi::kRtasClusterTemplateByteAlignment != 0 ||
       !addresses.contains(address, 6 * sizeof(float))) {
-    notes_.add("argument " + std::to_string(index) + ": InstantiationBoundingBoxLimit is " +
-               at_address(addresses, address) +
-               "; it must be a multiple of 32 with 24 bytes; it is left out");
+    notes_.add_about(index, "InstantiationBoundingBoxLimit is " + at_address(addresses, address) +
+                                "; it must be a multiple of 32 with 24 bytes; it is left out");
     return false;
   }
   const uint8_t* box = addresses.host(address);
@@ -42,15 +41,15 @@ std::shared_ptr<ClusterTemplate> TemplateReader::read(const Args& args, uint32_t
   }
   const uint32_t bits = args.TrianglesArgs.PositionTruncateBitCount;
   if (bits > 32) {
-    notes_.add("argument " + std::to_string(index) + ": PositionTruncateBitCount is " +
-               std::to_string(bits) + "; it is taken as 32");
+    notes_.add_about(index,
+                     "PositionTruncateBitCount is " + std::to_string(bits) + "; it is taken as 32");
   }
   result->truncated_bits = std::min(bits, 32u);
   return read_box(args.InstantiationBoundingBoxLimit, index, *result) ? result : nullptr;
 }
 
 void TemplateInstantiator::note(uint32_t index, const std::string& what) {
-  notes_.add("argument " + std::to_string(index) + ": " + what);
+  notes_.add_about(index, what);
 }
 
 std::shared_ptr<const ClusterTemplate> TemplateInstantiator::find(const Args& args,

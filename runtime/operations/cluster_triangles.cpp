@@ -42,7 +42,7 @@ std::string text(uint64_t value) {
 }  // namespace
 
 void TriangleReader::note(uint32_t index, const std::string& what) {
-  notes_.add("argument " + text(index) + ": " + what);
+  notes_.add_about(index, what);
 }
 
 bool TriangleReader::leave_out(uint32_t index, const std::string& why) {

@@ -17,7 +17,7 @@ struct VertexLayout {
   uint32_t bytes = 0;      // of a vertex
   uint32_t alignment = 1;  // of a component
 };
-// Of any format but kNone and kCompressed1.
+// Returns the layout of a format; not of kNone and kCompressed1, which have none.
 VertexLayout vertex_layout(rtapi::RtasVertexFormat format);
 
 // What a block of kCompressed1 begins with.

@@ -26,6 +26,10 @@ class OperationNotes {
   void add(const std::string& text, Id id = Id::kOperationArgument) {
     if (count_++ < kMost) environment_.warn(id, label_ + ": " + text + ".");
   }
+  // About an argument of an operation with many.
+  void add_about(uint32_t argument, const std::string& text) {
+    add("argument " + std::to_string(argument) + ": " + text);
+  }
 
  private:
   static constexpr uint64_t kMost = 8;

@@ -198,8 +198,8 @@ struct RtasOperationInputs {
 
 /// Bytes that an operation needs. [DXR 2.0: D3D12_RTAS_OPERATION_PREBUILD_INFO]
 struct RtasOperationPrebuildInfo {
-  /// Of all results together with kImplicitDestinations, of the largest with kExplicitDestinations;
-  /// 0 with kGetSizes and for kMoveClusterObjects.
+  /// Bytes for all results with kImplicitDestinations, for the largest one with
+  /// kExplicitDestinations; 0 with kGetSizes and for kMoveClusterObjects.
   uint64_t ResultDataMaxSizeInBytes = 0;
   uint64_t ScratchDataSizeInBytes = 0;  ///< of scratch memory
 };
@@ -249,7 +249,7 @@ struct RtasBatchedOperationData {
   /// which kGetSizes refuses (KA0749).
   GpuVirtualAddressAndStride ResultSizeArray = {};
   GpuVirtualAddressAndStride IndirectArgumentArray = {};  ///< of the type's structs
-  /// Of a uint32_t, the number of arguments, of which MaxArgCount count. 0: there are MaxArgCount.
+  /// Address of a uint32_t, the number of arguments, of which MaxArgCount count; 0: MaxArgCount.
   GpuVirtualAddress IndirectArgumentArraySize = 0;
   /// 0, or where tools find uint64_t numbers: of the results, their sizes and, but for kGetSizes,
   /// their addresses.

@@ -118,7 +118,7 @@ Status check_vertex_format(const char* what, RtasVertexFormat format, bool may_b
 
 constexpr uint32_t kClusterFlags = 0x50C;  // all of RtasOperationFlags
 
-// Of the inputs of clusters and of templates.
+// Checks the formats of indices of clusters and of templates.
 template <class Desc>
 Status check_index_formats(const Desc& desc) {
   Status s = check_index_format("IndexFormat", desc.IndexFormat, false);
