@@ -13,7 +13,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-study=(--study lounge --quick --size 32x18 --repeats 1 --measure-reference 16 --measure-truth 4
+study=(--study matched-box --quick --size 32x18 --repeats 1 --measure-reference 16 --measure-truth 4
   --gi-cell 2 --gi-bake-samples 1 --out "$work/out")
 "$northlight" "${study[@]}" --families contact,ao > "$work/log" 2>&1 || fail "a study: $(cat "$work/log")"
 for file in study.html study.csv study.json study-contact.svg study-ao.svg study/ao-truth.png; do
@@ -23,7 +23,7 @@ grep -q 'Ambient occlusion within 4 m: .* settings are worth their time' "$work/
 head -1 "$work/out/study.csv" | grep -q '^family,technique,setting,ms' || fail "study.csv has other columns"
 grep -q '^contact,screen-space contact shadows,' "$work/out/study.csv" || fail "study.csv lacks marches of contact shadows"
 grep -q 'no reason is known' "$work/out/study.csv" && fail "settings without effect: $(grep 'no reason' "$work/out/study.csv")"
-grep -q 'Measured on .* Command: northlight --study lounge --quick' "$work/out/study.html" || fail "the report does not say how it was made"
+grep -q 'Measured on .* Command: northlight --study matched-box --quick' "$work/out/study.html" || fail "the report does not say how it was made"
 # A row's own command measures it alone.
 command=$(grep '^ao,ambient occlusion,4 rays' "$work/out/study.csv" | sed 's/.*,"northlight \(.*\)"$/\1/; s/""/"/g')
 eval "\"\$northlight\" $command --out \"\$work/row\"" > "$work/log" 2>&1 || fail "the command of a row, $command: $(cat "$work/log")"
