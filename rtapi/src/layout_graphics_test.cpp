@@ -134,11 +134,13 @@ SAME_VALUE(rtapi::ColorWriteEnable::kAll, D3D12_COLOR_WRITE_ENABLE_ALL);
 // D3D12_QUERY_HEAP_TYPE
 SAME_VALUE(rtapi::QueryHeapType::kOcclusion, D3D12_QUERY_HEAP_TYPE_OCCLUSION);
 SAME_VALUE(rtapi::QueryHeapType::kTimestamp, D3D12_QUERY_HEAP_TYPE_TIMESTAMP);
+SAME_VALUE(rtapi::QueryHeapType::kPipelineStatistics, D3D12_QUERY_HEAP_TYPE_PIPELINE_STATISTICS);
 
 // D3D12_QUERY_TYPE
 SAME_VALUE(rtapi::QueryType::kOcclusion, D3D12_QUERY_TYPE_OCCLUSION);
 SAME_VALUE(rtapi::QueryType::kBinaryOcclusion, D3D12_QUERY_TYPE_BINARY_OCCLUSION);
 SAME_VALUE(rtapi::QueryType::kTimestamp, D3D12_QUERY_TYPE_TIMESTAMP);
+SAME_VALUE(rtapi::QueryType::kPipelineStatistics, D3D12_QUERY_TYPE_PIPELINE_STATISTICS);
 
 // Structures that are in GPU memory, or that programs fill with memcpy
 SAME_SIZE(VertexBufferView, D3D12_VERTEX_BUFFER_VIEW);

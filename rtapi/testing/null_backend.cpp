@@ -90,7 +90,12 @@ class NullBackend : public runtime::BackendDevice {
     return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
   }
 
-  Result<std::shared_ptr<runtime::BackendQueryHeap>> create_query_heap(uint32_t count) override {
+  Result<std::shared_ptr<runtime::BackendQueryHeap>> create_query_heap(QueryHeapType type,
+                                                                       uint32_t count) override {
+    if (type != QueryHeapType::kTimestamp) {
+      return std::shared_ptr<runtime::BackendQueryHeap>(
+          std::make_shared<runtime::CountingQueries>(type, count));
+    }
     return std::make_shared<runtime::BackendQueryHeap>(count);
   }
   uint64_t timestamp_frequency() const override { return 1000; }

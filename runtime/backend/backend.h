@@ -14,6 +14,7 @@
 
 #include <rtapi/descriptor.h>
 #include <rtapi/device.h>
+#include <rtapi/query.h>
 #include <rtapi/raytracing.h>
 #include <rtapi/resource.h>
 #include <rtapi/result.h>
@@ -106,8 +107,9 @@ class BackendDevice {
   virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_graphics_pipeline(
       std::shared_ptr<const LinkedGraphics> pipeline) = 0;
 
-  // Timestamps
-  virtual rtapi::Result<std::shared_ptr<BackendQueryHeap>> create_query_heap(uint32_t count) = 0;
+  // Queries. CountingQueries, if not timestamps; an error says what the device lacks.
+  virtual rtapi::Result<std::shared_ptr<BackendQueryHeap>> create_query_heap(
+      rtapi::QueryHeapType type, uint32_t count) = 0;
   virtual uint64_t timestamp_frequency() const = 0;  // ticks per second
 
   // Acceleration structures, from the inputs of a build. GPU memory is not read. Sizes are

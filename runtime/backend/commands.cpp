@@ -20,7 +20,9 @@ struct NameOf {
   const char* operator()(const RtasOperationsCommand&) const {
     return "ExecuteIndirectRTASOperations";
   }
-  const char* operator()(const CopyBufferCommand&) const { return "CopyBufferRegion"; }
+  const char* operator()(const CopyBufferCommand& copy) const {
+    return copy.immediate ? "WriteBufferImmediate" : "CopyBufferRegion";
+  }
   const char* operator()(const CopyTextureCommand&) const { return "CopyTextureRegion"; }
   const char* operator()(const ClearUavCommand&) const { return "ClearUnorderedAccessView"; }
   const char* operator()(const BarrierCommand& command) const {
@@ -32,8 +34,11 @@ struct NameOf {
   const char* operator()(const ClearTargetCommand& clear) const {
     return clear.depth_stencil ? "ClearDepthStencilView" : "ClearRenderTargetView";
   }
+  const char* operator()(const BeginQueryCommand&) const { return "BeginQuery"; }
+  const char* operator()(const EndQueryCommand&) const { return "EndQuery"; }
   const char* operator()(const TimestampCommand&) const { return "EndQuery"; }
-  const char* operator()(const ResolveTimestampsCommand&) const { return "ResolveQueryData"; }
+  const char* operator()(const ResolveQueriesCommand&) const { return "ResolveQueryData"; }
+  const char* operator()(const PredicationCommand&) const { return "SetPredication"; }
   const char* operator()(const EventCommand& event) const {
     return event.begin ? "BeginEvent" : "EndEvent";
   }

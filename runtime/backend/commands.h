@@ -161,6 +161,7 @@ struct CopyBufferCommand {
   std::shared_ptr<BackendBuffer> source;
   uint64_t source_offset = 0;
   uint64_t size_bytes = 0;
+  bool immediate = false;  // of WriteBufferImmediate, which no predicate leaves out
 };
 
 // Exactly one of texture and buffer is set.
@@ -223,8 +224,8 @@ using Command =
     std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
                  EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, RtasOperationsCommand,
                  CopyBufferCommand, CopyTextureCommand, ClearUavCommand, BarrierCommand,
-                 EventCommand, DrawCommand, ClearTargetCommand, TimestampCommand,
-                 ResolveTimestampsCommand>;
+                 EventCommand, DrawCommand, ClearTargetCommand, BeginQueryCommand, EndQueryCommand,
+                 TimestampCommand, ResolveQueriesCommand, PredicationCommand>;
 
 // Names the application's call, for messages: "DispatchRays".
 const char* command_name(const Command& command);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/backend/executor.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "runtime/backend/indirect.h"
 
@@ -23,6 +26,7 @@ class Executor {
     return take(target_.dispatch_rays(command, label("DispatchRays")));
   }
   rtapi::Status operator()(const DispatchCommand& command) {
+    count(command);
     return take(target_.dispatch(command, label("Dispatch")));
   }
   rtapi::Status operator()(const ExecuteIndirectCommand& command);
@@ -44,6 +48,8 @@ class Executor {
   }
   rtapi::Status operator()(const ClearUavCommand& command) { return target_.clear(command); }
   rtapi::Status operator()(const DrawCommand& command) {
+    const rtapi::DrawIndexedArguments& a = command.arguments;
+    by_host_.statistics.IAVertices += uint64_t{a.IndexCountPerInstance} * a.InstanceCount;
     return target_.draw(command, label(command_name(*running_)));
   }
   rtapi::Status operator()(const ClearTargetCommand& command) {
@@ -54,7 +60,10 @@ class Executor {
     if (status) command.heap->set_written(command.index);
     return status;
   }
-  rtapi::Status operator()(const ResolveTimestampsCommand& command);
+  rtapi::Status operator()(const BeginQueryCommand& command);
+  rtapi::Status operator()(const EndQueryCommand& command);
+  rtapi::Status operator()(const ResolveQueriesCommand& command);
+  rtapi::Status operator()(const PredicationCommand& command);
   rtapi::Status operator()(const BarrierCommand&) { return target_.barrier(); }
   rtapi::Status operator()(const EventCommand& command) {
     if (command.begin) {
@@ -73,6 +82,9 @@ class Executor {
     return indirect_ ? indirect_label(what, *indirect_, text) : text;
   }
   rtapi::Status take(DispatchOutcome outcome);
+  void count(const DispatchCommand& command);
+  WorkToCount work_to_count() const;
+  WorkCounts sums() const;
 
   CommandTarget& target_;
   const Context& context_;
@@ -82,7 +94,21 @@ class Executor {
   std::vector<std::string> events_;
   // The running dispatch's. They are reported after what checked mode finds, which knows the cause.
   std::vector<DispatchOutcome::Warning> warnings_;
+  std::vector<const CountingQueries*> running_queries_;  // a heap once for each of them
+  WorkCounts by_host_;       // sums of all commands, of what backends do not count
+  bool leaves_out_ = false;  // by predication
 };
+
+// The commands that predication concerns. [D3D12: Predication]
+bool is_predicated(const Command& command) {
+  if (const auto* copy = std::get_if<CopyBufferCommand>(&command)) return !copy->immediate;
+  return std::holds_alternative<DrawCommand>(command) ||
+         std::holds_alternative<DispatchCommand>(command) ||
+         std::holds_alternative<ExecuteIndirectCommand>(command) ||
+         std::holds_alternative<CopyTextureCommand>(command) ||
+         std::holds_alternative<ClearUavCommand>(command) ||
+         std::holds_alternative<ClearTargetCommand>(command);
+}
 
 rtapi::Status Executor::take(DispatchOutcome outcome) {
   if (auto* observer = context_.observer) {
@@ -94,6 +120,7 @@ rtapi::Status Executor::take(DispatchOutcome outcome) {
 }
 
 rtapi::Status Executor::run(const Command& command) {
+  if (leaves_out_ && is_predicated(command)) return {};
   running_ = &command;
   CommandObserver* observer = context_.observer;
   rtapi::Status status;
@@ -124,15 +151,68 @@ rtapi::Status Executor::operator()(const ExecuteIndirectCommand& command) {
   return execute_indirect(*context_.addresses, command, label("ExecuteIndirect"), run_one);
 }
 
-rtapi::Status Executor::operator()(const ResolveTimestampsCommand& command) {
+void Executor::count(const DispatchCommand& command) {
+  if (running_queries_.empty() || command.linked == nullptr) return;
+  uint64_t threads = 1;
+  for (uint32_t i = 0; i < 3; ++i) {
+    threads *= uint64_t{command.groups[i]} * command.linked->shader.code->compute->thread_group[i];
+  }
+  by_host_.statistics.CSInvocations += threads;
+}
+
+WorkToCount Executor::work_to_count() const {
+  WorkToCount what;
+  for (const CountingQueries* heap : running_queries_) {
+    (heap->type() == rtapi::QueryHeapType::kOcclusion ? what.samples : what.statistics) = true;
+  }
+  return what;
+}
+
+WorkCounts Executor::sums() const {
+  WorkCounts all = target_.counted();
+  all.add(by_host_);
+  return all;
+}
+
+rtapi::Status Executor::operator()(const BeginQueryCommand& command) {
+  running_queries_.push_back(command.heap.get());
+  if (auto s = target_.count_work(work_to_count()); !s) return s;
+  command.heap->begin(command.index, sums());
+  return {};
+}
+
+rtapi::Status Executor::operator()(const EndQueryCommand& command) {
+  const auto it = std::find(running_queries_.begin(), running_queries_.end(), command.heap.get());
+  if (it != running_queries_.end()) running_queries_.erase(it);
+  if (auto s = target_.count_work(work_to_count()); !s) return s;
+  command.heap->end(command.index, sums());
+  command.heap->set_written(command.index);
+  return {};
+}
+
+rtapi::Status Executor::operator()(const PredicationCommand& command) {
+  leaves_out_ = false;
+  if (command.buffer == nullptr) return {};
+  // Earlier commands may write the value.
+  if (auto s = target_.finish(); !s) return s;
+  uint64_t value;
+  std::memcpy(&value, command.buffer->host() + command.offset, sizeof value);
+  leaves_out_ = (value == 0) == (command.op == rtapi::PredicationOp::kEqualZero);
+  return {};
+}
+
+rtapi::Status Executor::operator()(const ResolveQueriesCommand& command) {
   for (uint32_t i = command.first; i < command.first + command.count; ++i) {
     if (command.heap->written(i)) continue;
-    warnings_.push_back({Id::kTimestampNotWritten, label("ResolveQueryData") + ": query " +
-                                                       std::to_string(i) +
-                                                       " was never ended, and is 0."});
+    warnings_.push_back({Id::kQueryNotWritten, label("ResolveQueryData") + ": query " +
+                                                   std::to_string(i) +
+                                                   " was never ended, and is 0."});
     break;
   }
-  return target_.resolve_timestamps(command);
+  if (command.type == rtapi::QueryType::kTimestamp) return target_.resolve_timestamps(command);
+  const auto& queries = static_cast<const CountingQueries&>(*command.heap);
+  return target_.write_buffer(command.dest, command.dest_offset,
+                              queries.data(command.type, command.first, command.count));
 }
 
 }  // namespace

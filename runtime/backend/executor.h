@@ -49,7 +49,14 @@ class CommandTarget {
   virtual rtapi::Status copy_texture(const CopyTextureCommand& command) = 0;
   virtual rtapi::Status clear(const ClearUavCommand& command) = 0;
   virtual rtapi::Status write_timestamp(const TimestampCommand& command) = 0;
-  virtual rtapi::Status resolve_timestamps(const ResolveTimestampsCommand& command) = 0;
+  virtual rtapi::Status resolve_timestamps(const ResolveQueriesCommand& command) = 0;
+  // From now on, draws add to these sums; everything earlier is done when it returns.
+  virtual rtapi::Status count_work(const WorkToCount& what) = 0;
+  // The sums of all draws that were counted, and are done.
+  virtual WorkCounts counted() const = 0;
+  // Writes bytes from the host, a multiple of 4, when all earlier commands are done.
+  virtual rtapi::Status write_buffer(const std::shared_ptr<BackendBuffer>& dest, uint64_t offset,
+                                     std::span<const uint8_t> bytes) = 0;
   virtual rtapi::Status barrier() = 0;
   // Returns when all earlier commands are done, so that the host sees what they wrote.
   virtual rtapi::Status finish() = 0;

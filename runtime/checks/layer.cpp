@@ -498,6 +498,17 @@ void Layer::check(const runtime::CopyTextureCommand& command) {
   }
 }
 
+void Layer::check(const runtime::ResolveQueriesCommand& command) {
+  hazards_.use(command.dest->address() + command.dest_offset, ResourceStates::kCopyDest,
+               "the buffer of queries");
+}
+
+void Layer::check(const runtime::PredicationCommand& command) {
+  if (command.buffer == nullptr) return;
+  hazards_.use(command.buffer->address() + command.offset, ResourceStates::kPredication,
+               "the predicate");
+}
+
 void Layer::check(const runtime::ClearUavCommand& command) {
   if (command.view.kind == shader::DescriptorKind::kTexture) {
     return textures_.use_view(shader::view_key(command.view.address, true),
@@ -531,6 +542,11 @@ void Layer::note(const runtime::RtasOperationsCommand& command) {
 void Layer::note(const runtime::CopyBufferCommand& command) {
   if (command.size_bytes == 0) return;
   structures_.written(command.dest->address() + command.dest_offset, command.size_bytes);
+}
+
+void Layer::note(const runtime::ResolveQueriesCommand& command) {
+  structures_.written(command.dest->address() + command.dest_offset,
+                      command.count * runtime::query_data_bytes(command.type));
 }
 
 void Layer::note(const runtime::CopyTextureCommand& command) {

@@ -70,6 +70,8 @@ class Layer : public runtime::CommandObserver {
   void check(const runtime::CopyBufferCommand& command);
   void check(const runtime::CopyTextureCommand& command);
   void check(const runtime::ClearUavCommand& command);
+  void check(const runtime::ResolveQueriesCommand& command);
+  void check(const runtime::PredicationCommand& command);
   void check(const runtime::DrawCommand& command);
   void check(const runtime::ClearTargetCommand& command) {
     draws_.targets().check(command, label());
@@ -87,6 +89,7 @@ class Layer : public runtime::CommandObserver {
   void note(const runtime::CopyBufferCommand& command);
   void note(const runtime::CopyTextureCommand& command);
   void note(const runtime::ClearUavCommand& command);
+  void note(const runtime::ResolveQueriesCommand& command);
   void note(const runtime::DrawCommand& command) { draws_.targets().note(command); }
   void note(const runtime::ClearTargetCommand& command) { draws_.targets().note(command); }
   void note(const runtime::DispatchRaysCommand&) { hold_tables(); }

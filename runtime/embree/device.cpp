@@ -219,7 +219,11 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Device::create_query_heap(
-    uint32_t count) {
+    rtapi::QueryHeapType type, uint32_t count) {
+  if (type != rtapi::QueryHeapType::kTimestamp) {
+    return std::shared_ptr<runtime::BackendQueryHeap>(
+        std::make_shared<runtime::CountingQueries>(type, count));
+  }
   return std::shared_ptr<runtime::BackendQueryHeap>(std::make_shared<Timestamps>(count));
 }
 

@@ -46,7 +46,7 @@ class Device final : public runtime::BackendDevice {
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_graphics_pipeline(
       std::shared_ptr<const runtime::LinkedGraphics> pipeline) override;
   rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> create_query_heap(
-      uint32_t count) override;
+      rtapi::QueryHeapType type, uint32_t count) override;
   uint64_t timestamp_frequency() const override { return Timestamps::kFrequency; }
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       const runtime::BuildCommand& inputs) const override;

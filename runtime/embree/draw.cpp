@@ -32,6 +32,18 @@ raster::Draw resolve(const runtime::DrawCommand& command) {
   return draw;
 }
 
+runtime::WorkCounts work_of(const runtime::DrawCounts& draw) {
+  runtime::WorkCounts counts;
+  counts.samples = draw.written;
+  rtapi::QueryDataPipelineStatistics& statistics = counts.statistics;
+  statistics.IAPrimitives = draw.triangles;
+  statistics.VSInvocations = draw.vertices;
+  statistics.CInvocations = draw.triangles;
+  statistics.CPrimitives = draw.triangles - draw.not_a_triangle - draw.outside;
+  statistics.PSInvocations = draw.shaded;
+  return counts;
+}
+
 }  // namespace
 
 raster::Surface surface_of(const runtime::TargetView& view) {
@@ -65,6 +77,7 @@ CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::st
   if (observation_ != nullptr) running.number = observation_->next_draw++;
   begin_draw(environment_, running);
   draws_.push_back(resolve(running.command));
+  draws_.back().counted = counts_work_;
   return outcome;
 }
 
@@ -136,7 +149,10 @@ void DrawPass::begin_observation(raster::Observation& noted) {
   if (all.logs_pixel) noted.log = &all.log;
 }
 
-void DrawPass::end_observation(const raster::Observation& noted) const {
+void DrawPass::end_observation(const raster::Observation& noted) {
+  for (size_t i = 0; counts_work_ && i < running_.size(); ++i) {
+    counted_.add(work_of(noted.draws[i].counts));
+  }
   if (environment_.context->observer == nullptr) return;
   for (size_t i = 0; i < running_.size(); ++i) {
     environment_.context->observer->drawn(running_[i].command, noted.draws[i].counts);
@@ -149,7 +165,8 @@ CountedOutcome DrawPass::flush() {
   if (running_.empty()) return outcome;
   DrawWorkers workers(environment_, running_);
   raster::Observation noted;
-  const bool observed = observation_ != nullptr || environment_.context->observer != nullptr;
+  const bool observed =
+      observation_ != nullptr || environment_.context->observer != nullptr || counts_work_;
   if (observed) begin_observation(noted);
   rasterizer_.draw(targets_, draws_, workers, observed ? &noted : nullptr);
   if (observed) end_observation(noted);

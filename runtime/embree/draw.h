@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/backend/draw_commands.h"
+#include "runtime/backend/queries.h"
 #include "runtime/embree/draw_shaders.h"
 #include "runtime/raster/observer.h"
 #include "runtime/raster/rasterizer.h"
@@ -28,6 +29,9 @@ class DrawPass {
   // Clears when the pass before has run: at once, or as part of the next pass if it draws to the
   // same view.
   CountedOutcome clear(const runtime::ClearTargetCommand& command);
+  // Draws from now on are counted, or not. Nothing waits.
+  void count_work(bool on) { counts_work_ = on; }
+  const runtime::WorkCounts& counted() const { return counted_; }
   // Runs what waits. An error removes the device: KA0892, KA0893, KA0897.
   CountedOutcome flush();
 
@@ -39,7 +43,7 @@ class DrawPass {
   void begin_pass(const runtime::DrawTargets& views);
   // Tells raster::Observation what to note, and others what was.
   void begin_observation(raster::Observation& noted);
-  void end_observation(const raster::Observation& noted) const;
+  void end_observation(const raster::Observation& noted);
 
   DispatchEnvironment environment_;
   raster::Rasterizer& rasterizer_;
@@ -48,6 +52,8 @@ class DrawPass {
   std::vector<raster::Draw> draws_;
   raster::Targets targets_;                          // of the draws
   std::vector<runtime::ClearTargetCommand> clears_;  // that wait for a pass
+  bool counts_work_ = false;
+  runtime::WorkCounts counted_;
 };
 
 // Texels of a target's view.

@@ -70,12 +70,22 @@ class Target final : public runtime::CommandTarget {
     static_cast<Timestamps&>(*command.heap).write(command.index);
     return {};
   }
-  rtapi::Status resolve_timestamps(const runtime::ResolveTimestampsCommand& command) override {
+  rtapi::Status resolve_timestamps(const runtime::ResolveQueriesCommand& command) override {
+    return write_buffer(
+        command.dest, command.dest_offset,
+        static_cast<const Timestamps&>(*command.heap).bytes(command.first, command.count));
+  }
+  rtapi::Status count_work(const runtime::WorkToCount& what) override {
     if (auto s = finish(); !s) return s;
-    const uint64_t bytes = command.count * sizeof(uint64_t);
-    device_.memory().evict(command.dest->address() + command.dest_offset, bytes);
-    static_cast<const Timestamps&>(*command.heap)
-        .copy(command.first, command.count, command.dest->host() + command.dest_offset);
+    pass_.count_work(what.any());
+    return {};
+  }
+  runtime::WorkCounts counted() const override { return pass_.counted(); }
+  rtapi::Status write_buffer(const std::shared_ptr<runtime::BackendBuffer>& dest, uint64_t offset,
+                             std::span<const uint8_t> bytes) override {
+    if (auto s = finish(); !s) return s;
+    device_.memory().evict(dest->address() + offset, bytes.size());
+    std::memcpy(dest->host() + offset, bytes.data(), bytes.size());
     return {};
   }
   // Only draws wait; nothing overlaps.

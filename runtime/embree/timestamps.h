@@ -5,7 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <cstring>
+#include <span>
 #include <vector>
 
 #include "runtime/backend/backend.h"
@@ -23,8 +23,8 @@ class Timestamps final : public runtime::BackendQueryHeap {
     ticks_[index] =
         static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
   }
-  void copy(uint32_t first, uint32_t count, uint8_t* dest) const {
-    std::memcpy(dest, ticks_.data() + first, count * sizeof(uint64_t));
+  std::span<const uint8_t> bytes(uint32_t first, uint32_t count) const {
+    return {reinterpret_cast<const uint8_t*>(ticks_.data() + first), count * sizeof(uint64_t)};
   }
 
  private:

@@ -39,6 +39,7 @@ struct Draw {
   const runtime::LinkedGraphics* linked = nullptr;
   const runtime::DrawState* state = nullptr;
   bool indexed = false;
+  bool counted = false;                   // what it does counts although nobody may see it
   rtapi::DrawIndexedArguments arguments;  // as in runtime::DrawCommand
   // The bytes that the views of `state` stand for; a span without data means that nothing is bound.
   // Strides and the format of indices are those of the views.

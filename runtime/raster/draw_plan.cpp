@@ -160,8 +160,8 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
     plan.needs_z = position && columns.position_components > 2;
   }
   // A pixel shader of which nothing can be seen.
-  if (plan.has_pixel && plan.targets.empty() && linked.pixel_columns.depth == kNoColumn &&
-      linked.pixel_desc().flags == 0) {
+  if (plan.has_pixel && !draw.counted && plan.targets.empty() &&
+      linked.pixel_columns.depth == kNoColumn && linked.pixel_desc().flags == 0) {
     plan.has_pixel = false;
     plan.needs_z = false;
   }
@@ -169,8 +169,9 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
   plan.needs_z = plan.needs_z || plan.late_test || plan.late_write;
   for (int i = 0; i < 4; ++i) plan.blend_factor[i] = draw.state->blend_factor[i];
   plan.draws_nothing =
-      !any_viewport || (linked.sample_mask & 1) == 0 ||
-      (!plan.has_pixel && plan.depth == DepthKind::kNone && plan.stencil == nullptr);
+      (linked.sample_mask & 1) == 0 ||
+      (!draw.counted && (!any_viewport || (!plan.has_pixel && plan.depth == DepthKind::kNone &&
+                                           plan.stencil == nullptr)));
   return plan;
 }
 

@@ -114,7 +114,20 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Device::create_query_heap(
-    uint32_t count) {
+    rtapi::QueryHeapType type, uint32_t count) {
+  if (type != rtapi::QueryHeapType::kTimestamp) {
+    const GpuFeatures& features = gpu_->features();
+    const bool statistics = type == rtapi::QueryHeapType::kPipelineStatistics;
+    const std::string lacks = !features.graphics_lacks.empty() ? features.graphics_lacks
+                              : statistics && !features.pipeline_statistics
+                                  ? "pipelineStatisticsQuery"
+                                  : "";
+    if (!lacks.empty()) {
+      return runtime::make_error(runtime::Id::kNoQueries, gpu_->info().Name + " lacks " + lacks);
+    }
+    return std::shared_ptr<runtime::BackendQueryHeap>(
+        std::make_shared<runtime::CountingQueries>(type, count));
+  }
   return Timestamps::create(gpu_, count);
 }
 

@@ -2,6 +2,7 @@
 //
 // Runs the command stream in order. Copies, clears and barriers are recorded; whatever the host
 // takes part in (tables, builds) first submits everything before it.
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -72,12 +73,20 @@ class Target final : public runtime::CommandTarget {
     if (auto s = end_draws(); !s) return s;
     return Timestamps::write(device_.stream(), command);
   }
-  rtapi::Status resolve_timestamps(const runtime::ResolveTimestampsCommand& command) override {
+  rtapi::Status resolve_timestamps(const runtime::ResolveQueriesCommand& command) override {
     device_.structures().evict(command.dest->address() + command.dest_offset,
                                command.count * sizeof(uint64_t));
     if (auto s = end_draws(); !s) return s;
     return Timestamps::resolve(device_.stream(), command);
   }
+  rtapi::Status count_work(const runtime::WorkToCount& what) override {
+    if (auto s = finish(); !s) return s;
+    pass_.count_work(what);
+    return {};
+  }
+  runtime::WorkCounts counted() const override { return pass_.counted(); }
+  rtapi::Status write_buffer(const std::shared_ptr<runtime::BackendBuffer>& dest, uint64_t offset,
+                             std::span<const uint8_t> bytes) override;
   rtapi::Status barrier() override {
     pass_.barrier();
     return {};
@@ -122,6 +131,23 @@ rtapi::Status Target::copy_buffer(const runtime::CopyBufferCommand& command,
   const GpuBuffer& dest = gpu_buffer_of(*command.dest);
   const VkBufferCopy region = {source.offset() + from, dest.offset() + to, command.size_bytes};
   device_.gpu().vk().vkCmdCopyBuffer(*commands, source.handle(), dest.handle(), 1, &region);
+  return {};
+}
+
+rtapi::Status Target::write_buffer(const std::shared_ptr<runtime::BackendBuffer>& dest,
+                                   uint64_t offset, std::span<const uint8_t> bytes) {
+  if (auto s = end_draws(); !s) return s;
+  device_.structures().evict(dest->address() + offset, bytes.size());
+  CommandStream& stream = device_.stream();
+  stream.everything();
+  auto commands = stream.record("ResolveQueryData");
+  if (!commands) return commands.error();
+  const GpuBuffer& buffer = gpu_buffer_of(*dest);
+  constexpr size_t kMost = 65536;  // of one vkCmdUpdateBuffer
+  for (size_t i = 0; i < bytes.size(); i += kMost) {
+    device_.gpu().vk().vkCmdUpdateBuffer(*commands, buffer.handle(), buffer.offset() + offset + i,
+                                         std::min(kMost, bytes.size() - i), bytes.data() + i);
+  }
   return {};
 }
 

@@ -247,10 +247,14 @@ std::vector<RuleTest> ras_draw_tests() {
                                  {"RAS-142", flags_of_root_signatures},
                                  {"RAS-143", reset_unbinds},
                                  {"RAS-144", counts_of_zero}};
-  const std::vector<RuleTest> indirect = ras_indirect_tests();
-  tests.insert(tests.end(), indirect.begin(), indirect.end());
+  const auto append = [&](const std::vector<RuleTest>& more) {
+    tests.insert(tests.end(), more.begin(), more.end());
+  };
+  append(ras_indirect_tests());
   tests.push_back({"RAS-149", threads_do_not_matter});
   tests.push_back({"RAS-150", timestamps});
+  append(ras_query_tests());
+  append(ras_predication_tests());
   return tests;
 }
 

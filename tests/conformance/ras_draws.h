@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The tests of ras_draw_tests that are about indirect draws.
+// The tests of ras_draw_tests that are about indirect draws, queries and predication.
 #pragma once
 
 #include <rtapi/upload.h>
@@ -10,5 +10,7 @@
 namespace kaamos::conformance {
 
 std::vector<RuleTest> ras_indirect_tests();
+std::vector<RuleTest> ras_query_tests();
+std::vector<RuleTest> ras_predication_tests();
 
 }  // namespace kaamos::conformance

@@ -229,6 +229,37 @@ TEST_P(Queries, ResolveQueryData) {
   EXPECT_LT(static_cast<double>(span[1] - span[0]) / frequency, 60);
 }
 
+TEST_P(Queries, BeginQuery) {
+  for (const QueryHeapType type : {QueryHeapType::kOcclusion, QueryHeapType::kPipelineStatistics}) {
+    const auto heap = device_.CreateQueryHeap({.Type = type, .Count = 2});
+    KAAMOS_SUPPORTED(heap);
+    const QueryType query =
+        type == QueryHeapType::kOcclusion ? QueryType::kOcclusion : QueryType::kPipelineStatistics;
+    const Buffer found = buffer(2 * sizeof(QueryDataPipelineStatistics));
+    CommandList list = device_.CreateCommandList().value();
+    list.BeginQuery(*heap, query, 0);
+    list.BeginQuery(*heap, query, 1);
+    list.EndQuery(*heap, query, 0);
+    list.EndQuery(*heap, query, 1);
+    list.ResolveQueryData(*heap, query, 0, 2, found, 0);
+    KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+    for (const uint32_t word : read(found)) EXPECT_EQ(word, 0u);
+  }
+}
+
+TEST_P(Queries, SetPredication) {
+  const Buffer values = upload({0, 0, 5, 0});
+  const Buffer source = upload({7, 8});
+  const Buffer out = buffer(8);
+  CommandList list = device_.CreateCommandList().value();
+  list.SetPredication(values, 0, PredicationOp::kEqualZero);
+  list.CopyBufferRegion(out, 0, source, 0, 4);
+  list.SetPredication(values, 8, PredicationOp::kEqualZero);
+  list.CopyBufferRegion(out, 4, source, 4, 4);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  EXPECT_EQ(read(out), (std::vector<uint32_t>{0, 8}));
+}
+
 TEST_P(Queries, QueryThatWasNotEnded) {
   std::vector<std::string> messages;
   DeviceDesc desc;

@@ -34,10 +34,10 @@ enum class InvalidCalls : uint32_t {
   kFailList = 0,  ///< Close() returns the error, and the list cannot be executed
   /// As D3D12's runtimes do without their debug layer: calls that they drop or ignore are told to
   /// DeviceDesc::OnMessage as errors, and the rest of the list executes. These are KA0740-0743,
-  /// KA0802-0805, KA0807-0816, KA0822 and KA0824, those of acceleration structure builds and copies
-  /// (KA0700-0719) and of queries (KA0745). All others fail the list, as there: arguments of
-  /// copies, empty handles, what is not supported. A list that is executed open removes the device
-  /// with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
+  /// KA0802-0805, KA0807-0816, KA0822, KA0824 and KA0829, those of acceleration structure builds
+  /// and copies (KA0700-0719) and of queries (KA0745). All others fail the list, as there:
+  /// arguments of copies, empty handles, what is not supported. A list that is executed open
+  /// removes the device with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
   kDropCall = 1,
 };
 
@@ -447,20 +447,36 @@ class CommandList {
   void WriteBufferImmediate(std::span<const WriteBufferImmediateParameter> parameters,
                             std::span<const WriteBufferImmediateMode> modes = {});
 
-  /// Writes the time at which all earlier commands of the list are done, in ticks of
-  /// CommandQueue::GetTimestampFrequency, to a query of the heap. Later timestamps are never
-  /// smaller. [D3D12: EndQuery]
-  /// @errors KA0800; KA0745 another type than kTimestamp, or no such query; KA0903 a heap of
-  /// another device; KA0904 an empty handle.
+  /// Begins a query of draws and dispatches, which lasts until its EndQuery in the same list.
+  /// Queries of any number may run at once; each begin and end waits for the work before it. There
+  /// is none for kTimestamp. [D3D12: BeginQuery]
+  /// @errors KA0800; KA0745 a type that the heap does not have, no such query, or one that has been
+  /// begun; Close() returns it for a query that is not ended; KA0903 a heap of another device;
+  /// KA0904 an empty handle.
+  void BeginQuery(const QueryHeap& heap, QueryType type, uint32_t index);
+  /// Ends a query. For kTimestamp: writes the time at which all earlier commands of the list are
+  /// done, in ticks of CommandQueue::GetTimestampFrequency; later timestamps are never smaller.
+  /// [D3D12: EndQuery]
+  /// @errors KA0800; KA0745 a type that the heap does not have or that is not the begin's, no such
+  /// query, or no BeginQuery before; KA0903 a heap of another device; KA0904 an empty handle.
   void EndQuery(const QueryHeap& heap, QueryType type, uint32_t index);
-  /// Copies `count` queries from `start_index` on to a buffer of the default or readback heap: a
-  /// uint64_t each, without gaps. `destination_offset_bytes` is a multiple of 8. [D3D12:
-  /// ResolveQueryData]
-  /// @errors KA0800; KA0745 another type than kTimestamp, no such queries, or the buffer; KA0903 an
-  /// object of another device; KA0904 an empty handle. When it executes: warning KA0899, a query
-  /// that no EndQuery wrote; it is 0.
+  /// Copies `count` queries from `start_index` on to a buffer of the default or readback heap,
+  /// without gaps: a uint64_t each, or a QueryDataPipelineStatistics. `destination_offset_bytes` is
+  /// a multiple of 8. [D3D12: ResolveQueryData]
+  /// @errors KA0800; KA0745 a type that the heap does not have, no such queries, one that runs, or
+  /// the buffer; KA0903 an object of another device; KA0904 an empty handle. When it executes:
+  /// warning KA0899, a query that no EndQuery wrote; it is 0.
   void ResolveQueryData(const QueryHeap& heap, QueryType type, uint32_t start_index, uint32_t count,
                         const Buffer& destination, uint64_t destination_offset_bytes);
+
+  /// From now on, draws, Dispatch, ExecuteIndirect, CopyBufferRegion, CopyTextureRegion,
+  /// CopyResource and clears are left out when the uint64_t at `offset_bytes`, a multiple of 8, of
+  /// `buffer` is as `op` says. It is read when the list executes, as it is at this call: later
+  /// writes change nothing. An empty buffer ends predication, as the end of the list does. Builds,
+  /// DispatchRays and everything else runs in any case. [D3D12: Predication]
+  /// @errors KA0800; KA0829 a texture, the offset, or an unknown operation; KA0903 a buffer of
+  /// another device.
+  void SetPredication(const Resource& buffer, uint64_t offset_bytes, PredicationOp op);
 
   /// Begins a span of commands that messages call by `name`. Spans nest. [D3D12: BeginEvent]
   /// @errors KA0800.

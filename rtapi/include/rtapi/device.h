@@ -329,9 +329,9 @@ class Device {
   Result<CommandSignature> CreateCommandSignature(const CommandSignatureDesc& desc,
                                                   const RootSignature& root_signature = {}) const;
 
-  /// Makes a heap of timestamp queries for CommandList::EndQuery. [D3D12: CreateQueryHeap]
+  /// Makes a heap of queries for CommandList::BeginQuery and EndQuery. [D3D12: CreateQueryHeap]
   /// @errors KA0904 an empty handle; KA0744 the description; on Vulkan KA0952, KA0958 the device
-  /// has no timestamps; KA0990 no memory; the reason if the device is removed.
+  /// has no queries of this type; KA0990 no memory; the reason if the device is removed.
   Result<QueryHeap> CreateQueryHeap(const QueryHeapDesc& desc) const;
 
   // Acceleration structures

@@ -253,6 +253,7 @@ inline constexpr ErrorId kListNotExecutable{823};  ///< command list cannot be e
 inline constexpr ErrorId kEvents{824};  ///< unbalanced BeginEvent and EndEvent
 inline constexpr ErrorId kWriteImmediate{825};  ///< values cannot be written
 inline constexpr ErrorId kViewAdjusted{826};  ///< view is not as described
+inline constexpr ErrorId kPredication{829};  ///< invalid predication
 inline constexpr ErrorId kTableUnknownExport{840};  ///< shader table: unknown export
 inline constexpr ErrorId kTableArgumentCount{841};  ///< shader table: wrong number of local arguments
 inline constexpr ErrorId kTableArgumentKind{842};  ///< shader table: wrong kind of local argument
@@ -303,7 +304,7 @@ inline constexpr ErrorId kRecordOutOfBounds{895};  ///< shader record past the e
 inline constexpr ErrorId kRecordUnknown{896};  ///< shader record without a valid identifier
 inline constexpr ErrorId kStepLimit{897};  ///< an interpreted shader used up its limit of steps
 inline constexpr ErrorId kIndirectArguments{898};  ///< indirect arguments cannot be used
-inline constexpr ErrorId kTimestampNotWritten{899};  ///< a timestamp was resolved that no EndQuery had written
+inline constexpr ErrorId kQueryNotWritten{899};  ///< a query was resolved that no EndQuery had written
 inline constexpr ErrorId kNoVulkanDevice{950};  ///< no Vulkan device with ray tracing pipelines
 inline constexpr ErrorId kNoValidationLayer{951};  ///< Vulkan's validation layer is not installed
 inline constexpr ErrorId kVulkanFailed{952};  ///< a Vulkan call failed
@@ -312,7 +313,7 @@ inline constexpr ErrorId kNoSpirv{954};  ///< shader has no code for Vulkan
 inline constexpr ErrorId kVulkanDeviceLost{955};  ///< the Vulkan device was lost
 inline constexpr ErrorId kVulkanLimit{956};  ///< a limit of the Vulkan device is exceeded
 inline constexpr ErrorId kUnknownWorkaround{957};  ///< unknown workaround
-inline constexpr ErrorId kNoTimestamps{958};  ///< the Vulkan device has no timestamps
+inline constexpr ErrorId kNoQueries{958};  ///< the Vulkan device has no such queries
 inline constexpr ErrorId kValidationFinding{959};  ///< Vulkan's validation layers found a fault of the Vulkan backend
 inline constexpr ErrorId kTextureUnsupported{960};  ///< texture not supported by the Vulkan device
 inline constexpr ErrorId kViewUnsupported{961};  ///< view not supported by the Vulkan device

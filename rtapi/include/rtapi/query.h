@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Timestamps: when the commands of a list were reached. [D3D12: Timing]
+/// Queries: when the commands of a list were reached, and what its draws did. [D3D12: Queries]
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,42 @@ struct QueryHeapImpl;
 
 /// The kind of queries that a heap holds. [D3D12: D3D12_QUERY_HEAP_TYPE]
 enum class QueryHeapType : uint32_t {
-  kOcclusion = 0,  ///< not offered (KA0744)
-  kTimestamp = 1,  ///< points in time: uint64_t, in ticks
+  kOcclusion = 0,           ///< samples that passed the tests of depth and stencil
+  kTimestamp = 1,           ///< points in time: uint64_t, in ticks
+  kPipelineStatistics = 2,  ///< what draws and dispatches ran
 };
 
-/// The kind of query that CommandList::EndQuery asks for. [D3D12: D3D12_QUERY_TYPE]
+/// The kind of a query, and what ResolveQueryData writes for it. [D3D12: D3D12_QUERY_TYPE]
 enum class QueryType : uint32_t {
-  kOcclusion = 0,        ///< not offered (KA0745)
-  kBinaryOcclusion = 1,  ///< not offered (KA0745)
-  kTimestamp = 2,        ///< of a heap of kTimestamp
+  /// uint64_t: samples of draws that passed the tests of depth and stencil, which they also do
+  /// where there is no test. Samples that the pixel shader discards did not. Of kOcclusion.
+  kOcclusion = 0,
+  kBinaryOcclusion = 1,     ///< uint64_t: 1 if kOcclusion is not 0, else 0; of kOcclusion
+  kTimestamp = 2,           ///< uint64_t: ticks; of kTimestamp
+  kPipelineStatistics = 3,  ///< QueryDataPipelineStatistics; of kPipelineStatistics
+};
+
+/// What draws and dispatches of a query did. Backends may differ where D3D12 allows it: how often a
+/// vertex is shaded, and how many triangles clipping makes. DispatchRays counts for nothing.
+/// [D3D12: D3D12_QUERY_DATA_PIPELINE_STATISTICS]
+struct QueryDataPipelineStatistics {
+  uint64_t IAVertices = 0;     ///< vertices that draws asked for, of all instances
+  uint64_t IAPrimitives = 0;   ///< triangles that they make
+  uint64_t VSInvocations = 0;  ///< runs of the vertex shader
+  uint64_t GSInvocations = 0;  ///< 0: there are no geometry shaders
+  uint64_t GSPrimitives = 0;   ///< 0: there are no geometry shaders
+  uint64_t CInvocations = 0;   ///< triangles that came to clipping
+  uint64_t CPrimitives = 0;    ///< triangles that went on from it
+  uint64_t PSInvocations = 0;  ///< runs of the pixel shader; without helpers on Embree
+  uint64_t HSInvocations = 0;  ///< 0: there are no hull shaders
+  uint64_t DSInvocations = 0;  ///< 0: there are no domain shaders
+  uint64_t CSInvocations = 0;  ///< threads of Dispatch
+};
+
+/// When a predicate leaves commands out, by all 64 bits of its value. [D3D12: D3D12_PREDICATION_OP]
+enum class PredicationOp : uint32_t {
+  kEqualZero = 0,     ///< where they are 0
+  kNotEqualZero = 1,  ///< where they are not 0
 };
 
 /// Describes a heap of queries for Device::CreateQueryHeap. [D3D12: D3D12_QUERY_HEAP_DESC]

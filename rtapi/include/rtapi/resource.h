@@ -63,6 +63,7 @@ enum class ResourceStates : uint32_t {
   kNonPixelShaderResource = 0x40,  ///< what ray tracing shaders, builds and shader tables read
   kPixelShaderResource = 0x80,     ///< what pixel shaders read
   kIndirectArgument = 0x200,       ///< argument and count buffers of ExecuteIndirect
+  kPredication = 0x200,            ///< buffers of SetPredication; the same value
   kCopyDest = 0x400,
   kCopySource = 0x800,
   kGenericRead = 0xAC3,

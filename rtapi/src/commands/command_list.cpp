@@ -27,7 +27,7 @@ bool is_dropped(ErrorId id) {
     return number >= first && number <= last;
   };
   return between(700, 719) || between(740, 743) || number == 745 || between(802, 805) ||
-         between(807, 816) || number == 822 || number == 824;
+         between(807, 816) || number == 822 || number == 824 || number == 829;
 }
 
 }  // namespace
@@ -174,6 +174,7 @@ void CommandList::ClearState(const PipelineState& pipeline) {
   impl_->draw_state = std::make_shared<runtime::DrawState>();
   impl_->target_uses.clear();
   impl_->input_uses.clear();
+  if (impl_->predicated) SetPredication({}, 0, PredicationOp::kEqualZero);
   if (pipeline) SetPipelineState(pipeline);
 }
 
@@ -183,6 +184,12 @@ Status CommandList::Close() {
   if (impl_->open_events > 0) {
     impl_->fail(
         make_error(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
+  }
+  if (!impl_->open_queries.empty()) {
+    const auto& query = impl_->open_queries.front();
+    impl_->fail(make_error(Id::kQuery, "query ", query.index, " of ",
+                           named("query heap", query.heap.GetDesc().Name),
+                           " was begun and not ended; call EndQuery for it before Close"));
   }
   impl_->open = false;
   if (impl_->errors.empty()) return {};

@@ -480,6 +480,7 @@ void CommandList::WriteBufferImmediate(std::span<const WriteBufferImmediateParam
     command.source = values->impl()->memory;
     command.source_offset = from;
     command.size_bytes = sizeof(uint32_t);
+    command.immediate = true;
     impl_->record(std::move(command));
   }
 }

@@ -46,6 +46,14 @@ struct CommandListImpl {
   std::vector<MemoryUse> target_uses;
   std::map<uint32_t, MemoryUse> input_uses;
   uint32_t open_events = 0;
+  // Queries that have been begun and not ended.
+  struct OpenQuery {
+    QueryHeap heap;
+    QueryType type;
+    uint32_t index;
+  };
+  std::vector<OpenQuery> open_queries;
+  bool predicated = false;  // a predicate is set
 
   // Keeps the error, which Close() reports as in D3D12, or reports it and goes on, see
   // InvalidCalls.

@@ -30,8 +30,8 @@ class QueryTest : public CommandListTest {
 TEST_F(QueryTest, HeapsAreChecked) {
   EXPECT_ERROR(device_.CreateQueryHeap({.Count = 0}), "KA0744", "1 to 1048576");
   EXPECT_ERROR(device_.CreateQueryHeap({.Count = (1 << 20) + 1}), "KA0744", "1048577");
-  EXPECT_ERROR(device_.CreateQueryHeap({.Type = QueryHeapType::kOcclusion, .Count = 1}), "KA0744",
-               "type 0");
+  EXPECT_ERROR(device_.CreateQueryHeap({.Type = static_cast<QueryHeapType>(3), .Count = 1}),
+               "KA0744", "type 3");
   EXPECT_ERROR(Device().CreateQueryHeap({.Count = 1}), "KA0904");
   EXPECT_EQ(heap_.GetDesc().Count, 8u);
   EXPECT_EQ(QueryHeap().GetDesc().Count, 0u);
@@ -46,7 +46,7 @@ TEST_F(QueryTest, CommandsAreRecorded) {
   EXPECT_OK(queue_.ExecuteCommandLists({list_}));
   EXPECT_EQ(null_log().executed.size(), 2u);
   EXPECT_EQ(Executed<runtime::TimestampCommand>(0).index, 7u);
-  const auto& resolve = Executed<runtime::ResolveTimestampsCommand>(1);
+  const auto& resolve = Executed<runtime::ResolveQueriesCommand>(1);
   EXPECT_EQ(resolve.heap, Executed<runtime::TimestampCommand>(0).heap);
   EXPECT_EQ(resolve.first, 1u);
   EXPECT_EQ(resolve.count, 7u);
@@ -77,6 +77,43 @@ TEST_F(QueryTest, DestinationsAreChecked) {
   EXPECT_ERROR(Resolve(0, 1, 0, buffer_, QueryType::kBinaryOcclusion), "KA0745", "type 1");
   EXPECT_ERROR(Resolve(0, 1, 0, MakeBuffer(64, HeapType::kUpload)), "KA0745", "upload heap");
   EXPECT_ERROR(Resolve(0, 1, 0, {}), "KA0904");
+}
+
+TEST_F(QueryTest, QueriesOfDrawsAreRecorded) {
+  const QueryHeap heap =
+      device_.CreateQueryHeap({.Type = QueryHeapType::kPipelineStatistics, .Count = 4}).value();
+  constexpr QueryType kType = QueryType::kPipelineStatistics;
+  const Buffer large = MakeBuffer(256);
+  list_.BeginQuery(heap, kType, 2);
+  list_.BeginQuery(heap, kType, 3);
+  list_.EndQuery(heap, kType, 2);
+  list_.EndQuery(heap, kType, 3);
+  list_.ResolveQueryData(heap, kType, 2, 2, large, 80);
+  EXPECT_OK(list_.Close());
+  EXPECT_OK(queue_.ExecuteCommandLists({list_}));
+  EXPECT_EQ(Executed<runtime::BeginQueryCommand>(1).index, 3u);
+  EXPECT_EQ(Executed<runtime::EndQueryCommand>(2).index, 2u);
+  EXPECT_EQ(Executed<runtime::ResolveQueriesCommand>(4).type, kType);
+  // 88 bytes each.
+  EXPECT_ERROR(
+      Record([&](CommandList& list) { list.ResolveQueryData(heap, kType, 0, 3, large, 0); }),
+      "KA0745", "0..264");
+}
+
+// Queries and predicates that a program drops leave the rest of the list alone.
+TEST_F(QueryTest, ErrorsOfQueriesNameTheQuery) {
+  const QueryHeap heap =
+      device_.CreateQueryHeap({.Type = QueryHeapType::kOcclusion, .Count = 4, .Name = "boxes"})
+          .value();
+  EXPECT_ERROR(Record([&](CommandList& list) { list.BeginQuery(heap, QueryType::kOcclusion, 3); }),
+               "KA0745", "query 3", "boxes", "not ended");
+  EXPECT_ERROR(
+      Record([&](CommandList& list) { list.EndQuery(heap, QueryType::kBinaryOcclusion, 1); }),
+      "KA0745", "query 1", "boxes", "not been begun");
+  EXPECT_ERROR(Record([&](CommandList& list) {
+                 list.SetPredication(buffer_, 60, PredicationOp::kEqualZero);
+               }),
+               "KA0829", "60..68", "64 bytes");
 }
 
 }  // namespace

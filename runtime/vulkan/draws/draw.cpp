@@ -264,6 +264,7 @@ CountedOutcome DrawPass::flush() {
         waiting_.empty() ? "" : waiting_.front().label + " to " + waiting_.back().label;
     outcome.status = waiting_.empty() ? stream.flush() : flush_guarded(stream, label);
   }
+  if (outcome.status) outcome.status = pass_.read_counts(counted_);
   for (const Waiting& draw : std::exchange(waiting_, {})) {
     add_counts(draw.status, outcome.statistics);
     if (outcome.status) outcome.status = status_of(draw.status, 0, 0, draw.label);

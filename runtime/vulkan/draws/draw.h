@@ -46,6 +46,9 @@ class DrawPass {
   // `label` names the draw in messages. Errors: KA0952, KA0990, and those of flush().
   CountedOutcome draw(const runtime::DrawCommand& command, const std::string& label);
   rtapi::Status clear(const runtime::ClearTargetCommand& command) { return pass_.clear(command); }
+  // From now on, draws are counted like this. Nothing waits.
+  void count_work(const runtime::WorkToCount& what) { pass_.count_work(what); }
+  const runtime::WorkCounts& counted() const { return counted_; }
   // Orders everything before it against everything after it.
   void barrier();
   // Returns whether there is anything that flush() would run or check.
@@ -81,6 +84,7 @@ class DrawPass {
   VkPipeline set_pipeline_ = VK_NULL_HANDLE;
   std::shared_ptr<const runtime::DrawState> set_state_;
   bool set_restart_ = false;
+  runtime::WorkCounts counted_;
 };
 
 }  // namespace kaamos::vulkan

@@ -96,6 +96,7 @@ rtapi::Result<VkCommandBuffer> RenderPass::open(const runtime::DrawTargets& targ
   const RenderArea area = area_of(targets, wanted);
   if (open_ && targets_ == targets && covers(area_, area)) return commands_;
   if (auto s = begin(targets, area, label, true); !s) return s.error();
+  begin_counting();
   return commands_;
 }
 
@@ -150,6 +151,9 @@ rtapi::Status RenderPass::begin(const runtime::DrawTargets& targets, const Rende
   if (queries_ != VK_NULL_HANDLE) {
     stream_.gpu().vk().vkCmdResetQueryPool(commands_, queries_, 0, 1);
   }
+  if (counting_.what().any()) {
+    if (auto s = counting_.prepare(commands_); !s) return s;
+  }
   VkRenderingInfo info = {VK_STRUCTURE_TYPE_RENDERING_INFO};
   info.renderArea = {{0, 0}, {area.width, area.height}};
   info.layerCount = area.layers;
@@ -167,8 +171,15 @@ rtapi::Status RenderPass::begin(const runtime::DrawTargets& targets, const Rende
   return {};
 }
 
+void RenderPass::begin_counting() {
+  if (!counting_.what().any()) return;
+  counting_.begin(commands_);
+  counts_open_ = true;
+}
+
 rtapi::Status RenderPass::keep_memory_writes() {
-  if (query_open_) return {};
+  // A query of samples that counts does the same.
+  if (query_open_ || (counts_open_ && counting_.what().samples)) return {};
   Gpu& gpu = stream_.gpu();
   if (queries_ == VK_NULL_HANDLE) {
     VkQueryPoolCreateInfo info = {VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -178,6 +189,7 @@ rtapi::Status RenderPass::keep_memory_writes() {
     if (r != VK_SUCCESS) return gpu.error(r, "an occlusion query");
     // Queries are reset outside of renderings.
     if (auto s = begin(runtime::DrawTargets(targets_), area_, "draws", false); !s) return s;
+    begin_counting();
   }
   gpu.vk().vkCmdBeginQuery(commands_, queries_, 0, VK_QUERY_CONTROL_PRECISE_BIT);
   query_open_ = true;
@@ -188,8 +200,9 @@ void RenderPass::end() {
   if (!open_) return;
   const VolkDeviceTable& vk = stream_.gpu().vk();
   if (query_open_) vk.vkCmdEndQuery(commands_, queries_, 0);
+  if (counts_open_) counting_.end(commands_);
   vk.vkCmdEndRendering(commands_);
-  open_ = query_open_ = false;
+  open_ = query_open_ = counts_open_ = false;
   stream_.everything();
 }
 
@@ -206,7 +219,8 @@ rtapi::Status RenderPass::clear_waiting() {
 }
 
 RenderPass::Place RenderPass::place_of(const ClearTargetCommand& command) const {
-  if (!open_) return {};
+  // A clear is no work that counts.
+  if (!open_ || counts_open_) return {};
   const bool whole = command.view.slice_count == area_.layers &&
                      command.view.width == area_.width && command.view.height == area_.height;
   if (!whole) return {};

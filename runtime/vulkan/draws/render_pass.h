@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/backend/draw_commands.h"
+#include "runtime/vulkan/draws/draw_queries.h"
 #include "runtime/vulkan/memory/command_stream.h"
 
 namespace kaamos::vulkan {
@@ -24,7 +25,7 @@ RenderArea area_of(const runtime::DrawTargets& targets, const RenderArea& wanted
 
 class RenderPass {
  public:
-  explicit RenderPass(CommandStream& stream) : stream_(stream) {}
+  explicit RenderPass(CommandStream& stream) : stream_(stream), counting_(stream.gpu()) {}
   ~RenderPass();
   RenderPass(const RenderPass&) = delete;
   RenderPass& operator=(const RenderPass&) = delete;
@@ -42,6 +43,10 @@ class RenderPass {
   rtapi::Status keep_memory_writes();
 
   rtapi::Status clear(const runtime::ClearTargetCommand& command);
+  // Draws of renderings from now on are counted like this. None is open.
+  void count_work(const runtime::WorkToCount& what) { counting_.set(what); }
+  // Adds what draws that have run counted.
+  rtapi::Status read_counts(runtime::WorkCounts& sums) { return counting_.read(sums); }
   // Ends the rendering and orders it before what follows.
   void end();
   // And makes the clears that wait.
@@ -60,6 +65,8 @@ class RenderPass {
   rtapi::Status clear_waiting();
   rtapi::Status begin(const runtime::DrawTargets& targets, const RenderArea& area,
                       const std::string& label, bool take_clears);
+  // Draws in the rendering that was just opened are counted, if any are.
+  void begin_counting();
   // The clear of the view that waits; null if none does.
   const runtime::ClearTargetCommand* waiting_for(const runtime::TargetView& view,
                                                  const RenderArea& area) const;
@@ -68,11 +75,13 @@ class RenderPass {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   bool open_ = false;
   bool query_open_ = false;
+  bool counts_open_ = false;  // queries of `counting_`
   uint64_t number_ = 0;
   runtime::DrawTargets targets_;
   RenderArea area_;
   std::vector<runtime::ClearTargetCommand> waiting_;  // all of whole views, each view once
   VkQueryPool queries_ = VK_NULL_HANDLE;              // one occlusion query
+  DrawQueries counting_;
 };
 
 }  // namespace kaamos::vulkan

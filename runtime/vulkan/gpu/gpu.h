@@ -53,6 +53,7 @@ struct GpuFeatures {
   bool null_descriptor = false;      // VK_EXT_robustness2
   bool sampler_filter_minmax = false;
   bool mirror_clamp_to_edge = false;
+  bool pipeline_statistics = false;   // pipelineStatisticsQuery
   bool external_memory_host = false;  // VK_EXT_external_memory_host
   std::string graphics_lacks;         // what graphics pipelines need and the device does not have
 };

@@ -158,6 +158,7 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   if (optional_.external_memory_host) {
     extensions_.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
   }
+  optional_.pipeline_statistics = core.pipelineStatisticsQuery;
   optional_.mirror_clamp_to_edge = vulkan12_.samplerMirrorClampToEdge;
   query_graphics();
 }

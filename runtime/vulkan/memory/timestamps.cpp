@@ -12,7 +12,7 @@ namespace kaamos::vulkan {
 rtapi::Result<std::shared_ptr<runtime::BackendQueryHeap>> Timestamps::create(
     std::shared_ptr<Gpu> gpu, uint32_t count) {
   if (gpu->timestamp_bits() == 0) {
-    return runtime::make_error(runtime::Id::kNoTimestamps, gpu->info().Name);
+    return runtime::make_error(runtime::Id::kNoQueries, gpu->info().Name + " has no timestamps");
   }
   auto heap = std::shared_ptr<Timestamps>(new Timestamps(gpu, count));
   VkQueryPoolCreateInfo info = {VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -41,7 +41,7 @@ rtapi::Status Timestamps::write(CommandStream& stream, const runtime::TimestampC
 }
 
 rtapi::Status Timestamps::resolve(CommandStream& stream,
-                                  const runtime::ResolveTimestampsCommand& command) {
+                                  const runtime::ResolveQueriesCommand& command) {
   const auto& heap = static_cast<const Timestamps&>(*command.heap);
   const GpuBuffer& dest = gpu_buffer_of(*command.dest);
   stream.everything();

@@ -20,7 +20,7 @@ class Timestamps final : public runtime::BackendQueryHeap {
   // Both are recorded outside of rendering, after everything earlier.
   static rtapi::Status write(CommandStream& stream, const runtime::TimestampCommand& command);
   static rtapi::Status resolve(CommandStream& stream,
-                               const runtime::ResolveTimestampsCommand& command);
+                               const runtime::ResolveQueriesCommand& command);
 
  private:
   Timestamps(std::shared_ptr<Gpu> gpu, uint32_t count)
