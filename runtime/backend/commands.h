@@ -145,14 +145,31 @@ struct RtasOperation {
 struct RtasResult {
   uint64_t address = 0;
   uint64_t size_bytes = 0;
+  uint64_t moved_from = 0;              // moves: the address of the source
+  bool bottom_level = false;            // of clusters
+  std::vector<uint64_t> clusters = {};  // the addresses of a new bottom level's clusters
+};
+
+// Memory that an operation of a call read or wrote; `what` has static storage.
+struct RtasAccess {
+  uint64_t address = 0;
+  uint64_t size_bytes = 0;
+  uint32_t operation = 0;  // its number in the call
+  bool written = false;
+  const char* what = "";  // "cluster"
+};
+
+// What the last execution of a call did.
+struct RtasResults {
+  std::vector<RtasResult> placed;    // but partitioned top levels
+  std::vector<RtasAccess> accesses;  // only in checked mode
 };
 
 // EXPERIMENTAL. Operations whose arguments are in GPU memory; runtime/operations reads them when
 // the command executes.
 struct RtasOperationsCommand {
   std::vector<RtasOperation> operations;
-  // What the last execution placed but partitioned top levels, for checked mode.
-  std::shared_ptr<std::vector<RtasResult>> results = std::make_shared<std::vector<RtasResult>>();
+  std::shared_ptr<RtasResults> results = std::make_shared<RtasResults>();
 };
 
 struct CopyBufferCommand {

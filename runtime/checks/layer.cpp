@@ -10,7 +10,6 @@
 #include "runtime/backend/indirect.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
-#include "runtime/operations/operation_sizes.h"
 #include "runtime/structures/structure_commands.h"
 
 namespace kaamos::checks {
@@ -405,71 +404,6 @@ void Layer::check(const runtime::CopyAccelerationStructureCommand& command) {
   hazards_.write_structure(command.dest, 256, "the copy's destination");
 }
 
-// The operations' arguments are read, and reported, by what runs them.
-void Layer::check(const runtime::RtasOperationsCommand& command) {
-  for (const runtime::RtasOperation& operation : command.operations) {
-    if (std::holds_alternative<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)) {
-      check_partitioned(operation);
-    } else {
-      check_batch(operation);
-    }
-  }
-}
-
-void Layer::check_partitioned(const runtime::RtasOperation& operation) {
-  const rtapi::RtasPartitionedTlasOperationData& data = operation.partitioned;
-  const auto sizes = runtime::operation_sizes(operation.inputs);
-  hazards_.use(data.IndirectPartitionedTlasOpCount, ResourceStates::kNonPixelShaderResource,
-               "the number of operations");
-  if (data.IndirectPartitionedTlasOps != 0) {
-    hazards_.use(data.IndirectPartitionedTlasOps, ResourceStates::kNonPixelShaderResource,
-                 "the operations");
-  }
-  const uint64_t scratch = data.ScratchAccelerationStructureData;
-  hazards_.use(scratch, ResourceStates::kUnorderedAccess, "the operation's scratch memory");
-  hazards_.use_scratch(scratch, sizes.ScratchDataSizeInBytes);
-  const uint64_t source = data.SourceAccelerationStructureData;
-  const uint64_t dest = data.DestAccelerationStructureData;
-  if (const uint64_t bytes = bytes_at(source); bytes != 0 && source != dest) {
-    hazards_.read_structure(source, bytes, "the operation's source");
-  }
-  hazards_.write_structure(dest, sizes.ResultDataMaxSizeInBytes, "the operation's destination");
-}
-
-// What is at the addresses that are read from GPU memory is not followed.
-void Layer::check_batch(const runtime::RtasOperation& operation) {
-  using Resolution = rtapi::RtasOperationAddressResolutionFlags;
-  const rtapi::RtasBatchedOperationData& data = operation.batch;
-  const auto facts = runtime::facts_of(operation.inputs);
-  const auto mode = facts.mode;
-  const auto sizes = runtime::operation_sizes(operation.inputs);
-  const auto use = [&](uint64_t address, Resolution flag, ResourceStates state, const char* what) {
-    const bool indirected = HasAny(data.AddressResolutionFlags, flag);
-    if (address == 0) return;
-    hazards_.use(address, indirected ? ResourceStates::kNonPixelShaderResource : state, what);
-  };
-  use(data.IndirectArgumentArray.StartAddress, Resolution::kIndirectedIndirectArgumentArray,
-      ResourceStates::kNonPixelShaderResource, "the operation's arguments");
-  use(data.IndirectArgumentArraySize, Resolution::kIndirectedIndirectArgumentCount,
-      ResourceStates::kNonPixelShaderResource, "the number of arguments");
-  use(data.ResultSizeArray.StartAddress, Resolution::kIndirectedResultSizeArray,
-      ResourceStates::kUnorderedAccess, "the array of result sizes");
-  const bool implicit = mode == rtapi::RtasOperationMode::kImplicitDestinations;
-  if (mode != rtapi::RtasOperationMode::kGetSizes) {
-    use(data.ResultAddressArray.StartAddress, Resolution::kIndirectedDestinationAddressArray,
-        implicit ? ResourceStates::kUnorderedAccess : ResourceStates::kNonPixelShaderResource,
-        "the array of result addresses");
-  }
-  if (!HasAny(data.AddressResolutionFlags, Resolution::kIndirectedBatchScratch)) {
-    hazards_.use(data.BatchScratchData, ResourceStates::kUnorderedAccess,
-                 "the operation's scratch memory");
-    hazards_.use_scratch(data.BatchScratchData, sizes.ScratchDataSizeInBytes);
-  }
-  if (implicit && !HasAny(data.AddressResolutionFlags, Resolution::kIndirectedBatchResult)) {
-    hazards_.write_structure(data.BatchResultData, facts.all_bytes, "the operation's results");
-  }
-}
-
 void Layer::check(const runtime::CopyBufferCommand& command) {
   if (command.size_bytes == 0) return;
   hazards_.use(command.source->address() + command.source_offset, ResourceStates::kCopySource,
@@ -526,17 +460,6 @@ void Layer::note(const runtime::CopyAccelerationStructureCommand& command) {
   // Only the backend knows what size compaction leaves; the first 256 bytes are there in any case.
   const bool compact = command.mode == rtapi::RaytracingAccelerationStructureCopyMode::kCompact;
   structures_.copied(command, compact ? 256 : 0);
-}
-
-void Layer::note(const runtime::RtasOperationsCommand& command) {
-  for (const runtime::RtasOperation& operation : command.operations) {
-    if (!std::holds_alternative<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)) continue;
-    structures_.operated(operation.partitioned.DestAccelerationStructureData,
-                         runtime::operation_sizes(operation.inputs).ResultDataMaxSizeInBytes, true);
-  }
-  for (const runtime::RtasResult& result : *command.results) {
-    structures_.operated(result.address, result.size_bytes, false);
-  }
 }
 
 void Layer::note(const runtime::CopyBufferCommand& command) {

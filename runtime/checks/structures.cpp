@@ -138,13 +138,35 @@ void Structures::copied(const runtime::CopyAccelerationStructureCommand& command
   place(std::move(structure));
 }
 
-void Structures::operated(uint64_t address, uint64_t size_bytes, bool top) {
+void Structures::operated(uint64_t address, uint64_t size_bytes) {
   TrackedStructure structure;
   structure.address = address;
   structure.size_bytes = size_bytes;
-  structure.top = top;
+  structure.top = true;
   structure.known = false;
   place(std::move(structure));
+}
+
+void Structures::operated(const std::vector<runtime::RtasResult>& results) {
+  // Moves read all sources before they write.
+  std::vector<TrackedStructure> made;
+  for (const runtime::RtasResult& result : results) {
+    TrackedStructure structure;
+    structure.address = result.address;
+    structure.size_bytes = result.size_bytes;
+    structure.of_clusters = result.bottom_level;
+    if (const auto it = structures_.find(result.moved_from); it != structures_.end()) {
+      structure.clusters = it->second.clusters;
+    }
+    made.push_back(std::move(structure));
+  }
+  for (size_t i = 0; i < results.size(); ++i) {
+    for (const uint64_t cluster : results[i].clusters) {
+      const auto it = structures_.find(cluster);
+      if (it != structures_.end()) made[i].clusters.push_back({cluster, it->second.version});
+    }
+    place(std::move(made[i]));
+  }
 }
 
 uint64_t Structures::copied_from(uint64_t address) const {

@@ -40,6 +40,12 @@ struct TrackedLinkage {
   uint64_t version = 0;  // of the array when it was linked; 0: there was none
 };
 
+// A cluster of a bottom level.
+struct TrackedCluster {
+  uint64_t address = 0;
+  uint64_t version = 0;  // when the bottom level was built
+};
+
 struct TrackedStructure {
   uint64_t address = 0;
   uint64_t size_bytes = 0;
@@ -51,6 +57,8 @@ struct TrackedStructure {
   std::vector<GeometryContents> contents;  // one per geometry
   std::vector<TrackedInstance> instances;
   std::vector<TrackedLinkage> linkages;  // of geometries with micromaps, in order
+  bool of_clusters = false;              // a bottom level of clusters
+  std::vector<TrackedCluster> clusters;  // of which it was built
   std::array<uint8_t, 16> header = {};   // what its first bytes were
 };
 
@@ -75,8 +83,10 @@ class Structures {
              std::vector<GeometryContents> contents,
              const std::vector<rtapi::RaytracingInstanceDesc>& instances);
   void copied(const runtime::CopyAccelerationStructureCommand& command, uint64_t size_bytes);
-  // What an operation made, whose contents only the backend knows. `top`: a partitioned top level.
-  void operated(uint64_t address, uint64_t size_bytes, bool top);
+  // A partitioned top level that an operation made, whose contents only the backend knows.
+  void operated(uint64_t address, uint64_t size_bytes);
+  // What an operation on clusters made.
+  void operated(const std::vector<runtime::RtasResult>& results);
   // A command of the list wrote something else there.
   void written(uint64_t address, uint64_t size_bytes) { end_in(address, size_bytes, 0); }
 

@@ -169,12 +169,14 @@ class Proof {
   void reach_from(const runtime::ReachedFrom& from);
   void reach_hits(uint64_t scene, Reason reason);
   void check_permission(const TrackedInstance& instance, uint32_t geometry);
+  void check_cluster_permission(const TrackedInstance& instance, uint32_t ray_flags);
 
   const ProofInputs& inputs_;
   const runtime::DispatchRaysCommand& command_;
   const runtime::LinkedPipeline& linked_;
   ProofResults results_;
   bool permission_told_ = false;
+  bool cluster_permission_told_ = false;
   Table tables_[4];
   std::vector<std::pair<const LinkedShader*, Arguments>> pending_;
   std::set<std::pair<const LinkedShader*, const uint8_t*>> entered_;
@@ -396,6 +398,22 @@ void Proof::check_permission(const TrackedInstance& instance, uint32_t geometry)
              "kAllowOpacityMicromaps. They are ignored.");
 }
 
+// And the clusters. [DXR 2.0: D3D12_RAYTRACING_PIPELINE_FLAG_ALLOW_CLUSTERED_GEOMETRY]
+void Proof::check_cluster_permission(const TrackedInstance& instance, uint32_t ray_flags) {
+  constexpr uint32_t kSkipTriangles = 0x100;
+  const uint32_t flags = ray_flags | runtime::ray_flags_of(linked_.flags);
+  if ((flags & kSkipTriangles) != 0 || cluster_permission_told_ ||
+      rtapi::HasAny(linked_.flags, rtapi::RaytracingPipelineFlags::kAllowClusteredGeometry)) {
+    return;
+  }
+  cluster_permission_told_ = true;
+  report(Id::kClustersNotAllowed,
+         "rays reach the bottom level at " +
+             address_name(inputs_.addresses, instance.bottom_level) +
+             ", which consists of clusters, but the pipeline does not have the flag "
+             "kAllowClusteredGeometry. They are hit here, but need not be elsewhere.");
+}
+
 // Follows a ray of `reason` to every hit record that it can reach in a top level.
 void Proof::reach_hits(uint64_t scene, Reason reason) {
   const TraceCall& call = *reason.call;
@@ -409,6 +427,7 @@ void Proof::reach_hits(uint64_t scene, Reason reason) {
     if (level == nullptr || level->version != instance.version || level->top) continue;
     reason.instance = i;
     reason.contribution = instance.contribution;
+    if (level->of_clusters) check_cluster_permission(instance, call.ray_flags);
     for (uint32_t g = 0; g < level->geometries.size(); ++g) {
       const runtime::GeometryShape& shape = level->geometries[g];
       if (!reaches(call, instance, shape, runtime::ray_flags_of(linked_.flags))) continue;
@@ -497,6 +516,44 @@ static bool check_micromaps(const ProofInputs& inputs, const TrackedInstance& in
   return good;
 }
 
+static Id id_of(StructureState state) {
+  switch (state) {
+    case StructureState::kFreed:
+      return Id::kStructureFreed;
+    case StructureState::kOverwritten:
+    case StructureState::kReplaced:
+      return Id::kStructureOverwritten;
+    case StructureState::kBytesCopied:
+      return Id::kStructureBytesCopied;
+    default:
+      return Id::kStructureMissing;
+  }
+}
+
+// Checks that the clusters of a bottom level are those that it was built from.
+static bool check_clusters(const ProofInputs& inputs, const TrackedInstance& instance,
+                           const TrackedStructure& level, uint32_t index,
+                           const std::string& place) {
+  for (const TrackedCluster& cluster : level.clusters) {
+    StructureState state;
+    const TrackedStructure* now = inputs.structures.find(cluster.address, state);
+    const bool alive = state == StructureState::kAlive;
+    if (now != nullptr && alive && now->version == cluster.version) continue;
+    inputs.reporter.report(
+        alive ? Id::kStructureOverwritten : id_of(state),
+        place + ", whose instance " + std::to_string(index) + " refers to the bottom level at " +
+            address_name(inputs.addresses, instance.bottom_level) + ". Of its cluster at " +
+            address_name(inputs.addresses, cluster.address) + ": " +
+            (alive ? "another one has been built there"
+                   : "an acceleration structure " +
+                         inputs.structures.history(cluster.address, state)) +
+            ". Rays see what it was. Build bottom levels anew after their clusters, and keep the "
+            "clusters while rays use them.");
+    return false;
+  }
+  return true;
+}
+
 bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user) {
   const auto report = [&](Id id, const std::string& text) {
     inputs.reporter.report(id, text);
@@ -506,19 +563,6 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
   const Structures& all = inputs.structures;
   const TrackedStructure* top = all.find(address, state);
   const std::string place = user + " uses " + address_name(inputs.addresses, address);
-  const auto id_of = [](StructureState s) {
-    switch (s) {
-      case StructureState::kFreed:
-        return Id::kStructureFreed;
-      case StructureState::kOverwritten:
-      case StructureState::kReplaced:
-        return Id::kStructureOverwritten;
-      case StructureState::kBytesCopied:
-        return Id::kStructureBytesCopied;
-      default:
-        return Id::kStructureMissing;
-    }
-  };
   if (state != StructureState::kAlive) {
     return report(id_of(state), place + ": an acceleration structure " +
                                     all.history(address, state) +
@@ -537,7 +581,8 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
     if (instance.version == 0) continue;
     const TrackedStructure* level = all.find(instance.bottom_level, state);
     if (level != nullptr && state == StructureState::kAlive && level->version == instance.version) {
-      good = check_micromaps(inputs, instance, *level, i, place) && good;
+      good = check_micromaps(inputs, instance, *level, i, place) &&
+             check_clusters(inputs, instance, *level, i, place) && good;
       continue;
     }
     const std::string of = place + ", whose instance " + std::to_string(i) +

@@ -50,7 +50,7 @@ bool Batch::resolve_all() {
          resolve(data_.ResultSizeArray.StartAddress, Resolution::kIndirectedResultSizeArray,
                  "ResultSizeArray") &&
          resolve(data_.IndirectArgumentArray.StartAddress,
-                 Resolution::kIndirectedIndirectArgumentArray, "the arguments") &&
+                 Resolution::kIndirectedIndirectArgumentArray, "arguments") &&
          (!counted || resolve(data_.IndirectArgumentArraySize,
                               Resolution::kIndirectedIndirectArgumentCount, "the count"));
 }
@@ -65,6 +65,7 @@ bool Batch::read_count() {
     notes_.add("the number of arguments " + why + ", so the operation is left out");
     return false;
   }
+  notes_.reads(data_.IndirectArgumentArraySize, 4, "number of arguments");
   count_ = std::min(count_, load_element<uint32_t>(found, 0));
   return true;
 }
@@ -98,6 +99,8 @@ bool Batch::open() {
     notes_.add("the arguments " + why + "; they are left out");
     return false;
   }
+  notes_.reads(data_.IndirectArgumentArray.StartAddress, arguments_.bytes(count_, facts_.arg_bytes),
+               "the arguments");
   if (!find_results()) return false;
   next_ = data_.BatchResultData;
   if (facts_.mode != Mode::kImplicitDestinations || next_ % facts_.alignment == 0) return true;
@@ -186,13 +189,16 @@ void Batch::finish(std::vector<BatchObject> objects, std::vector<RtasResult>& re
       sizes[i] = 0;
       continue;
     }
+    const bool is_level = objects[i].structure.of_clusters;
+    placed.push_back(
+        {at[i], sizes[i], objects[i].moved_from, is_level, std::move(objects[i].clusters)});
+    notes_.writes(at[i], sizes[i], "result");
     AccelerationStructure& structure = objects[i].structure;
     structure.address = at[i];
     structure.host = addresses_.host(at[i]);
     structure.size_bytes = sizes[i];
     structure.compacted_bytes = sizes[i];
     environment_.structures.place(std::move(structure));
-    placed.push_back({at[i], sizes[i]});
   }
   if (facts_.mode == Mode::kExplicitDestinations) note_overlaps(placed);
   for (uint32_t i = 0; i < count_; ++i) {
@@ -200,6 +206,17 @@ void Batch::finish(std::vector<BatchObject> objects, std::vector<RtasResult>& re
     const bool writes =
         result_addresses_.first != nullptr && facts_.mode == Mode::kImplicitDestinations;
     if (writes) std::memcpy(result_addresses_.at(i), &at[i], 8);
+  }
+  if (count_ != 0) {
+    const bool implicit = facts_.mode == Mode::kImplicitDestinations;
+    const uint64_t addresses = result_addresses_.bytes(count_, 8);
+    if (implicit) {
+      notes_.writes(data_.ResultAddressArray.StartAddress, addresses, "result addresses");
+    } else {
+      notes_.reads(data_.ResultAddressArray.StartAddress, addresses, "result addresses");
+    }
+    notes_.writes(data_.ResultSizeArray.StartAddress, result_sizes_.bytes(count_, 8),
+                  "result sizes");
   }
   write_tools_info(sizes, at);
   results.insert(results.end(), placed.begin(), placed.end());

@@ -22,8 +22,10 @@ namespace kaamos::runtime {
 
 // What an argument makes.
 struct BatchObject {
-  uint64_t bytes = 0;               // 0: the argument is left out
-  AccelerationStructure structure;  // not with kGetSizes; without a place
+  uint64_t bytes = 0;                   // 0: the argument is left out
+  AccelerationStructure structure;      // not with kGetSizes; without a place
+  uint64_t moved_from = 0;              // moves: the source's address
+  std::vector<uint64_t> clusters = {};  // bottom levels: the addresses of their clusters
 };
 
 // An array in GPU memory whose extent was checked.
@@ -32,6 +34,10 @@ struct ArrayInMemory {
   uint64_t stride = 0;
 
   uint8_t* at(uint64_t index) const { return first + index * stride; }
+  // From the first to the end of the last of `count` elements.
+  uint64_t bytes(uint64_t count, uint64_t element_bytes) const {
+    return first == nullptr || count == 0 ? 0 : (count - 1) * stride + element_bytes;
+  }
 };
 // Reads an element that is `bytes` large.
 template <class T>

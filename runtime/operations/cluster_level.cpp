@@ -96,7 +96,8 @@ bool ClusterLevelBuilder::check_counts(const Args& args, uint32_t index) {
   return true;
 }
 
-bool ClusterLevelBuilder::read(const Args& args, uint32_t index, Clusters& clusters) {
+bool ClusterLevelBuilder::read(const Args& args, uint32_t index, Clusters& clusters,
+                               std::vector<uint64_t>& at) {
   const AddressMap& addresses = *environment_.context.addresses;
   std::string why;
   const ArrayInMemory in = find_array(addresses, args.ClasAddressArray, args.ClasAddressStride,
@@ -104,6 +105,7 @@ bool ClusterLevelBuilder::read(const Args& args, uint32_t index, Clusters& clust
   if (in.first == nullptr && args.ClasAddressCount != 0) {
     return leave_out(index, "the addresses of clusters " + why);
   }
+  notes_.reads(args.ClasAddressArray, in.bytes(args.ClasAddressCount, 8), "cluster addresses");
   std::unordered_set<uint64_t> seen;
   for (uint32_t i = 0; i < args.ClasAddressCount; ++i) {
     const auto address = load_element<uint64_t>(in, i);
@@ -116,7 +118,9 @@ bool ClusterLevelBuilder::read(const Args& args, uint32_t index, Clusters& clust
       note(index,
            "the cluster " + at_address(addresses, address) + " is named twice; it counts once");
     } else {
+      notes_.reads(address, structure->size_bytes, "cluster");
       clusters.push_back(structure->cluster);
+      at.push_back(address);
     }
   }
   check_clusters(clusters, index);

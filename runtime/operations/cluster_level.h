@@ -33,7 +33,8 @@ class ClusterLevelBuilder {
 
   // False: the argument is left out.
   bool check_counts(const Args& args, uint32_t index);
-  bool read(const Args& args, uint32_t index, Clusters& clusters);
+  // `at` gets the clusters' addresses.
+  bool read(const Args& args, uint32_t index, Clusters& clusters, std::vector<uint64_t>& at);
   // Builds the level into `result`. False: the argument is left out.
   rtapi::Result<bool> build(const Clusters& clusters, uint32_t index, const RebuildLevel& build,
                             AccelerationStructure& result);

@@ -44,6 +44,7 @@ std::shared_ptr<const AccelerationStructure> ClusterMover::find(const Args& args
                    at_address(*environment_.context.addresses, address) + "; it is left out");
     return nullptr;
   }
+  notes_.reads(address, source->size_bytes, "source");
   if (has_micromaps(*source) && !HasAny(inputs_.Flags, Flags::kAllowOmm)) {
     notes_.add_about(index, "its source has opacity micromaps, but the operation lacks kAllowOmm");
   }

@@ -65,7 +65,7 @@ Status make(const rtapi::RtasClasInputsDesc& inputs, Run& run) {
       continue;
     }
     Clusters clusters;
-    if (!builder.read(args, i, clusters)) continue;
+    if (!builder.read(args, i, clusters, run.objects[i].clusters)) continue;
     auto built = builder.build(clusters, i, run.build, run.objects[i].structure);
     if (!built) return built.error();
     if (*built) run.objects[i].bytes = bytes;
@@ -112,6 +112,7 @@ Status make(const rtapi::RtasClusterMovesDesc& inputs, Run& run) {
     const auto args = run.batch.read<rtapi::RtasMoveClusterObjectsArgs>(i);
     if (const auto source = mover.find(args, i)) {
       run.objects[i].bytes = source->size_bytes;
+      run.objects[i].moved_from = source->address;
       if (!run.batch.only_sizes()) run.objects[i].structure = *source;
     }
   }
@@ -133,9 +134,8 @@ void check_overlaps(const RtasOperation& operation, const Run& run,
 }  // namespace
 
 Status run_cluster_operation(const StructureEnvironment& environment,
-                             const RtasOperation& operation, const std::string& label,
+                             const RtasOperation& operation, OperationNotes& notes,
                              const RebuildLevel& build, std::vector<RtasResult>& results) {
-  OperationNotes notes(environment, label);
   Batch batch(environment, operation.batch, facts_of(operation.inputs), notes);
   if (!batch.open()) return {};
   Run run = {environment, build, batch, notes, std::vector<BatchObject>(batch.count())};
@@ -144,7 +144,7 @@ Status run_cluster_operation(const StructureEnvironment& environment,
   if (!status.ok()) return status;
   std::vector<RtasResult> sources;
   for (const BatchObject& object : run.objects) {
-    sources.push_back({object.structure.address, object.bytes});
+    sources.push_back({object.moved_from, object.moved_from == 0 ? 0 : object.bytes});
   }
   const auto before = static_cast<std::ptrdiff_t>(results.size());
   batch.finish(std::move(run.objects), results);

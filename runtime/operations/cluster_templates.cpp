@@ -61,6 +61,7 @@ std::shared_ptr<const ClusterTemplate> TemplateInstantiator::find(const Args& ar
                     "; it is left out");
     return nullptr;
   }
+  notes_.reads(args.ClusterTemplate, structure->size_bytes, "template");
   const auto& found = structure->cluster_template;
   rtapi::RtasBuildClasFromTrianglesArgs counts;
   counts.TriangleCount = static_cast<uint16_t>(found->cluster.triangles());
@@ -106,6 +107,7 @@ bool TemplateInstantiator::read_positions(const ClusterTemplate& from, const Arg
     note(index, why + "; it is left out");
     return false;
   }
+  notes_.reads(source.address, 1, "vertices");
   const uint32_t inside = compressed ? source.count : vertices_inside(addresses, source);
   cluster.xyz.resize(3 * size_t{inside});
   if (inside < from.vertices) {

@@ -88,6 +88,7 @@ bool TriangleReader::read_indices(const Args& args, uint32_t index, Cluster& clu
   const ArrayInMemory in = find_array(*environment_.context.addresses, args.IndexBuffer, stride,
                                       count, bytes, bytes, why);
   if (in.first == nullptr) return leave_out(index, "the indices " + why);
+  notes_.reads(args.IndexBuffer, in.bytes(count, bytes), "indices");
   bool beyond = false;
   for (uint64_t i = 0; i < count; ++i) {
     const uint32_t vertex = load_index(in, i, bytes);
@@ -126,6 +127,7 @@ bool TriangleReader::read_geometry(const Args& args, uint32_t index, Cluster& cl
   const ArrayInMemory in = find_array(addresses, args.GeometryIndexAndFlagsArray,
                                       args.GeometryIndexAndFlagsArrayStride, count, 4, 4, why);
   if (in.first == nullptr) return leave_out(index, "GeometryIndexAndFlagsArray " + why);
+  notes_.reads(args.GeometryIndexAndFlagsArray, in.bytes(count, 4), "geometry indices");
   for (uint32_t i = 0; i < args.TriangleCount; ++i) {
     const auto entry = load_element<uint32_t>(in, indexed ? load_index(indices, i, bytes) : i);
     const uint32_t sum = (base & kGeometryMask) + (entry & kGeometryMask);
@@ -178,6 +180,8 @@ bool TriangleReader::read_micromaps(const Args& args, uint32_t index, Cluster& c
     in = find_array(*environment_.context.addresses, args.OpacityMicromapIndexBuffer,
                     args.OpacityMicromapIndexBufferStride, args.TriangleCount, bytes, bytes, why);
     if (in.first == nullptr) return leave_out(index, "the micromap indices " + why);
+    notes_.reads(args.OpacityMicromapIndexBuffer, in.bytes(args.TriangleCount, bytes),
+                 "micromap indices");
   }
   auto linkage = std::make_shared<MicromapLinkage>();
   linkage->address = args.OpacityMicromapArray;
@@ -232,6 +236,7 @@ bool TriangleReader::read_positions(const Args& args, uint32_t index,
   std::string why;
   cluster.xyz = decode_vertices(*environment_.context.addresses, source, why);
   if (!why.empty()) return leave_out(index, why);
+  notes_.reads(args.VertexBuffer, 1, "vertices");
   cluster.xyz.resize(3 * size_t{std::max(source.count, last + 1)},
                      std::numeric_limits<float>::quiet_NaN());
   if (!compressed && vertices_inside(*environment_.context.addresses, source) < args.VertexCount) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // EXPERIMENTAL. Warnings about what an indirect operation met in GPU memory: the first few of each
-// operation, then how many more there were.
+// operation, then how many more there were. And, in checked mode, what it read and wrote there.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,13 @@ namespace kaamos::runtime {
 
 class OperationNotes {
  public:
-  OperationNotes(const StructureEnvironment& environment, std::string label)
-      : environment_(environment), label_(std::move(label)) {}
+  // `operation`: its number in the call whose results these are.
+  OperationNotes(const StructureEnvironment& environment, std::string label, RtasResults& results,
+                 uint32_t operation)
+      : environment_(environment),
+        label_(std::move(label)),
+        results_(results),
+        operation_(operation) {}
   ~OperationNotes() {
     if (count_ <= kMost) return;
     environment_.warn(Id::kOperationArgument,
@@ -31,10 +36,25 @@ class OperationNotes {
     add("argument " + std::to_string(argument) + ": " + text);
   }
 
+  // `what` has static storage.
+  void reads(uint64_t address, uint64_t bytes, const char* what) {
+    access(address, bytes, false, what);
+  }
+  void writes(uint64_t address, uint64_t bytes, const char* what) {
+    access(address, bytes, true, what);
+  }
+
  private:
+  void access(uint64_t address, uint64_t bytes, bool written, const char* what) {
+    if (environment_.context.reporter == nullptr || bytes == 0 || address == 0) return;
+    results_.accesses.push_back({address, bytes, operation_, written, what});
+  }
+
   static constexpr uint64_t kMost = 8;
   const StructureEnvironment& environment_;
   std::string label_;
+  RtasResults& results_;
+  uint32_t operation_;
   uint64_t count_ = 0;
 };
 

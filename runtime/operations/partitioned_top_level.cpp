@@ -61,12 +61,12 @@ struct Arguments {
 class Builder {
  public:
   Builder(const StructureEnvironment& environment, const RtasOperation& operation,
-          const std::string& label)
+          OperationNotes& notes)
       : environment_(environment),
         addresses_(*environment.context.addresses),
         data_(operation.partitioned),
         inputs_(std::get<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)),
-        notes_(environment, label) {}
+        notes_(notes) {}
 
   rtapi::Status run(const RebuildLevel& build);
 
@@ -101,7 +101,7 @@ class Builder {
   const AddressMap& addresses_;
   rtapi::RtasPartitionedTlasOperationData data_;
   rtapi::RtasPartitionedTlasInputsDesc inputs_;
-  OperationNotes notes_;
+  OperationNotes& notes_;
   std::shared_ptr<const AccelerationStructure> source_;
   std::shared_ptr<PartitionedTopLevel> level_;
   std::vector<uint32_t> changed_;
@@ -124,6 +124,7 @@ bool Builder::start() {
                " to start from, so the operation is left out");
     return false;
   }
+  notes_.reads(source, source_->size_bytes, "source");
   const uint64_t bytes = partitioned_bytes(inputs_);
   const bool overlaps = source < dest ? dest - source < source_->size_bytes : source - dest < bytes;
   if (!in_place() && overlaps) {
@@ -238,6 +239,7 @@ bool Builder::read_arguments(const rtapi::RtasPartitionedTlasOperation& operatio
     return false;
   }
   out.first = addresses_.host(operation.ArgData.StartAddress);
+  notes_.reads(operation.ArgData.StartAddress, (out.count - 1) * out.stride + bytes, "arguments");
   return true;
 }
 
@@ -437,7 +439,9 @@ void Builder::activate(uint32_t index) {
   desc.Flags = static_cast<uint32_t>(args.InstanceFlags) & kInstanceFlagsMask;
   desc.AccelerationStructure = args.AccelerationStructure;
   if (is_degenerate(desc.Transform)) return;
-  if (const char* why = activate_instance(environment_.structures, instance)) {
+  const char* why = activate_instance(environment_.structures, instance);
+  if (instance.bottom_level != nullptr) notes_.reads(args.AccelerationStructure, 1, "bottom level");
+  if (why != nullptr) {
     notes_.add("instance " + std::to_string(index) + ": " + why, Id::kInstanceInactive);
   }
 }
@@ -519,15 +523,16 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
   result.partitioned = level_;
   if (auto s = build_level(build, result); !s) return s;
   environment_.structures.place(std::move(result));
+  notes_.writes(dest, bytes, "result");
   return {};
 }
 
 }  // namespace
 
 rtapi::Status build_partitioned(const StructureEnvironment& environment,
-                                const RtasOperation& operation, const std::string& label,
+                                const RtasOperation& operation, OperationNotes& notes,
                                 const RebuildLevel& build) {
-  return Builder(environment, operation, label).run(build);
+  return Builder(environment, operation, notes).run(build);
 }
 
 }  // namespace kaamos::runtime

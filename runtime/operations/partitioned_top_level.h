@@ -7,13 +7,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <rtapi/result.h>
 #include <rtapi/rtas_operations.h>
 
 #include "runtime/backend/commands.h"
+#include "runtime/operations/notes.h"
 #include "runtime/structures/instances.h"
 #include "runtime/structures/structure_commands.h"
 #include "runtime/structures/structure_copies.h"
@@ -52,9 +52,9 @@ void for_each_instance(const AccelerationStructure& top_level, Visit&& visit) {
 }
 
 // Runs an operation of type kPartitionedTlas. What is wrong in GPU memory is a warning, KA0788 or
-// KA0797, that begins with `label`. Errors: KA0795 the destination is too small, and the backend's.
+// KA0797. Errors: KA0795 the destination is too small, and the backend's.
 rtapi::Status build_partitioned(const StructureEnvironment& environment,
-                                const RtasOperation& operation, const std::string& label,
+                                const RtasOperation& operation, OperationNotes& notes,
                                 const RebuildLevel& build);
 
 }  // namespace kaamos::runtime

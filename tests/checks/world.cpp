@@ -20,7 +20,7 @@ void World::SetUp() {
       GTEST_SKIP() << why;
     }
   }
-  DeviceDesc desc;
+  DeviceDesc desc = device_desc();
   desc.Backend = GetParam();
   desc.Checked = true;
   desc.OnMessage = [this](const Message& message) { messages_.push_back(message); };
@@ -122,7 +122,7 @@ ShaderLibrary World::pipeline_library() {
   return LoadShaderLibrary(kaamos_shaders_checks()).value();
 }
 
-StateObject World::make_pipeline(const std::string& global) {
+StateObject World::make_pipeline(const std::string& global, RaytracingPipelineFlags flags) {
   global_ = device_.CreateRootSignature(global).value();
   const RootSignature local = device_
                                   .CreateRootSignature(
@@ -146,7 +146,7 @@ StateObject World::make_pipeline(const std::string& global) {
                         .Type = HitGroupType::kProceduralPrimitive,
                         .IntersectionShaderImport = "Intersect"});
   desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 4});
-  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 1});
+  desc.Add(RaytracingPipelineConfig1{.MaxTraceRecursionDepth = 1, .Flags = flags});
   desc.Add(GlobalRootSignature{global_});
   desc.Associate(desc.Add(LocalRootSignature{local}), {"WithData"});
   return device_.CreateStateObject(desc).value();

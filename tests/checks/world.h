@@ -21,6 +21,8 @@ struct TableSet {
 class World : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override;
+  // Options of the device but for its backend and checked mode.
+  virtual rtapi::DeviceDesc device_desc() const { return {}; }
 
   // Buffers live as long as the test.
   rtapi::Buffer buffer(uint64_t bytes, const std::string& name, bool structure = false);
@@ -52,7 +54,9 @@ class World : public ::testing::TestWithParam<const char*> {
   void build_scene(uint32_t geometries = 1, uint32_t contribution = 0);
 
   static rtapi::ShaderLibrary pipeline_library();
-  rtapi::StateObject make_pipeline(const std::string& global = "SRV(t0), UAV(u0)");
+  rtapi::StateObject make_pipeline(
+      const std::string& global = "SRV(t0), UAV(u0)",
+      rtapi::RaytracingPipelineFlags flags = rtapi::RaytracingPipelineFlags::kNone);
   TableSet make_tables(const rtapi::StateObject& pipeline, const std::string& raygen = "RayGen",
                        const std::vector<std::string>& hits = {"Plain"},
                        const std::vector<std::string>& misses = {"Miss"});

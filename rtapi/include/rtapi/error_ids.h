@@ -97,6 +97,7 @@ inline constexpr ErrorId kVertexStride{491};  ///< stride 0 for several vertices
 inline constexpr ErrorId kMicromapsNotAllowed{493};  ///< opacity micromaps without permission
 inline constexpr ErrorId kMicromapsDisabled{494};  ///< DISABLE_OMMS of a bottom level that does not allow it
 inline constexpr ErrorId kMicromapsReplaced{495};  ///< opacity micromap array is not what was linked
+inline constexpr ErrorId kClustersNotAllowed{496};  ///< clusters without permission
 }  // namespace checked
 
 /// Section "API" of rtapi/ERRORS.md.

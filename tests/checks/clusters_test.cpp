@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+//
+// EXPERIMENTAL: indirect operations that depend on each other, clusters that a bottom level has no
+// more, and clusters that rays meet without permission.
+#include <rtapi/rtas_operations.h>
+
+#include "tests/checks/world.h"
+
+namespace kaamos::checks::test {
+namespace {
+
+using namespace rtapi;
+
+// Memory and arguments of an operation with a single argument.
+struct Operation {
+  RtasOperationInputs inputs;
+  RtasBatchedOperationData data;
+  RtasOperationDesc desc() const {
+    RtasOperationDesc desc;
+    desc.pInputs = &inputs;
+    desc.pBatchedOperationData = &data;
+    return desc;
+  }
+};
+
+class Clusters : public World {
+ protected:
+  DeviceDesc device_desc() const override {
+    DeviceDesc desc;
+    desc.ShaderModel = kExperimentalShaderModel;
+    desc.IndirectRtasOperations = true;
+    return desc;
+  }
+  void SetUp() override {
+    World::SetUp();
+    if (IsSkipped()) return;
+    cluster_memory_ = buffer(4096, "clusters", true);
+    level_memory_ = buffer(4096, "floor", true);
+    triangles();  // for their vertices
+    cluster_ = cluster(cluster_memory_);
+    level_ = level(cluster_memory_);
+    pipeline_ = make_pipeline("SRV(t0), UAV(u0)", RaytracingPipelineFlags::kAllowClusteredGeometry);
+    set_ = make_tables(pipeline_);
+  }
+  template <class Args>
+  void finish(Operation& operation, const Buffer& memory, const Args& args) {
+    RtasBatchedOperationData& data = operation.data;
+    data.BatchResultData = memory.GetGPUVirtualAddress();
+    data.BatchScratchData = buffer(256, "scratch").GetGPUVirtualAddress();
+    data.ResultAddressArray = {buffer(8, "addresses").GetGPUVirtualAddress(), 0};
+    const std::vector<Args> all = {args};
+    data.IndirectArgumentArray = {upload(all, "arguments").GetGPUVirtualAddress(), 0};
+  }
+  // The triangle of triangles().
+  Operation cluster(const Buffer& memory) {
+    clusters_desc_.Limits = {1, 0, 1, 1, 3, 1, 3, 0};
+    Operation operation;
+    operation.inputs.Type = RtasOperationType::kBuildClasFromTriangles;
+    operation.inputs.pClusterTrianglesDesc = &clusters_desc_;
+    RtasBuildClasFromTrianglesArgs args;
+    args.TriangleCount = 1;
+    args.VertexCount = 3;
+    args.BaseGeometryIndexAndFlags = kRtasClusteredGeometryOpaque;
+    args.VertexBuffer = vertices_.GetGPUVirtualAddress();
+    args.IndexBuffer = upload(std::vector<uint8_t>{0, 1, 2, 0}, "indices").GetGPUVirtualAddress();
+    finish(operation, memory, args);
+    return operation;
+  }
+  // Of the cluster at the beginning of a buffer.
+  Operation level(const Buffer& of) {
+    return level_at(upload(std::vector<uint64_t>{of.GetGPUVirtualAddress()}, "cluster list")
+                        .GetGPUVirtualAddress());
+  }
+  // Of the cluster whose address is at this one.
+  Operation level_at(uint64_t addresses) {
+    level_desc_ = {RtasOperationFlags::kNone, 1, RtasOperationMode::kImplicitDestinations, 1, 1};
+    Operation operation;
+    operation.inputs.Type = RtasOperationType::kBuildBlasFromClas;
+    operation.inputs.pClasDesc = &level_desc_;
+    RtasBuildBlasFromClasArgs args;
+    args.ClasAddressCount = 1;
+    args.ClasAddressArray = addresses;
+    finish(operation, level_memory_, args);
+    return operation;
+  }
+  void run(const std::vector<RtasOperationDesc>& descs) {
+    CommandList commands = list();
+    commands.ExecuteIndirectRTASOperations(descs);
+    const Status status = execute(commands);
+    ASSERT_TRUE(status.ok()) << status.error().message;
+  }
+  void build_clustered_scene() {
+    run({cluster_.desc()});
+    run({level_.desc()});
+    top_ = build(top_inputs({instance(level_memory_)}), "scene");
+  }
+
+  RtasClusterTrianglesInputsDesc clusters_desc_;
+  RtasClasInputsDesc level_desc_;
+  Buffer cluster_memory_, level_memory_;
+  Operation cluster_, level_;
+  TableSet set_;
+};
+
+TEST_P(Clusters, BuiltUsedAndTracedInThisOrderIsSilent) {
+  build_clustered_scene();
+  dispatch(set_.desc);
+  expect_none();
+}
+
+TEST_P(Clusters, BuiltAndUsedByOneCall) {
+  run({cluster_.desc(), level_.desc()});
+  expect_one("KA0450", {"operation 1 reads cluster at byte 0 of buffer \"clusters\"",
+                        "operation 0 of the same call writes result"});
+  // Clusters that were there before are not the call's.
+  run({level_.desc(), cluster_.desc()});
+  expect_one("KA0450", {"operation 0 reads cluster", "operation 1 of the same call writes"});
+  run({cluster_.desc()});
+  run({level_.desc()});
+  expect_none();
+}
+
+TEST_P(Clusters, AnArrayWrittenAndReadByOneCall) {
+  clusters_desc_.Mode = RtasOperationMode::kGetSizes;
+  cluster_.data.ResultSizeArray = {buffer(8, "sizes").GetGPUVirtualAddress(), 0};
+  const Operation other = level_at(cluster_.data.ResultSizeArray.StartAddress);
+  run({cluster_.desc(), other.desc()});
+  expect_one("KA0450", {"operation 1 reads cluster addresses", "\"sizes\"",
+                        "operation 0 of the same call writes result sizes"});
+}
+
+TEST_P(Clusters, TwoCallsWithoutABarrier) {
+  CommandList commands = list();
+  const RtasOperationDesc first = cluster_.desc();
+  const RtasOperationDesc second = level_.desc();
+  commands.ExecuteIndirectRTASOperations({&first, 1});
+  commands.ExecuteIndirectRTASOperations({&second, 1});
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0450", {"operation 0's cluster at byte 0 of buffer \"clusters\"",
+                        "is written by ExecuteIndirectRTASOperations, command 0",
+                        "(ExecuteIndirectRTASOperations, command 1)"});
+  CommandList good = list();
+  good.ExecuteIndirectRTASOperations({&first, 1});
+  good.ResourceBarrier(ResourceBarrier::Uav(cluster_memory_));
+  good.ExecuteIndirectRTASOperations({&second, 1});
+  ASSERT_TRUE(execute(good).ok());
+  expect_none();
+}
+
+TEST_P(Clusters, AddressesInTheStateInWhichTheyWereWritten) {
+  level_ = level_at(cluster_.data.ResultAddressArray.StartAddress);
+  CommandList commands = list();
+  const RtasOperationDesc first = cluster_.desc();
+  const RtasOperationDesc second = level_.desc();
+  commands.ExecuteIndirectRTASOperations({&first, 1});
+  commands.ResourceBarrier(ResourceBarrier::Uav());
+  commands.ExecuteIndirectRTASOperations({&second, 1});
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0451", {"operation 0's cluster addresses", "\"addresses\"", "kUnorderedAccess",
+                        "kNonPixelShaderResource"});
+}
+
+TEST_P(Clusters, ReplacedAfterTheirBottomLevelWasBuilt) {
+  build_clustered_scene();
+  run({cluster_.desc()});
+  dispatch(set_.desc);
+  expect_one("KA0461", {"\"scene\"", "instance 0", "\"floor\"", "\"clusters\"",
+                        "another one has been built there"});
+  run({level_.desc()});
+  top_ = build(top_inputs({instance(level_memory_)}), "scene");
+  dispatch(set_.desc);
+  expect_none();
+}
+
+TEST_P(Clusters, OverwrittenAfterTheirBottomLevelWasBuilt) {
+  build_clustered_scene();
+  copy_bytes(cluster_memory_, upload(std::vector<uint32_t>(4, 9u), "other bytes"));
+  dispatch(set_.desc);
+  expect_one("KA0461", {"\"clusters\"", "its bytes have been overwritten"});
+}
+
+TEST_P(Clusters, WithoutThePipelinesPermission) {
+  build_clustered_scene();
+  pipeline_ = make_pipeline();
+  dispatch(make_tables(pipeline_).desc);
+  expect_one("KA0496", {"\"floor\"", "kAllowClusteredGeometry"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Embree, Clusters, ::testing::Values("embree"));
+INSTANTIATE_TEST_SUITE_P(Vulkan, Clusters, ::testing::Values("vulkan"));
+
+}  // namespace
+}  // namespace kaamos::checks::test
