@@ -615,13 +615,13 @@ std::vector<RuleTest> cls_tests() {
                                {"CLS-15, CLS-47", as_a_bottom_level},
                                {"CLS-22, CLS-23, CLS-24, CLS-25", compressed},
                                {"CLS-32, CLS-33", address_arrays},
-                               {"CLS-34", with_classic_levels},
+                               {"CLS-34, PTL-19", with_classic_levels},
                                {"CLS-35, CLS-36", records},
                                {"CLS-36", largest_geometry},
                                {"CLS-37", flags_of_triangles},
                                {"CLS-38, TOP-11", data_access},
                                {"CLS-40", rebuilt}};
-  for (const auto& more : {memory_tests(), template_tests()}) {
+  for (const auto& more : {memory_tests(), template_tests(), micromap_tests()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

@@ -406,6 +406,32 @@ void nonsense(Context& outer) {
   shows(t, "afterwards", build(t, triangles_desc(2), row_of_clusters(t, 2)), {5, 6});
 }
 
+void many(Context& outer) {
+  Own own(outer);
+  Context& t = own.t;
+  constexpr uint32_t kCount = 100'000;
+  std::vector<float> vertices;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    const auto corners = triangle(static_cast<float>(5 + i % 4), 10.f * static_cast<float>(i));
+    vertices.insert(vertices.end(), corners.vertices.begin(), corners.vertices.end());
+  }
+  const uint64_t first = t.upload(vertices).GetGPUVirtualAddress();
+  std::vector<ClusterArgs> all(kCount, cluster(t, triangle(5)));
+  for (uint32_t i = 0; i < kCount; ++i) {
+    all[i].ClusterID = i;
+    all[i].VertexBuffer = first + 36 * uint64_t{i};
+  }
+  TrianglesDesc desc = triangles_desc(1);
+  desc.Limits.MaxArgCount = kCount;
+  desc.Limits.MaxTriangleCountPerCluster = 1;
+  desc.Limits.MaxVertexCountPerCluster = 3;
+  desc.Limits.MaxTotalTriangleCount = kCount;
+  desc.Limits.MaxTotalVertexCount = 3 * kCount;
+  const Buffer top = top_of(t, level_of(t, build(t, desc, all)));
+  own.noted("all of it", "");
+  t.distance("some of them", depths_at(t, top, {0, 10, 30, 543210, 999990}), {5, 6, 8, 6, 8});
+}
+
 }  // namespace
 
 std::vector<RuleTest> memory_tests() {
@@ -420,6 +446,7 @@ std::vector<RuleTest> memory_tests() {
           {"IND-18", sources_go},
           {"IND-10", tools},
           {"IND-24", not_copied},
+          {"CLS-42", many},
           {"IND-27", nonsense}};
 }
 

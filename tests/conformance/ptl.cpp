@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <limits>
+#include <random>
 
 #include "tests/conformance/rq.h"
 #include "tests/conformance/structures.h"
@@ -300,6 +301,64 @@ void as_a_top_level(Context& outer) {
   both();
 }
 
+void overlapping_ranges(Context& outer) {
+  Partitioned own(outer);
+  Context& t = own.t;
+  const Buffer bottom = t.bottom_level({triangle(5)});
+  const auto inputs = small_inputs();
+  const uint64_t bytes = sizes_of(t, inputs).ResultDataMaxSizeInBytes;
+  const Buffer memory = t.structure_memory(2 * bytes);
+  t.accepted("a source", run(t, inputs, in_memory(t, {{write(bottom, 0, 0)}}), memory));
+  auto data = data_of(t, inputs, in_memory(t, {{write(bottom, 1, 10)}}), memory, memory);
+  data.DestAccelerationStructureData += 256;
+  t.accepted("a destination in the middle of it", run(t, inputs, data));
+  own.noted("a destination in the middle of it", "overlap; they must be the same or apart");
+  RtasPartitionedTlasOperationData moved = data_of(t, inputs, {}, memory, {});
+  moved.SourceAccelerationStructureData = data.DestAccelerationStructureData;
+  const Buffer apart = memory_of(t, inputs);
+  moved.DestAccelerationStructureData = apart.GetGPUVirtualAddress();
+  t.accepted("a copy of the result", run(t, inputs, moved));
+  own.noted("a copy of the result", "");
+  t.equal("what is hit", slots_at(t, apart, {0, 10}), Slots({0, 1}));
+}
+
+// Its PartitionIndex of 0 does not count.
+void never_written_ones(Context& outer) {
+  Partitioned own(outer);
+  Context& t = own.t;
+  const Buffer bottom = t.bottom_level({triangle(5)});
+  auto inputs = small_inputs();
+  inputs.MaxInstancePerPartitionCount = 1;
+  build_new(t, inputs, {});
+  own.noted("none is written", "");
+  const Buffer top = build_new(t, inputs, {{write(bottom, 3, 0, 0)}});
+  own.noted("one is written", "");
+  inputs.InstanceCount = 12;
+  t.equal("what is hit", slots_at(t, build_new(t, inputs, {}, top), {0}), Slots{3});
+  own.noted("more slots", "");
+  build_new(t, inputs, {{write(bottom, 4, 10, 0)}}, top);
+  own.noted("two are written", "partition 0 has 2 instances");
+}
+
+void any_partitions(Context& outer) {
+  Partitioned own(outer);
+  Context& t = own.t;
+  const Buffer bottom = t.bottom_level(meadow());
+  std::mt19937 random(3);
+  const auto image = [&](bool global) {
+    std::vector<WriteArgs> all;
+    for (uint32_t i = 0; i < 8; ++i) {
+      const uint32_t partition = random() % 5;
+      all.push_back(write(bottom, i, 2.f * static_cast<float>(i) - 8,
+                          global || partition == 4 ? kGlobal : partition));
+    }
+    return picture(t, build_new(t, small_inputs(), {all}));
+  };
+  const auto expected = image(true);
+  for (int i = 0; i < 4; ++i) same_picture(t, "other partitions", image(false), expected);
+  own.noted("all of it", "");
+}
+
 void many(Context& outer) {
   Partitioned own(outer);
   Context& t = own.t;
@@ -318,12 +377,21 @@ void many(Context& outer) {
 }
 
 std::vector<RuleTest> instance_tests() {
-  return {{"PTL-02, PTL-03", sources}, {"PTL-11, PTL-18, PTL-20", whole_records},
-          {"PTL-13", instance_flags},  {"PTL-14, PTL-15", inactive},
-          {"PTL-15", full_partitions}, {"PTL-16", explicit_boxes},
-          {"PTL-17", updates},         {"PTL-21, PTL-22, PTL-23, PTL-24", translations},
-          {"PTL-25", resizes},         {"PTL-28", as_a_top_level},
-          {"PTL-30", empty_ones},      {"PTL-32", many}};
+  return {{"PTL-02, PTL-03", sources},
+          {"PTL-11, PTL-18, PTL-20", whole_records},
+          {"PTL-13", instance_flags},
+          {"PTL-14, PTL-15", inactive},
+          {"PTL-15", full_partitions},
+          {"PTL-16", explicit_boxes},
+          {"PTL-17", updates},
+          {"PTL-21, PTL-22, PTL-23, PTL-24", translations},
+          {"PTL-25", resizes},
+          {"PTL-28", as_a_top_level},
+          {"PTL-04", overlapping_ranges},
+          {"PTL-26", never_written_ones},
+          {"PTL-27", any_partitions},
+          {"PTL-30", empty_ones},
+          {"PTL-32", many}};
 }
 
 }  // namespace

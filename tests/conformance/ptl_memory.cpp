@@ -37,6 +37,10 @@ void copied_and_read(Context& outer) {
                          {}, static_cast<ExecuteIndirectRtasOperationsFlags>(1));
                    }),
             "KA0748");
+  CommandList closed = t.device().CreateCommandList().value();
+  closed.Close().value();
+  closed.ExecuteIndirectRTASOperations({});
+  t.holds("a closed list", !closed.GetErrors().empty());
   own.noted("all of it", "");
 }
 
@@ -353,7 +357,7 @@ void random_arguments(Context& outer) {
 }  // namespace
 
 std::vector<RuleTest> memory_tests() {
-  return {{"IND-01, IND-05", copied_and_read},
+  return {{"IND-01, IND-05, IND-06", copied_and_read},
           {"PTL-01", addresses},
           {"PTL-05", order_and_types},
           {"PTL-06", strides},
