@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // clusters/...: operations on clusters over what they stand in for: a bottom level of clusters over
-// one of the same triangles, and instances of a template over clusters that are built one by one.
+// one of the same triangles, and instances of a template over clusters that are built one by one;
+// and rays through both levels.
 // [DXR 2.0: Clustered geometry]
 #include <rtapi/rtas_operations.h>
 #include <rtapi/upload.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "closest_rays.h"
 #include "fixtures.h"
 
 namespace kaamos::bench {
@@ -44,6 +47,16 @@ class Hills {
   void build_level() { run(level_.list); }
   void build_classic() { run(classic_); }
 
+  const Device& device() const { return device_; }
+  const CommandQueue& queue() const { return queue_; }
+  float size() const { return static_cast<float>(edge_ * kQuads); }
+  void run(const CommandList& list) { queue_.ExecuteAndWait(list).value(); }
+  Buffer top_of_clusters() { return top_of(level_.results); }
+  Buffer top_of_triangles() {
+    build_classic();
+    return top_of(classic_result_);
+  }
+
  private:
   // An operation and its memory.
   struct Operation {
@@ -51,7 +64,12 @@ class Hills {
     CommandList list;
   };
 
-  void run(const CommandList& list) { queue_.ExecuteAndWait(list).value(); }
+  // Of one instance of the bottom level at the beginning of a buffer.
+  Buffer top_of(const Buffer& bottom_level) {
+    RaytracingInstanceDesc instance;
+    instance.AccelerationStructure = bottom_level.GetGPUVirtualAddress();
+    return BuildTopLevel(device_, queue_, {instance}, "top level").value();
+  }
 
   void make_triangles() {
     std::vector<uint8_t> indices;
@@ -235,11 +253,35 @@ Case hills_case(const char* name, Step ours, Step baseline) {
           }};
 }
 
+// Rays from above and below the hills. PrimitiveIndex differs: that of a cluster counts in it.
+Line trace(Fixtures& fixtures, const Measure& measure) {
+  Hills hills(fixtures.options(), fixtures.options().quick ? 4 : 64);
+  const float size = hills.size();
+  const ClosestRays rays(hills.device(), hills.queue(), fixtures.options(),
+                         random_rays(fixtures.options(), {0, -9, 0}, {size, 9, size}));
+  const Buffer clustered = hills.top_of_clusters();
+  const Buffer plain = hills.top_of_triangles();
+  const CommandList ours = rays.list_for(clustered.GetGPUVirtualAddress());
+  const CommandList classic = rays.list_for(plain.GetGPUVirtualAddress());
+  hills.run(ours);
+  const auto found = rays.results();
+  hills.run(classic);
+  const auto expected = rays.results();
+  for (size_t i = 0; i < found.size(); ++i) {
+    if (std::fabs(found[i].t - expected[i].t) <= 1e-3f * std::fabs(expected[i].t)) continue;
+    throw std::runtime_error("clusters change what rays hit");
+  }
+  const Pairs times = time_pairs(
+      measure, [&] { hills.run(ours); }, [&] { hills.run(classic); });
+  return {"clusters/trace", 1 / times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", true};
+}
+
 }  // namespace
 
 std::vector<Case> cluster_cases() {
   return {hills_case("clusters/build", &Hills::build_level, &Hills::build_classic),
-          hills_case("clusters/template", &Hills::instantiate, &Hills::build_clusters)};
+          hills_case("clusters/template", &Hills::instantiate, &Hills::build_clusters),
+          {"clusters/trace", trace}};
 }
 
 }  // namespace kaamos::bench

@@ -3,9 +3,7 @@
 // ptlas/...: operations on a partitioned top level over builds of a top level of the same 100,000
 // instances, and rays through the one over rays through the other. [DXR 2.0: Partitioned TLAS]
 #include <rtapi/rtas_operations.h>
-#include <rtapi/shader_table.h>
 #include <rtapi/upload.h>
-#include <shaders/bench.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "closest_rays.h"
 #include "fixtures.h"
 #include "tests/common/structures.h"
 
@@ -198,76 +197,6 @@ class Field {
   uint32_t next_ = 0;
 };
 
-// Rays from random points in random directions, and what they hit.
-class FieldRays {
- public:
-  FieldRays(Field& field, const Options& options) : field_(field) {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> position(0, field.size());
-    std::uniform_real_distribution<float> direction(-1, 1);
-    std::vector<Ray> rays(size_t{options.width} * options.height);
-    for (Ray& ray : rays) {
-      for (int i = 0; i < 3; ++i) ray.origin[i] = position(random);
-      for (int i = 0; i < 3; ++i) ray.direction[i] = direction(random);
-      ray.t_min = 0;
-      ray.t_max = 1000;
-    }
-    const Device& device = field.device();
-    rays_ = CreateUploadBuffer(device, rays, "rays").value();
-    BufferDesc desc;
-    desc.SizeInBytes = rays.size() * sizeof(ClosestResult);
-    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-    desc.InitialState = ResourceStates::kUnorderedAccess;
-    results_ = device.CreateBuffer(desc).value();
-    signature_ = device.CreateRootSignature("SRV(t0), SRV(t1), UAV(u0)").value();
-    DxilLibraryDesc library;
-    library.DXILLibrary = LoadShaderLibrary(kaamos_shaders_bench()).value();
-    library.Exports = {{"ClosestRays", ""}, {"ClosestMiss", ""}, {"ClosestHit", ""}};
-    StateObjectDesc state;
-    state.Add(library);
-    HitGroupDesc group;
-    group.HitGroupExport = "HitGroup";
-    group.ClosestHitShaderImport = "ClosestHit";
-    state.Add(group);
-    state.Add(RaytracingShaderConfig{8, 8});
-    state.Add(RaytracingPipelineConfig{1});
-    state.Add(GlobalRootSignature{signature_});
-    pipeline_ = device.CreateStateObject(state).value();
-    const char* const kNames[] = {"ClosestRays", "ClosestMiss", "HitGroup"};
-    for (const char* name : kNames) {
-      tables_.emplace_back(pipeline_).AddRecord(name).value();
-      tables_.back().Build(device).value();
-    }
-    dispatch_.RayGenerationShaderRecord = tables_[0].GetRecord(0);
-    dispatch_.MissShaderTable = tables_[1].GetTable();
-    dispatch_.HitGroupTable = tables_[2].GetTable();
-    dispatch_.Width = options.width;
-    dispatch_.Height = options.height;
-  }
-  CommandList list_for(const Buffer& top_level) const {
-    CommandList list = field_.device().CreateCommandList().value();
-    list.SetComputeRootSignature(signature_);
-    list.SetPipelineState1(pipeline_);
-    list.SetComputeRootShaderResourceView(0, top_level.GetGPUVirtualAddress());
-    list.SetComputeRootShaderResourceView(1, rays_.GetGPUVirtualAddress());
-    list.SetComputeRootUnorderedAccessView(2, results_.GetGPUVirtualAddress());
-    list.DispatchRays(dispatch_);
-    list.Close().value();
-    return list;
-  }
-  std::vector<std::byte> results() const {
-    return ReadbackBuffer(field_.device(), field_.queue(), results_).value();
-  }
-
- private:
-  Field& field_;
-  Buffer rays_, results_;
-  RootSignature signature_;
-  StateObject pipeline_;
-  std::vector<ShaderTable> tables_;
-  DispatchRaysDesc dispatch_;
-};
-
 uint32_t count_of(const Fixtures& fixtures) {
   return fixtures.options().quick ? 2000 : 100000;
 }
@@ -290,13 +219,20 @@ Line trace(Fixtures& fixtures, const Measure& measure) {
   field.run_change();
   field.record(Change::kMoveScattered);
   field.run_change();  // by 0: where the others are
-  FieldRays rays(field, fixtures.options());
-  const CommandList ours = rays.list_for(field.partitioned());
-  const CommandList classic = rays.list_for(field.classic());
+  const float size = field.size();
+  const ClosestRays rays(field.device(), field.queue(), fixtures.options(),
+                         random_rays(fixtures.options(), {0, 0, 0}, {size, size, size}));
+  const CommandList ours = rays.list_for(field.partitioned().GetGPUVirtualAddress());
+  const CommandList classic = rays.list_for(field.classic().GetGPUVirtualAddress());
   field.run(ours);
   const auto found = rays.results();
   field.run(classic);
-  if (rays.results() != found) throw std::runtime_error("partitions change what rays hit");
+  const auto same = [](const ClosestResult& x, const ClosestResult& y) {
+    return x.t == y.t && x.primitive == y.primitive;
+  };
+  const auto other = rays.results();
+  if (!std::equal(found.begin(), found.end(), other.begin(), same))
+    throw std::runtime_error("partitions change what rays hit");
   const Pairs times = time_pairs(
       measure, [&] { field.run(ours); }, [&] { field.run(classic); });
   return {"ptlas/trace", 1 / times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", true};
