@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Command lists and allocators: life, copies, timestamps, errors.
+// Command lists and allocators: life, copies, queries, errors.
 #include <cstring>
 
 #include "d3d12/objects/d3d12_fixture.h"
@@ -19,6 +19,14 @@ class CommandListCalls : public D3d12Test {
     EXPECT_EQ(readback->Map(0, nullptr, &bytes), S_OK);
     std::vector<uint32_t> out(count);
     std::memcpy(out.data(), bytes, count * 4);
+    return out;
+  }
+  ComPtr<ID3D12Resource> uploaded(const std::vector<uint32_t>& words) {
+    const auto out =
+        buffer(words.size() * 4, D3D12_HEAP_TYPE_UPLOAD, D3D12_RESOURCE_STATE_GENERIC_READ);
+    void* bytes = nullptr;
+    EXPECT_EQ(out->Map(0, nullptr, &bytes), S_OK);
+    std::memcpy(bytes, words.data(), words.size() * 4);
     return out;
   }
 };
@@ -86,6 +94,26 @@ TEST_F(CommandListCalls, TimestampsGrow) {
   EXPECT_GT(frequency, 0u);
   EXPECT_EQ(queue_->GetClockCalibration(&gpu, &cpu), S_OK);
   EXPECT_GE(gpu, ticks[1]);
+}
+
+// A query of nothing is 0, and leaves out a copy.
+TEST_F(CommandListCalls, QueriesDecideOverCopies) {
+  D3D12_QUERY_HEAP_DESC desc = {D3D12_QUERY_HEAP_TYPE_OCCLUSION, 2, 0};
+  ComPtr<ID3D12QueryHeap> heap;
+  ASSERT_EQ(device_->CreateQueryHeap(&desc, IID_PPV_ARGS(heap.GetAddressOf())), S_OK);
+  const auto predicate = buffer(16, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_COPY_DEST);
+  const auto target = buffer(16, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_COPY_DEST);
+  const auto source = uploaded({1, 2, 3, 4});
+  list_->BeginQuery(heap.Get(), D3D12_QUERY_TYPE_BINARY_OCCLUSION, 1);
+  list_->EndQuery(heap.Get(), D3D12_QUERY_TYPE_BINARY_OCCLUSION, 1);
+  list_->ResolveQueryData(heap.Get(), D3D12_QUERY_TYPE_BINARY_OCCLUSION, 1, 1, predicate.Get(), 8);
+  list_->SetPredication(predicate.Get(), 8, D3D12_PREDICATION_OP_EQUAL_ZERO);
+  list_->CopyBufferRegion(target.Get(), 0, source.Get(), 0, 4);
+  list_->SetPredication(predicate.Get(), 8, D3D12_PREDICATION_OP_NOT_EQUAL_ZERO);
+  list_->CopyBufferRegion(target.Get(), 4, source.Get(), 4, 4);
+  list_->SetPredication(nullptr, 0, D3D12_PREDICATION_OP_EQUAL_ZERO);
+  list_->CopyBufferRegion(target.Get(), 8, source.Get(), 8, 4);
+  EXPECT_EQ(read(target.Get(), 4), (std::vector<uint32_t>{0, 2, 3, 0}));
 }
 
 TEST_F(CommandListCalls, CloseReportsEveryErrorAndReturnsTheFirst) {

@@ -106,11 +106,15 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
                        const D3D12_WRITEBUFFERIMMEDIATE_MODE* modes) override;
   // A discarded resource keeps its values here.
   void STDMETHODCALLTYPE DiscardResource(ID3D12Resource*, const D3D12_DISCARD_REGION*) override {}
+  void STDMETHODCALLTYPE BeginQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type,
+                                    UINT index) override;
   void STDMETHODCALLTYPE EndQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type,
                                   UINT index) override;
   void STDMETHODCALLTYPE ResolveQueryData(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type, UINT start,
                                           UINT count, ID3D12Resource* dest,
                                           UINT64 dest_offset) override;
+  void STDMETHODCALLTYPE SetPredication(ID3D12Resource* buffer, UINT64 offset,
+                                        D3D12_PREDICATION_OP operation) override;
   void STDMETHODCALLTYPE SetMarker(UINT, const void*, UINT) override {}
   void STDMETHODCALLTYPE BeginEvent(UINT metadata, const void* data, UINT size) override;
   void STDMETHODCALLTYPE EndEvent() override;

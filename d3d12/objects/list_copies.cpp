@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies, clears of unordered access views, queries.
+// Copies, clears of unordered access views, queries, predication.
 #include "d3d12/objects/device.h"
 #include "d3d12/objects/graphics_command_list.h"
 #include "d3d12/objects/pipeline_objects.h"
@@ -74,6 +74,10 @@ void GraphicsCommandList::WriteBufferImmediate(
       same_bytes<rtapi::WriteBufferImmediateMode>(modes, modes != nullptr ? count : 0));
 }
 
+void GraphicsCommandList::BeginQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type, UINT index) {
+  list_.BeginQuery(rtapi_heap(heap), static_cast<rtapi::QueryType>(type), index);
+}
+
 void GraphicsCommandList::EndQuery(ID3D12QueryHeap* heap, D3D12_QUERY_TYPE type, UINT index) {
   list_.EndQuery(rtapi_heap(heap), static_cast<rtapi::QueryType>(type), index);
 }
@@ -82,6 +86,12 @@ void GraphicsCommandList::ResolveQueryData(ID3D12QueryHeap* heap, D3D12_QUERY_TY
                                            UINT count, ID3D12Resource* dest, UINT64 dest_offset) {
   list_.ResolveQueryData(rtapi_heap(heap), static_cast<rtapi::QueryType>(type), start, count,
                          rtapi_buffer(dest), dest_offset);
+}
+
+void GraphicsCommandList::SetPredication(ID3D12Resource* buffer, UINT64 offset,
+                                         D3D12_PREDICATION_OP operation) {
+  list_.SetPredication(rtapi_resource(buffer), offset,
+                       static_cast<rtapi::PredicationOp>(operation));
 }
 
 HRESULT Device::CreateQueryHeap(const D3D12_QUERY_HEAP_DESC* desc, REFIID riid, void** heap) {

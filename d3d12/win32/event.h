@@ -8,7 +8,7 @@
 
 namespace kaamos::d3d12 {
 
-class Event final : public HandleObject {
+class Event : public HandleObject {
  public:
   Event(bool resets_by_hand, bool initially_set)
       : manual_reset(resets_by_hand), set(initially_set) {}

@@ -3,11 +3,14 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <process.h>
@@ -20,19 +23,37 @@ namespace kaamos::d3d12 {
 
 namespace {
 
-// Starts a thread; the handle is that of an event that its end sets.
-HANDLE start_thread(std::function<void()> body, DWORD flags, const char* call) {
-  if ((flags & ~STACK_SIZE_PARAM_IS_A_RESERVATION) != 0) {
+// An event that the end of the thread sets.
+class Thread final : public Event {
+ public:
+  explicit Thread(std::function<void()> body) : Event(true, false), body_(std::move(body)) {}
+
+  // False if it has been started.
+  static bool start(const std::shared_ptr<Thread>& thread) {
+    if (thread->started_.exchange(true)) return false;
+    // The library's threads have stacks of their own size.
+    std::thread([thread] {
+      std::exchange(thread->body_, nullptr)();
+      set_event(*thread, true);
+    }).detach();
+    return true;
+  }
+
+ private:
+  std::function<void()> body_;
+  std::atomic<bool> started_ = false;
+};
+
+HANDLE make_thread(std::function<void()> body, DWORD flags, const char* call) {
+  if ((flags & ~(STACK_SIZE_PARAM_IS_A_RESERVATION | CREATE_SUSPENDED)) != 0) {
     succeed(false, ERROR_INVALID_PARAMETER, call,
-            "flags are " + std::to_string(flags) + "; allowed is 0: threads start at once.");
+            "flags are " + std::to_string(flags) +
+                "; allowed are 0, CREATE_SUSPENDED (4) and STACK_SIZE_PARAM_IS_A_RESERVATION.");
     return nullptr;
   }
-  const HANDLE handle = make_event(true, false);
-  // The library's threads have stacks of their own size.
-  std::thread([body = std::move(body), ended = Handles::instance().find<Event>(handle)] {
-    body();
-    set_event(*ended, true);
-  }).detach();
+  const auto thread = std::make_shared<Thread>(std::move(body));
+  const HANDLE handle = Handles::instance().add(thread);
+  if ((flags & CREATE_SUSPENDED) == 0) Thread::start(thread);
   return handle;
 }
 
@@ -112,14 +133,23 @@ DWORD WINAPI GetCurrentProcessId() {
 HANDLE WINAPI CreateThread(LPSECURITY_ATTRIBUTES, SIZE_T, LPTHREAD_START_ROUTINE start,
                            LPVOID parameter, DWORD flags, LPDWORD id) {
   if (id != nullptr) *id = 0;
-  return start_thread([start, parameter] { start(parameter); }, flags, "CreateThread");
+  return make_thread([start, parameter] { start(parameter); }, flags, "CreateThread");
+}
+
+DWORD WINAPI ResumeThread(HANDLE handle) {
+  const auto thread = Handles::instance().find<Thread>(handle);
+  if (!succeed(thread != nullptr, ERROR_INVALID_HANDLE, "ResumeThread",
+               "the handle names no thread that lives.")) {
+    return static_cast<DWORD>(-1);
+  }
+  return Thread::start(thread) ? 1 : 0;
 }
 
 uintptr_t _beginthreadex(void*, unsigned, _beginthreadex_proc_type start, void* argument,
                          unsigned flags, unsigned* id) {
   if (id != nullptr) *id = 0;
   return reinterpret_cast<uintptr_t>(
-      start_thread([start, argument] { start(argument); }, flags, "_beginthreadex"));
+      make_thread([start, argument] { start(argument); }, flags, "_beginthreadex"));
 }
 
 LPSTR WINAPI GetCommandLineA() {

@@ -29,10 +29,38 @@ TEST(Thread, ItsHandleIsSetWhenItHasEnded) {
   for (HANDLE thread : threads) EXPECT_TRUE(CloseHandle(thread));
 }
 
-TEST(Thread, OneThatWouldStartSuspendedIsRefused) {
+TEST(Thread, OneThatIsSuspendedWaitsForResumeThread) {
   const Quiet quiet;
-  EXPECT_EQ(CreateThread(nullptr, 0, &add_one, nullptr, CREATE_SUSPENDED, nullptr), nullptr);
+  LONG value = 0;
+  const HANDLE thread = CreateThread(nullptr, 0, &add_one, &value, CREATE_SUSPENDED, nullptr);
+  ASSERT_NE(thread, nullptr);
+  EXPECT_EQ(WaitForSingleObject(thread, 20), WAIT_TIMEOUT);
+  EXPECT_EQ(ResumeThread(thread), 1u);
+  EXPECT_EQ(WaitForSingleObject(thread, INFINITE), WAIT_OBJECT_0);
+  EXPECT_EQ(value, 1);
+  EXPECT_EQ(ResumeThread(thread), 0u);
+  EXPECT_TRUE(CloseHandle(thread));
+  EXPECT_EQ(ResumeThread(thread), static_cast<DWORD>(-1));
+  EXPECT_EQ(GetLastError(), ERROR_INVALID_HANDLE);
+}
+
+TEST(Thread, OtherFlagsAreRefused) {
+  const Quiet quiet;
+  EXPECT_EQ(CreateThread(nullptr, 0, &add_one, nullptr, 0x8, nullptr), nullptr);
   EXPECT_EQ(GetLastError(), ERROR_INVALID_PARAMETER);
+}
+
+TEST(Interlocked, UnsignedNumbersOfBothSizes) {
+  volatile UINT64 wide = 0xFFFFFFFFull;
+  EXPECT_EQ(InterlockedIncrement(&wide), 0x100000000ull);
+  EXPECT_EQ(InterlockedExchange(&wide, 7), 0x100000000ull);
+  EXPECT_EQ(InterlockedExchangeAdd(&wide, 3), 7u);
+  EXPECT_EQ(InterlockedCompareExchange(&wide, 1, 10), 10u);
+  EXPECT_EQ(InterlockedDecrement(&wide), 0u);
+  volatile ULONG narrow = 0xFFFFFFFFu;
+  EXPECT_EQ(InterlockedIncrement(&narrow), 0u);
+  EXPECT_EQ(InterlockedExchange(&narrow, 5), 0u);
+  EXPECT_EQ(narrow, 5u);
 }
 
 std::vector<std::wstring> split(const wchar_t* line) {

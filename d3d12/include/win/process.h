@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 typedef unsigned(__stdcall* _beginthreadex_proc_type)(void*);
-/// `flags` must be 0.
+/// `flags` is 0 or CREATE_SUSPENDED.
 EXTERN_C uintptr_t _beginthreadex(void* security, unsigned stack_size,
                                   _beginthreadex_proc_type start, void* argument, unsigned flags,
                                   unsigned* id);

@@ -13,10 +13,13 @@ typedef DWORD(WINAPI* LPTHREAD_START_ROUTINE)(LPVOID);
 #define THREAD_PRIORITY_ABOVE_NORMAL 1
 #define THREAD_PRIORITY_HIGHEST 2
 
-/// The handle is set when the thread has ended. `flags` must be 0.
+/// The handle is set when the thread has ended. `flags` is 0 or CREATE_SUSPENDED.
 EXTERN_C HANDLE WINAPI CreateThread(LPSECURITY_ATTRIBUTES attributes, SIZE_T stack_size,
                                     LPTHREAD_START_ROUTINE start, LPVOID parameter, DWORD flags,
                                     LPDWORD id);
+/// Starts a thread that was made with CREATE_SUSPENDED. Returns 1, 0 if it runs already, or
+/// (DWORD)-1 for a handle of no thread.
+EXTERN_C DWORD WINAPI ResumeThread(HANDLE thread);
 EXTERN_C DWORD WINAPI GetCurrentThreadId();
 EXTERN_C DWORD WINAPI GetCurrentProcessId();
 inline HANDLE GetCurrentThread() {

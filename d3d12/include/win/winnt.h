@@ -29,13 +29,37 @@ inline LONGLONG InterlockedIncrement64(volatile LONGLONG* p) {
 inline LONGLONG InterlockedDecrement64(volatile LONGLONG* p) {
   return __sync_sub_and_fetch(p, 1);
 }
-// Some programs count ULONG references.
-inline ULONG InterlockedIncrement(volatile ULONG* p) {
-  return __sync_add_and_fetch(p, 1u);
+inline LONGLONG InterlockedExchangeAdd64(volatile LONGLONG* p, LONGLONG v) {
+  return __sync_fetch_and_add(p, v);
 }
-inline ULONG InterlockedDecrement(volatile ULONG* p) {
-  return __sync_sub_and_fetch(p, 1u);
+inline LONGLONG InterlockedExchange64(volatile LONGLONG* p, LONGLONG v) {
+  return __atomic_exchange_n(p, v, __ATOMIC_SEQ_CST);
 }
+inline LONGLONG InterlockedCompareExchange64(volatile LONGLONG* p, LONGLONG v, LONGLONG comparand) {
+  return __sync_val_compare_and_swap(p, comparand, v);
+}
+#ifdef __cplusplus
+// The same names for unsigned numbers of both sizes, as Windows has them in C++.
+#define KAAMOS_INTERLOCKED_UNSIGNED(T)                                   \
+  inline T InterlockedIncrement(volatile T* p) {                         \
+    return __sync_add_and_fetch(p, (T)1);                                \
+  }                                                                      \
+  inline T InterlockedDecrement(volatile T* p) {                         \
+    return __sync_sub_and_fetch(p, (T)1);                                \
+  }                                                                      \
+  inline T InterlockedExchangeAdd(volatile T* p, T v) {                  \
+    return __sync_fetch_and_add(p, v);                                   \
+  }                                                                      \
+  inline T InterlockedExchange(volatile T* p, T v) {                     \
+    return __atomic_exchange_n(p, v, __ATOMIC_SEQ_CST);                  \
+  }                                                                      \
+  inline T InterlockedCompareExchange(volatile T* p, T v, T comparand) { \
+    return __sync_val_compare_and_swap(p, comparand, v);                 \
+  }
+KAAMOS_INTERLOCKED_UNSIGNED(ULONG)
+KAAMOS_INTERLOCKED_UNSIGNED(UINT64)
+#undef KAAMOS_INTERLOCKED_UNSIGNED
+#endif
 inline void MemoryBarrier() {
   __sync_synchronize();
 }
