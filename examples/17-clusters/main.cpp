@@ -3,11 +3,10 @@
 // tile, and a bottom level of them, whose addresses never leave the device's memory.
 #include <shaders/landscape.h>
 
-#include <rtapi/rtas_operations.h>
-
 #include <cmath>
 
 #include "../common/example.h"
+#include "../common/operations.h"
 
 using namespace rtapi;
 
@@ -18,47 +17,6 @@ constexpr uint32_t kClusters = kTiles * kTiles;
 constexpr uint32_t kQuads = 8;  // along a side of a tile
 constexpr uint32_t kTriangles = 2 * kQuads * kQuads;
 constexpr uint32_t kVertices = (kQuads + 1) * (kQuads + 1);
-
-// An operation's memory and results.
-struct Batch {
-  Buffer results;    // what it makes
-  Buffer addresses;  // where each of them is, uint64_t
-  Buffer scratch;
-  Buffer arguments;
-};
-
-// Records an operation. What comes after it in the list may use its results.
-template <class Args>
-Batch Record(const Device& device, CommandList& list, const RtasOperationInputs& inputs,
-             const std::vector<Args>& arguments) {
-  const RtasOperationPrebuildInfo sizes = device.GetRTASOperationPrebuildInfo(inputs);
-  const auto memory = [&](uint64_t bytes, ResourceStates state, const char* name) {
-    return device
-        .CreateBuffer({.SizeInBytes = bytes,
-                       .Flags = ResourceFlags::kAllowUnorderedAccess,
-                       .InitialState = state,
-                       .Name = name})
-        .value();
-  };
-  Batch batch;
-  batch.results = memory(sizes.ResultDataMaxSizeInBytes,
-                         ResourceStates::kRaytracingAccelerationStructure, "results");
-  batch.addresses = memory(arguments.size() * sizeof(uint64_t), ResourceStates::kUnorderedAccess,
-                           "addresses of results");
-  batch.scratch = memory(sizes.ScratchDataSizeInBytes, ResourceStates::kUnorderedAccess, "scratch");
-  batch.arguments = CreateUploadBuffer(device, arguments, "arguments").value();
-  RtasBatchedOperationData data;
-  data.BatchResultData = batch.results.GetGPUVirtualAddress();
-  data.BatchScratchData = batch.scratch.GetGPUVirtualAddress();
-  data.ResultAddressArray = {batch.addresses.GetGPUVirtualAddress(), 0};
-  data.IndirectArgumentArray = {batch.arguments.GetGPUVirtualAddress(), 0};
-  const RtasOperationDesc operation = {.pInputs = &inputs, .pBatchedOperationData = &data};
-  list.ExecuteIndirectRTASOperations({&operation, 1});
-  list.ResourceBarrier(ResourceBarrier::Uav(batch.results));
-  list.ResourceBarrier(ResourceBarrier::Transition(
-      batch.addresses, ResourceStates::kUnorderedAccess, ResourceStates::kNonPixelShaderResource));
-  return batch;
-}
 
 RtasClusterLimits Limits(uint32_t clusters) {
   return {.MaxArgCount = clusters,
@@ -100,14 +58,9 @@ std::vector<float> Positions() {
 
 // The landscape, and what must live as long as it does.
 struct Landscape {
-  Batch tile, clusters, level;
+  example::Batch tile, clusters, level;
   Buffer indices, positions;
 };
-
-// The address of a buffer's one result, which implicit destinations put first.
-GpuVirtualAddress Only(const Batch& batch) {
-  return batch.results.GetGPUVirtualAddress();
-}
 
 Landscape RecordLandscape(const Device& device, CommandList& list) {
   Landscape made;
@@ -126,7 +79,7 @@ Landscape RecordLandscape(const Device& device, CommandList& list) {
   RtasOperationInputs inputs;
   inputs.Type = RtasOperationType::kBuildClusterTemplatesFromTriangles;
   inputs.pClusterTemplateTrianglesDesc = &template_desc;
-  made.tile = Record(device, list, inputs, std::vector{tile});
+  made.tile = example::Record(device, list, inputs, std::vector{tile});
 
   // A cluster for each tile: the template with positions, and a ClusterID.
   RtasInstantiateClusterTemplateInputsDesc instance_desc;
@@ -136,12 +89,12 @@ Landscape RecordLandscape(const Device& device, CommandList& list) {
   for (uint32_t i = 0; i < kClusters; ++i) {
     const uint64_t first = uint64_t{i} * kVertices * 3 * sizeof(float);
     tiles[i].ClusterIdOffset = i;
-    tiles[i].ClusterTemplate = Only(made.tile);
+    tiles[i].ClusterTemplate = made.tile.Only();
     tiles[i].VertexBuffer = {made.positions.GetGPUVirtualAddress() + first, 3 * sizeof(float)};
   }
   inputs.Type = RtasOperationType::kInstantiateClusterTemplates;
   inputs.pInstantiateClusterTemplateDesc = &instance_desc;
-  made.clusters = Record(device, list, inputs, tiles);
+  made.clusters = example::Record(device, list, inputs, tiles);
 
   // A bottom level of all clusters, whose addresses the operation before has written.
   RtasClasInputsDesc level_desc = {.Flags = RtasOperationFlags::kFastTrace,
@@ -153,7 +106,7 @@ Landscape RecordLandscape(const Device& device, CommandList& list) {
   level.ClasAddressArray = made.clusters.addresses.GetGPUVirtualAddress();
   inputs.Type = RtasOperationType::kBuildBlasFromClas;
   inputs.pClasDesc = &level_desc;
-  made.level = Record(device, list, inputs, std::vector{level});
+  made.level = example::Record(device, list, inputs, std::vector{level});
   return made;
 }
 
@@ -165,7 +118,7 @@ Texture Render(const example::Setup& setup) {
   setup.queue.ExecuteAndWait(build).value();
 
   RaytracingInstanceDesc instance;
-  instance.AccelerationStructure = Only(landscape.level);
+  instance.AccelerationStructure = landscape.level.Only();
   const Buffer scene = BuildTopLevel(device, setup.queue, {instance}, "scene").value();
 
   const RootSignature root_signature =

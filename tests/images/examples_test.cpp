@@ -49,21 +49,20 @@ TEST_P(ExamplePicture, IsTheOneThatWasLookedAt) {
   EXPECT_GT(difference.value().psnr, 40.0) << picture << ": " << describe(difference.value());
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
-                         testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks",
-                                         "03-any-hit-alpha", "04-procedural-spheres",
-                                         "05-callable-and-recursion", "06-local-root-signature",
-                                         "07-update-and-compaction", "08-compute", "09-ray-query",
-                                         "11-triangle-raster", "12-shadow-map", "13-hybrid",
-                                         "14-reordering", "15-opacity-micromaps",
-                                         "16-partitioned-top-level", "17-clusters"),
-                         [](const auto& tested) {
-                           std::string name = tested.param;
-                           for (char& c : name) {
-                             if (c == '-') c = '_';
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Examples, ExamplePicture,
+    testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks", "03-any-hit-alpha",
+                    "04-procedural-spheres", "05-callable-and-recursion", "06-local-root-signature",
+                    "07-update-and-compaction", "08-compute", "09-ray-query", "11-triangle-raster",
+                    "12-shadow-map", "13-hybrid", "14-reordering", "15-opacity-micromaps",
+                    "16-partitioned-top-level", "17-clusters", "18-cluster-detail"),
+    [](const auto& tested) {
+      std::string name = tested.param;
+      for (char& c : name) {
+        if (c == '-') c = '_';
+      }
+      return name;
+    });
 
 // Small pictures of the lounge, with the noise of exactly these samples.
 TEST(NorthlightPicture, IsTheOneThatWasLookedAt) {

@@ -278,15 +278,14 @@ TEST_P(VulkanExamples, DrawWhatEmbreeDraws) {
                                    << difference.worst_x << "," << difference.worst_y;
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, VulkanExamples,
-                         testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks",
-                                         "03-any-hit-alpha", "04-procedural-spheres",
-                                         "05-callable-and-recursion", "06-local-root-signature",
-                                         "07-update-and-compaction", "08-compute", "09-ray-query",
-                                         "11-triangle-raster", "12-shadow-map", "13-hybrid",
-                                         "14-reordering", "15-opacity-micromaps",
-                                         "16-partitioned-top-level", "17-clusters"),
-                         [](const auto& tested) { return name_of(tested.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Programs, VulkanExamples,
+    testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks", "03-any-hit-alpha",
+                    "04-procedural-spheres", "05-callable-and-recursion", "06-local-root-signature",
+                    "07-update-and-compaction", "08-compute", "09-ray-query", "11-triangle-raster",
+                    "12-shadow-map", "13-hybrid", "14-reordering", "15-opacity-micromaps",
+                    "16-partitioned-top-level", "17-clusters", "18-cluster-detail"),
+    [](const auto& tested) { return name_of(tested.param); });
 
 // The largest error of reads between two texels, measured in a process of its own: the driver reads
 // its settings once per process, and a child would inherit what this process set.
