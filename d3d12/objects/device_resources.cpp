@@ -283,8 +283,9 @@ rtapi::Result<uint64_t> content_bytes(const rtapi::Device& device,
        desc.MipLevels == 0 && side != 0; side /= 2) {
     ++mips;
   }
+  const uint32_t planes = rtapi::HasStencil(rtapi::GetDepthFormat(texture->Format)) ? 2 : 1;
   std::vector<rtapi::PlacedSubresourceFootprint> layouts;
-  return device.GetCopyableFootprints(*texture, 0, mips * slices, 0, &layouts);
+  return device.GetCopyableFootprints(*texture, 0, mips * slices * planes, 0, &layouts);
 }
 
 // Returns the alignment that the desc asks for, of which textures may have 4 KiB if they are small

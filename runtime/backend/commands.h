@@ -20,6 +20,7 @@
 #include <rtapi/rtas_operations.h>
 
 #include "runtime/backend/draw_commands.h"
+#include "runtime/backend/planes.h"
 #include "runtime/backend/queries.h"
 #include "runtime/backend/root_bindings.h"
 
@@ -186,6 +187,7 @@ struct TextureCopyPlace {
   std::shared_ptr<BackendTexture> texture;
   uint32_t mip = 0;
   uint32_t array_element = 0;
+  uint32_t plane = 0;  // Plane
   std::shared_ptr<BackendBuffer> buffer;
   uint64_t offset = 0;             // bytes up to texel (0,0,0) of the footprint
   uint32_t row_pitch = 0;          // bytes
@@ -230,6 +232,8 @@ struct BarrierCommand {
   uint32_t mip_count = 0;  // 0: `subresource` counts; else a range from mip `subresource` on
   uint32_t first_layer = 0;
   uint32_t layer_count = 1;
+  uint32_t first_plane = 0;
+  uint32_t plane_count = 1;
 };
 
 struct EventCommand {

@@ -55,7 +55,7 @@ std::array<NamedTable, 4> tables_of(const rtapi::DispatchRaysDesc& desc) {
 }
 
 Subresources subresource_of(const runtime::TextureCopyPlace& place) {
-  return {place.mip, 1, place.array_element, 1};
+  return {place.mip, 1, place.array_element, 1, place.plane, 1};
 }
 
 const char* layout_of(const runtime::LinkedShader& shader) {

@@ -53,9 +53,10 @@ void Layer::check(const runtime::DrawCommand& command) {
 
 void Layer::check_feedback(const runtime::DrawCommand& command, std::vector<ShaderUse>& uses) {
   const runtime::DrawTargets& targets = command.state->targets;
-  const auto drop = [&](const runtime::TargetView& view, const std::string& what) {
+  const auto drop = [&](const runtime::TargetView& view, const std::string& what,
+                        uint32_t plane = 0) {
     if (view.texture == nullptr) return;
-    const Subresources bound = {view.mip, 1, view.first_slice, view.slice_count};
+    const Subresources bound = {view.mip, 1, view.first_slice, view.slice_count, plane, 1};
     std::erase_if(uses, [&](const ShaderUse& use) {
       if (!use.texture || !textures_.shows(use.address, view.texture.get(), bound)) return false;
       reporter_.report(Id::kTargetRead,
@@ -69,8 +70,9 @@ void Layer::check_feedback(const runtime::DrawCommand& command, std::vector<Shad
   for (uint32_t i = 0; i < targets.color_count; ++i) {
     drop(targets.color[i], "render target " + std::to_string(i));
   }
-  if (writes_depth(command) || writes_stencil(command)) {
-    drop(targets.depth, "the depth buffer, which is written,");
+  if (writes_depth(command)) drop(targets.depth, "the depth buffer, which is written,");
+  if (writes_stencil(command)) {
+    drop(targets.depth, "the depth buffer, whose stencil is written,", runtime::kStencilPlane);
   }
 }
 

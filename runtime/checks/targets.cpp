@@ -14,8 +14,8 @@ using rtapi::ComparisonFunc;
 using rtapi::ResourceStates;
 using runtime::TargetView;
 
-Subresources subresources_of(const TargetView& view) {
-  return {view.mip, 1, view.first_slice, view.slice_count};
+Subresources subresources_of(const TargetView& view, uint32_t plane = 0) {
+  return {view.mip, 1, view.first_slice, view.slice_count, plane, 1};
 }
 
 std::string slot_name(uint32_t slot) {
@@ -181,10 +181,10 @@ void Targets::check_sizes(const runtime::DrawCommand& command, const std::string
 }
 
 void Targets::use(const TargetView& view, ResourceStates wanted, const std::string& what,
-                  const std::string& label) {
+                  const std::string& label, uint32_t plane) {
   const bool before = bound_before_.count(view.texture.get()) != 0;
   // It was in the right state then.
-  states_.use(view.texture.get(), subresources_of(view), wanted, what, label,
+  states_.use(view.texture.get(), subresources_of(view, plane), wanted, what, label,
               before ? Id::kTargetStateChanged : Id::kResourceState,
               before ? " Earlier draws of this list wrote to it; bind other targets before it "
                        "changes its state."
@@ -198,15 +198,19 @@ void Targets::check_states(const runtime::DrawCommand& command, const std::strin
     if (targets.color[i].texture == nullptr) continue;
     use(targets.color[i], ResourceStates::kRenderTarget, who + ": " + slot_name(i), label);
   }
-  if (!tests_depth(command) && !tests_stencil(command)) return;
-  const TargetView& depth = targets.depth;
-  if (writes_depth(command) || writes_stencil(command)) {
-    use(depth, ResourceStates::kDepthWrite, who + ": the depth buffer", label);
-  } else if (!states_.is_in(depth.texture.get(), subresources_of(depth),
-                            ResourceStates::kDepthWrite)) {
-    use(depth, ResourceStates::kDepthRead, who + ": the depth buffer, which is only tested,",
-        label);
-  }
+  const TargetView& view = targets.depth;
+  const auto check_plane = [&](uint32_t plane, bool tests, bool writes, const std::string& name) {
+    if (!tests) return;
+    if (writes) {
+      use(view, ResourceStates::kDepthWrite, who + ": " + name, label, plane);
+    } else if (!states_.is_in(view.texture.get(), subresources_of(view, plane),
+                              ResourceStates::kDepthWrite)) {
+      use(view, ResourceStates::kDepthRead, who + ": " + name + ", which is only tested,", label,
+          plane);
+    }
+  };
+  check_plane(0, tests_depth(command), writes_depth(command), "the depth buffer");
+  check_plane(1, tests_stencil(command), writes_stencil(command), "the depth buffer's stencil");
 }
 
 bool Targets::was_written(const TargetView& view) const {
@@ -261,9 +265,15 @@ void Targets::check_contents(const runtime::DrawCommand& command, const std::str
 void Targets::check(const runtime::ClearTargetCommand& command, const std::string& label) {
   const TargetView& view = command.view;
   if (view.texture == nullptr) return;
-  states_.use(view.texture.get(), subresources_of(view),
-              command.depth_stencil ? ResourceStates::kDepthWrite : ResourceStates::kRenderTarget,
-              "the view to clear", label);
+  if (!command.depth_stencil || command.clear_depth) {
+    states_.use(view.texture.get(), subresources_of(view),
+                command.depth_stencil ? ResourceStates::kDepthWrite : ResourceStates::kRenderTarget,
+                "the view to clear", label);
+  }
+  if (command.depth_stencil && command.clear_stencil && rtapi::HasStencil(view.format)) {
+    states_.use(view.texture.get(), subresources_of(view, 1), ResourceStates::kDepthWrite,
+                "the view to clear", label);
+  }
   const auto best = states_.optimized_clear(view.texture.get());
   if (!best) return;
   std::string given;

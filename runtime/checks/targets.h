@@ -52,7 +52,7 @@ class Targets {
                     const std::string& label);
   void check_contents(const runtime::DrawCommand& command, const std::string& who);
   void use(const runtime::TargetView& view, rtapi::ResourceStates wanted, const std::string& what,
-           const std::string& label);
+           const std::string& label, uint32_t plane = 0);
   bool was_written(const runtime::TargetView& view) const;
 
   Reporter& reporter_;

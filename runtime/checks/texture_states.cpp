@@ -31,6 +31,7 @@ void TextureStates::add(const std::shared_ptr<runtime::BackendTexture>& texture,
                               desc.Name,
                               desc.MipLevels,
                               volume ? 1u : desc.DepthOrArraySize,
+                              runtime::plane_count(desc.Format),
                               desc.OptimizedClearValue,
                               {{desc.InitialState, false, {}}}};
 }
@@ -72,14 +73,21 @@ std::vector<uint32_t> TextureStates::split(Tracked& texture, const Subresources&
   const auto [layer, layer_end] = texture.layers == 1
                                       ? std::pair(0u, 1u)
                                       : cut(some.first_layer, some.layer_count, texture.layers);
-  const bool all = mip_end - mip == texture.mips && layer_end - layer == texture.layers;
+  const auto [plane, plane_end] = cut(some.first_plane, some.plane_count, texture.planes);
+  const bool all = mip_end - mip == texture.mips && layer_end - layer == texture.layers &&
+                   plane_end - plane == texture.planes;
   if (texture.states.size() == 1) {
     if (all) return {0};
-    texture.states.resize(size_t{texture.mips} * texture.layers, State(texture.states[0]));
+    texture.states.resize(size_t{texture.mips} * texture.layers * texture.planes,
+                          State(texture.states[0]));
   }
   std::vector<uint32_t> out;
-  for (uint32_t l = layer; l < layer_end; ++l) {
-    for (uint32_t m = mip; m < mip_end; ++m) out.push_back(m + l * texture.mips);
+  for (uint32_t p = plane; p < plane_end; ++p) {
+    for (uint32_t l = layer; l < layer_end; ++l) {
+      for (uint32_t m = mip; m < mip_end; ++m) {
+        out.push_back(m + (l + p * texture.layers) * texture.mips);
+      }
+    }
   }
   return out;
 }
@@ -95,7 +103,11 @@ std::string TextureStates::in_state(const Tracked& texture, uint32_t subresource
   if (several) {
     text = "subresource " + std::to_string(subresource) + " (mip " +
            std::to_string(subresource % texture.mips) + ", array element " +
-           std::to_string(subresource / texture.mips) + ") of " + text;
+           std::to_string(subresource / texture.mips % texture.layers) +
+           (texture.planes == 1                                    ? ""
+            : subresource >= size_t{texture.mips} * texture.layers ? ", stencil"
+                                                                   : ", depth") +
+           ") of " + text;
   }
   return text + ", which is in state " + state_name(state.state) +
          (state.by.empty() ? std::string(" since it was created") : " since " + state.by);
@@ -105,10 +117,13 @@ std::string TextureStates::in_state(const Tracked& texture, uint32_t subresource
 Subresources TextureStates::covered(const Tracked& texture,
                                     const runtime::BarrierCommand& command) {
   if (command.mip_count != 0) {
-    return {command.subresource, command.mip_count, command.first_layer, command.layer_count};
+    return {command.subresource, command.mip_count,   command.first_layer,
+            command.layer_count, command.first_plane, command.plane_count};
   }
   if (command.subresource == rtapi::kResourceBarrierAllSubresources) return {};
-  return {command.subresource % texture.mips, 1, command.subresource / texture.mips, 1};
+  const uint32_t layer = command.subresource / texture.mips;
+  return {
+      command.subresource % texture.mips, 1, layer % texture.layers, 1, layer / texture.layers, 1};
 }
 
 void TextureStates::barrier(const runtime::BarrierCommand& command, const std::string& label) {
@@ -234,7 +249,8 @@ bool TextureStates::shows(uint64_t key, const runtime::BackendTexture* texture,
   };
   const Subresources& seen = it->second.seen;
   return overlap(seen.first_mip, seen.mip_count, some.first_mip, some.mip_count) &&
-         overlap(seen.first_layer, seen.layer_count, some.first_layer, some.layer_count);
+         overlap(seen.first_layer, seen.layer_count, some.first_layer, some.layer_count) &&
+         overlap(seen.first_plane, seen.plane_count, some.first_plane, some.plane_count);
 }
 
 std::shared_ptr<runtime::BackendTexture> TextureStates::texture_of(uint64_t key) {

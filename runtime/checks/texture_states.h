@@ -18,13 +18,15 @@
 
 namespace kaamos::checks {
 
-// A rectangle of a texture's subresources: mips by array elements or cube faces. Clipped to those
-// that the texture has; all of them by default.
+// Subresources of a texture: mips by array elements or cube faces by planes. Clipped to those that
+// the texture has; all of them by default.
 struct Subresources {
   uint32_t first_mip = 0;
   uint32_t mip_count = UINT32_MAX;
   uint32_t first_layer = 0;
   uint32_t layer_count = UINT32_MAX;
+  uint32_t first_plane = 0;
+  uint32_t plane_count = UINT32_MAX;
 };
 
 // Thread-safe: textures and views are made while lists execute.
@@ -76,6 +78,7 @@ class TextureStates {
     std::string name;
     uint32_t mips = 1;
     uint32_t layers = 1;
+    uint32_t planes = 1;
     rtapi::ClearValue clear;  // of kUnknown: none
     // By subresource, or one for all of them.
     std::vector<State> states;

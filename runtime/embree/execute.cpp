@@ -119,44 +119,62 @@ rtapi::Status Target::copy_buffer(const runtime::CopyBufferCommand& command, con
   return {};
 }
 
-// One side of a texture copy, as rows in memory.
-struct Rows {
+// One side of a texture copy, in memory.
+struct Elements {
   uint8_t* first = nullptr;
+  uint32_t stride = 0;  // bytes from element to element
+  uint32_t bytes = 0;   // of an element that are copied
   uint64_t row_pitch = 0;
   uint64_t slice_pitch = 0;
 };
 
 uint32_t element_bytes_of(const runtime::TextureCopyPlace& place) {
-  return place.texture ? static_cast<const Texture&>(*place.texture).stored().element_bytes() : 0;
+  if (place.texture == nullptr) return 0;
+  const rtapi::Format format = static_cast<const Texture&>(*place.texture).format();
+  return rtapi::GetFormatInfo(runtime::plane_format(format, place.plane)).bytes;
 }
 
-Rows rows_of(const runtime::TextureCopyPlace& place, uint32_t element_bytes) {
+Elements elements_of(const runtime::TextureCopyPlace& place, uint32_t element_bytes) {
   if (place.texture != nullptr) {
-    const auto s = static_cast<const Texture&>(*place.texture)
-                       .stored()
-                       .subresource(place.mip, place.array_element);
-    return {s.at(place.origin, element_bytes), s.row_pitch, s.slice_pitch};
+    const auto& texture = static_cast<const Texture&>(*place.texture);
+    const auto s = texture.stored().subresource(place.mip, place.array_element);
+    const uint32_t stride = texture.stored().element_bytes();
+    const runtime::PlaneBytes plane = runtime::plane_bytes(texture.format(), place.plane);
+    return {s.at(place.origin, stride) + plane.offset, stride, plane.count, s.row_pitch,
+            s.slice_pitch};
   }
   uint8_t* first = place.buffer->host() + place.offset + place.origin[2] * place.slice_pitch +
                    uint64_t{place.origin[1]} * place.row_pitch +
                    uint64_t{place.origin[0]} * element_bytes;
-  return {first, place.row_pitch, place.slice_pitch};
+  return {first, element_bytes, element_bytes, place.row_pitch, place.slice_pitch};
+}
+
+void copy_row(const Elements& dest, uint8_t* to, const Elements& source, const uint8_t* from,
+              uint32_t count) {
+  if (dest.stride == dest.bytes && source.stride == source.bytes && dest.bytes == source.bytes) {
+    std::memmove(to, from, uint64_t{count} * dest.bytes);
+    return;
+  }
+  const uint32_t bytes = std::min(dest.bytes, source.bytes);
+  for (uint32_t i = 0; i < count; ++i, to += dest.stride, from += source.stride) {
+    std::memcpy(to, from, bytes);
+    std::memset(to + bytes, 0, dest.bytes - bytes);
+  }
 }
 
 rtapi::Status Target::copy_texture(const runtime::CopyTextureCommand& command) {
   if (auto s = finish(); !s) return s;
   const uint32_t element_bytes =
       std::max(element_bytes_of(command.dest), element_bytes_of(command.source));
-  const Rows dest = rows_of(command.dest, element_bytes);
-  const Rows source = rows_of(command.source, element_bytes);
+  const Elements dest = elements_of(command.dest, element_bytes);
+  const Elements source = elements_of(command.source, element_bytes);
   auto* texture = static_cast<Texture*>(command.dest.texture.get());
   std::unique_lock<std::mutex> lock;
   if (texture != nullptr) lock = texture->lock();
   for (uint32_t z = 0; z < command.extent[2]; ++z) {
     for (uint32_t y = 0; y < command.extent[1]; ++y) {
-      std::memmove(dest.first + z * dest.slice_pitch + y * dest.row_pitch,
-                   source.first + z * source.slice_pitch + y * source.row_pitch,
-                   uint64_t{command.extent[0]} * element_bytes);
+      copy_row(dest, dest.first + z * dest.slice_pitch + y * dest.row_pitch, source,
+               source.first + z * source.slice_pitch + y * source.row_pitch, command.extent[0]);
     }
   }
   if (texture != nullptr) {

@@ -44,6 +44,7 @@ class Texture final : public runtime::BackendTexture {
                                          std::shared_ptr<ViewPool> pool);
   ~Texture() override;
 
+  rtapi::Format format() const { return desc_.Format; }
   // The texels, or the blocks.
   const TextureMemory& stored() const { return stored_; }
   // Returns the view that goes into Descriptor::address; equal descs share one. The arena decodes

@@ -150,7 +150,7 @@ TEST_F(DrawTargets, StencilOfATarget) {
   transition(state, both, ResourceStates::kDepthWrite, ResourceStates::kDepthRead);
   draw(state, equal);
   run(state);
-  expect_one("KA0451", {"the depth buffer is in texture \"both\"", "kDepthWrite"});
+  expect_one("KA0451", {"the depth buffer's stencil is in", "of texture \"both\"", "kDepthWrite"});
 }
 
 TEST_F(DrawTargets, SizesDiffer) {

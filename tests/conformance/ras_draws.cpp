@@ -255,6 +255,7 @@ std::vector<RuleTest> ras_draw_tests() {
   tests.push_back({"RAS-150", timestamps});
   append(ras_query_tests());
   append(ras_predication_tests());
+  append(ras_plane_tests());
   return tests;
 }
 

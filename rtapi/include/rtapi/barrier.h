@@ -113,14 +113,15 @@ struct BufferBarrier : GlobalBarrier {
   uint64_t Size = UINT64_MAX;   ///< UINT64_MAX, or the bytes of the buffer
 };
 
-/// Subresources of a texture: mips by array elements. [D3D12: D3D12_BARRIER_SUBRESOURCE_RANGE]
+/// Subresources of a texture: mips by array elements by planes. [D3D12:
+/// D3D12_BARRIER_SUBRESOURCE_RANGE]
 struct BarrierSubresourceRange {
   uint32_t IndexOrFirstMipLevel = 0xFFFFFFFF;  ///< without NumMipLevels: one index, or ~0 for all
   uint32_t NumMipLevels = 0;                   ///< mips from the first; 0: an index
   uint32_t FirstArraySlice = 0;                ///< with NumMipLevels
   uint32_t NumArraySlices = 0;                 ///< with NumMipLevels; not 0 then
-  uint32_t FirstPlane = 0;                     ///< ignored: textures have one plane
-  uint32_t NumPlanes = 0;                      ///< ignored
+  uint32_t FirstPlane = 0;                     ///< with NumMipLevels: 0 depth or all, 1 stencil
+  uint32_t NumPlanes = 0;                      ///< with NumMipLevels; 0: all from the first on
 };
 
 /// [D3D12: D3D12_TEXTURE_BARRIER_FLAGS]

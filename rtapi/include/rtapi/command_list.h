@@ -34,10 +34,10 @@ enum class InvalidCalls : uint32_t {
   kFailList = 0,  ///< Close() returns the error, and the list cannot be executed
   /// As D3D12's runtimes do without their debug layer: calls that they drop or ignore are told to
   /// DeviceDesc::OnMessage as errors, and the rest of the list executes. These are KA0740-0743,
-  /// KA0802-0805, KA0807-0816, KA0822, KA0824 and KA0829, those of acceleration structure builds
-  /// and copies (KA0700-0719) and of queries (KA0745). All others fail the list, as there:
-  /// arguments of copies, empty handles, what is not supported. A list that is executed open
-  /// removes the device with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
+  /// KA0802-0805, KA0807-0816, KA0822 and KA0824, those of acceleration structure builds and copies
+  /// (KA0700-0719) and of queries (KA0745). All others fail the list, as there: arguments of
+  /// copies, empty handles, what is not supported. A list that is executed open removes the device
+  /// with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
   kDropCall = 1,
 };
 

@@ -125,7 +125,7 @@ struct Tex1DArraySrv {
 struct Tex2DSrv {
   uint32_t MostDetailedMip = 0;      ///< the level that shaders know as 0
   uint32_t MipLevels = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end of the chain
-  uint32_t PlaneSlice = 0;           ///< ignored: the supported formats have one plane
+  uint32_t PlaneSlice = 0;           ///< ignored: the format says which plane
   /// Sampling reads no finer level than this one, counted from MostDetailedMip. Ignored by Vulkan
   /// devices without VK_EXT_image_view_min_lod, lavapipe among them.
   float ResourceMinLODClamp = 0;
@@ -136,7 +136,7 @@ struct Tex2DArraySrv {
   uint32_t MipLevels = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end of the chain
   uint32_t FirstArraySlice = 0;      ///< the element that shaders know as 0
   uint32_t ArraySize = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end of the array
-  uint32_t PlaneSlice = 0;           ///< ignored: the supported formats have one plane
+  uint32_t PlaneSlice = 0;           ///< ignored: the format says which plane
   float ResourceMinLODClamp = 0;     ///< see Tex2DSrv::ResourceMinLODClamp
 };
 /// Mip levels of a 3-D texture. [D3D12: D3D12_TEX3D_SRV]
@@ -232,14 +232,14 @@ struct Tex1DArrayUav {
 /// One mip level of a 2-D texture. [D3D12: D3D12_TEX2D_UAV]
 struct Tex2DUav {
   uint32_t MipSlice = 0;    ///< the level
-  uint32_t PlaneSlice = 0;  ///< ignored: the supported formats have one plane
+  uint32_t PlaneSlice = 0;  ///< ignored: the format says which plane
 };
 /// One mip level of some elements of a 2-D texture array. [D3D12: D3D12_TEX2D_ARRAY_UAV]
 struct Tex2DArrayUav {
   uint32_t MipSlice = 0;             ///< the level
   uint32_t FirstArraySlice = 0;      ///< the element that shaders know as 0
   uint32_t ArraySize = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end of the array
-  uint32_t PlaneSlice = 0;           ///< ignored: the supported formats have one plane
+  uint32_t PlaneSlice = 0;           ///< ignored: the format says which plane
 };
 /// One mip level of a 3-D texture. [D3D12: D3D12_TEX3D_UAV]
 struct Tex3DUav {

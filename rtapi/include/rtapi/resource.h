@@ -191,8 +191,10 @@ class Texture {
   /// even if 0 was given. Valid as long as the texture lives. An empty handle has a default
   /// TextureDesc.
   const TextureDesc& GetDesc() const;
-  /// Subresources: MipLevels * array elements; a 3-D texture has one for each mip. Subresource
-  /// `mip + element * MipLevels` is a mip of an array element. 0 for an empty handle.
+  /// Subresources: MipLevels * array elements * planes; a 3-D texture has one for each mip. Formats
+  /// with depth and stencil have two planes, depth and then stencil, all others one. Subresource
+  /// `mip + (element + plane * elements) * MipLevels` is a mip of an array element. 0 for an empty
+  /// handle.
   /// [D3D12: subresources]
   uint32_t subresource_count() const;
   /// The name in messages.
@@ -256,10 +258,12 @@ struct ResourceBarrier {
 /// slice, Depth slices. In block-compressed formats a row is one of blocks, and Width and Height
 /// are multiples of 4. [D3D12: D3D12_SUBRESOURCE_FOOTPRINT]
 struct SubresourceFootprint {
-  rtapi::Format Format = rtapi::Format::kUnknown;  ///< of the family of the texture's format
-  uint32_t Width = 0;                              ///< texels, at least 1
-  uint32_t Height = 0;                             ///< rows, at least 1
-  uint32_t Depth = 0;                              ///< slices, at least 1
+  /// Of the family of the texture's format; of planes of depth and stencil: of R32 and of R8, where
+  /// 24 bits of depth are the lower ones, and the upper ones undefined.
+  rtapi::Format Format = rtapi::Format::kUnknown;
+  uint32_t Width = 0;     ///< texels, at least 1
+  uint32_t Height = 0;    ///< rows, at least 1
+  uint32_t Depth = 0;     ///< slices, at least 1
   uint32_t RowPitch = 0;  ///< bytes from row to row: a multiple of 256, at least those of a row
 };
 

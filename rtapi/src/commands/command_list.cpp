@@ -27,7 +27,7 @@ bool is_dropped(ErrorId id) {
     return number >= first && number <= last;
   };
   return between(700, 719) || between(740, 743) || number == 745 || between(802, 805) ||
-         between(807, 816) || number == 822 || number == 824 || number == 829;
+         between(807, 816) || number == 822 || number == 824;
 }
 
 }  // namespace

@@ -229,6 +229,8 @@ struct Range {
   uint32_t mips = 0;  // 0: one subresource, or all
   uint32_t first_layer = 0;
   uint32_t layers = 1;
+  uint32_t first_plane = 0;
+  uint32_t planes = 1;
 };
 
 Result<Range> range_of(const std::string& name, const TextureBarrier& barrier) {
@@ -244,19 +246,24 @@ Result<Range> range_of(const std::string& name, const TextureBarrier& barrier) {
   }
   const TextureDesc& desc = barrier.Resource.GetDesc();
   const uint32_t mips = desc.MipLevels;
-  const uint32_t layers = count / mips;
+  const uint32_t layers = array_size(desc);
+  const uint32_t planes = runtime::plane_count(desc.Format);
+  const uint32_t wanted_planes =
+      range.NumPlanes != 0 ? range.NumPlanes : planes - std::min(range.FirstPlane, planes);
   const auto outside = [](uint32_t first, uint32_t some, uint32_t all) {
     return some == 0 || first >= all || some > all - first;
   };
   if (outside(range.IndexOrFirstMipLevel, range.NumMipLevels, mips) ||
-      outside(range.FirstArraySlice, range.NumArraySlices, layers)) {
+      outside(range.FirstArraySlice, range.NumArraySlices, layers) ||
+      outside(range.FirstPlane, wanted_planes, planes)) {
     return make_error(Id::kEnhancedBarrier, name, ": mips ", range.IndexOrFirstMipLevel, " + ",
                       range.NumMipLevels, ", array slices ", range.FirstArraySlice, " + ",
-                      range.NumArraySlices, "; there are ", mips, " mips and ", layers,
-                      " array slices");
+                      range.NumArraySlices, ", planes ", range.FirstPlane, " + ", range.NumPlanes,
+                      "; there are ", mips, " mips, ", layers, " array slices and ", planes,
+                      " planes");
   }
   return Range{range.IndexOrFirstMipLevel, range.NumMipLevels, range.FirstArraySlice,
-               range.NumArraySlices};
+               range.NumArraySlices,       range.FirstPlane,   wanted_planes};
 }
 
 // One side of a texture barrier. An undefined layout allows no access, unless both are undefined.
@@ -387,6 +394,8 @@ void CommandList::Barrier(std::span<const TextureBarrier> barriers) {
     command.mip_count = range.mips;
     command.first_layer = range.first_layer;
     command.layer_count = range.layers;
+    command.first_plane = range.first_plane;
+    command.plane_count = range.planes;
     impl_->record(std::move(command));
   }
 }

@@ -59,8 +59,9 @@ Status check_transition(const ResourceBarrier& barrier) {
 // One side of a texture copy: source or destination.
 struct CopySide {
   runtime::TextureCopyPlace place;
-  uint32_t size[3] = {0, 0, 0};  // texels of the subresource or footprint
-  Format format = Format::kUnknown;
+  uint32_t size[3] = {0, 0, 0};       // texels of the subresource or footprint
+  Format format = Format::kUnknown;   // of the plane
+  Format texture = Format::kUnknown;  // of the whole texture; kUnknown for buffers
   std::string name;
 
   // Texels to an element along an axis: more than one in blocks.
@@ -78,13 +79,16 @@ Result<CopySide> resolve_texture_side(const TextureCopyLocation& location, const
                       " does not exist; there are ", texture.subresource_count());
   }
   side.place.texture = texture.impl()->memory;
-  side.place.mip = location.SubresourceIndex % desc.MipLevels;
-  side.place.array_element = location.SubresourceIndex / desc.MipLevels;
+  const SubresourcePlace place = subresource_place(desc, location.SubresourceIndex);
+  side.place.mip = place.mip;
+  side.place.array_element = place.array_element;
+  side.place.plane = place.plane;
   const MipExtent extent = get_mip_extent(desc, side.place.mip);
   side.size[0] = extent.width;
   side.size[1] = extent.height;
   side.size[2] = extent.depth;
-  side.format = desc.Format;
+  side.format = runtime::plane_format(desc.Format, place.plane);
+  side.texture = desc.Format;
   return side;
 }
 
@@ -159,8 +163,18 @@ bool can_copy(Format a, Format b) {
          plain == FormatClass::kTypeless;
 }
 
+// Depth of 24 bits is no number of 32 bits: textures of another family do not take it.
+bool splits_depth(const CopySide& to, const CopySide& from) {
+  const auto has_24_bits = [](const CopySide& side) {
+    return runtime::plane_bytes(side.texture, side.place.plane).count == 3;
+  };
+  return to.place.texture != nullptr && from.place.texture != nullptr &&
+         (has_24_bits(to) || has_24_bits(from)) &&
+         format_family(to.texture) != format_family(from.texture);
+}
+
 Status check_copy_formats(const CopySide& to, const CopySide& from) {
-  if (can_copy(to.format, from.format)) return {};
+  if (can_copy(to.format, from.format) && !splits_depth(to, from)) return {};
   const FormatInfo a = GetFormatInfo(to.format), b = GetFormatInfo(from.format);
   return make_error(
       Id::kCopyFormat, "CopyTextureRegion: ", from.name, " has format ",
@@ -307,7 +321,8 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
     }
   }
   if (to->place.texture && to->place.texture == from->place.texture &&
-      to->place.mip == from->place.mip && to->place.array_element == from->place.array_element) {
+      to->place.mip == from->place.mip && to->place.array_element == from->place.array_element &&
+      to->place.plane == from->place.plane) {
     return impl_->fail(make_error(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
                                   ": source and dest are the same subresource"));
   }

@@ -42,6 +42,7 @@ HostTextures::Copy* HostTextures::find(const std::shared_ptr<runtime::BackendTex
       command.source.texture = texture;
       command.source.mip = mip;
       command.source.array_element = element;
+      command.source.plane = runtime::kAllPlanes;
       command.dest.buffer = *memory;
       command.dest.offset = copy->layout.element_bytes * element + at.offset;
       command.dest.row_pitch = static_cast<uint32_t>(at.row_pitch);

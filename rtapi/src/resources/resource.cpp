@@ -199,6 +199,12 @@ uint32_t array_size(const TextureDesc& desc) {
   return desc.Dimension == ResourceDimension::kTexture3D ? 1 : desc.DepthOrArraySize;
 }
 
+SubresourcePlace subresource_place(const TextureDesc& desc, uint32_t subresource) {
+  const uint32_t elements = array_size(desc);
+  const uint32_t layer = subresource / desc.MipLevels;
+  return {subresource % desc.MipLevels, layer % elements, layer / elements};
+}
+
 uint32_t format_family(Format format) {
   const auto f = static_cast<uint32_t>(format);
   // First and last number of each DXGI format family, including its typeless member.
@@ -277,7 +283,9 @@ const TextureDesc& Texture::GetDesc() const {
   return impl_ ? impl_->desc : kEmptyTexture;
 }
 uint32_t Texture::subresource_count() const {
-  return impl_ ? impl_->desc.MipLevels * array_size(impl_->desc) : 0;
+  return impl_ ? impl_->desc.MipLevels * array_size(impl_->desc) *
+                     runtime::plane_count(impl_->desc.Format)
+               : 0;
 }
 void Texture::SetName(std::string name) {
   if (!impl_) return;
@@ -327,15 +335,17 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
                                                std::vector<uint64_t>* row_bytes) const {
   if (Status s = check_texture(desc); !s.ok()) return s.error();
   const uint32_t mips = desc.MipLevels ? desc.MipLevels : full_mip_count(desc);
-  const uint64_t total = uint64_t{mips} * detail::array_size(desc);
+  const uint32_t of_plane = mips * detail::array_size(desc);
+  const uint64_t total = uint64_t{of_plane} * runtime::plane_count(desc.Format);
   if (uint64_t{first} + count > total) {
     return make_error(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
                       " do not exist in ", named("texture", desc.Name), ", which has ", total);
   }
-  const FormatInfo format = GetFormatInfo(desc.Format);
   uint64_t offset = 0;  // from base_offset
   uint64_t end = 0;
   for (uint32_t i = first; i < first + count; ++i) {
+    const Format copied = runtime::plane_format(desc.Format, i / of_plane);
+    const FormatInfo format = GetFormatInfo(copied);
     const MipExtent extent = get_mip_elements(desc, i % mips);
     const uint64_t row = uint64_t{extent.width} * format.bytes;
     const uint64_t pitch = align_up(row, kTextureDataPitchAlignment);
@@ -343,7 +353,7 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
     if (layouts) {
       layouts->push_back(
           {base_offset + offset,
-           {desc.Format, extent.width * format.block_side, extent.height * format.block_side,
+           {copied, extent.width * format.block_side, extent.height * format.block_side,
             extent.depth, static_cast<uint32_t>(pitch)}});
     }
     if (row_counts) row_counts->push_back(extent.height);

@@ -45,6 +45,13 @@ MipExtent get_mip_elements(const TextureDesc& desc, uint32_t mip);
 uint32_t full_mip_count(const TextureDesc& desc);
 uint32_t array_size(const TextureDesc& desc);  // 1 for 3-D textures
 
+// A subresource by what its number says. [D3D12: subresources]
+struct SubresourcePlace {
+  uint32_t mip, array_element, plane;
+};
+// MipLevels must be resolved.
+SubresourcePlace subresource_place(const TextureDesc& desc, uint32_t subresource);
+
 // Formats of one family share their texel layout; 0 for formats that belong to none.
 uint32_t format_family(Format format);
 // Returns whether views of a resource may have another format than it. [D3D12: Relaxed Format

@@ -148,7 +148,8 @@ Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceI
   device->addresses.insert_view(key, texture.impl()->memory);
   if (device->checks) {
     device->checks->textures().add_view(key, texture.impl()->memory,
-                                        {view.first_mip, view.mips, view.first_slice, view.slices});
+                                        {view.first_mip, view.mips, view.first_slice, view.slices,
+                                         runtime::shows_stencil(view.format) ? 1u : 0u, 1});
   }
   shader::Descriptor descriptor;
   descriptor.kind = shader::DescriptorKind::kTexture;

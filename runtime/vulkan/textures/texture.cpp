@@ -26,13 +26,22 @@ const Image& image_of(const TextureCopyPlace& place) {
   return static_cast<const Image&>(*place.texture);
 }
 
-VkImageSubresourceLayers layers(const TextureCopyPlace& place) {
-  return {image_of(place).aspects(), place.mip, place.array_element, 1};
-}
-
-// Vulkan copies depth and stencil apart.
 bool has_both(const Image& image) {
   return (image.aspects() & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
+}
+
+VkImageSubresourceLayers layers(const TextureCopyPlace& place) {
+  VkImageAspectFlags aspects = image_of(place).aspects();
+  if (has_both(image_of(place))) {
+    aspects = place.plane == runtime::kStencilPlane ? VK_IMAGE_ASPECT_STENCIL_BIT
+                                                    : VK_IMAGE_ASPECT_DEPTH_BIT;
+  }
+  return {aspects, place.mip, place.array_element, 1};
+}
+
+uint32_t element_bytes(const TextureCopyPlace& place) {
+  return rtapi::GetFormatInfo(runtime::plane_format(image_of(place).desc().Format, place.plane))
+      .bytes;
 }
 
 VkOffset3D offset_of(const TextureCopyPlace& place) {
@@ -54,39 +63,44 @@ VkExtent3D extent_of(const CopyTextureCommand& command, const TextureCopyPlace& 
 }
 
 // The byte of its buffer at which a copy begins.
-uint64_t first_byte(const TextureCopyPlace& place, uint32_t element_bytes) {
+uint64_t first_byte(const TextureCopyPlace& place, uint32_t bytes) {
   return place.offset + place.origin[2] * place.slice_pitch +
-         uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * element_bytes;
+         uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * bytes;
 }
 
 // The same, in its VkBuffer.
-uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t element_bytes) {
-  return gpu_buffer_of(*place.buffer).offset() + first_byte(place, element_bytes);
+uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t bytes) {
+  return gpu_buffer_of(*place.buffer).offset() + first_byte(place, bytes);
+}
+
+// What copies of these elements begin at a multiple of: also 4, as those of depth and stencil must.
+uint32_t alignment_of(uint32_t bytes) {
+  return bytes % 4 == 0 ? bytes : 4;
 }
 
 // Returns whether Vulkan can describe these rows and slices: everything must be a whole number of
 // elements and rows.
-bool expressible(const TextureCopyPlace& place, uint32_t element_bytes) {
-  return place.row_pitch % element_bytes == 0 &&
-         buffer_offset(place, element_bytes) % element_bytes == 0 &&
+bool expressible(const TextureCopyPlace& place, uint32_t bytes) {
+  return place.row_pitch % bytes == 0 && buffer_offset(place, bytes) % alignment_of(bytes) == 0 &&
          place.slice_pitch % place.row_pitch == 0;
 }
 
 // Memory for elements in rows and slices without gaps.
 struct Staging {
   std::shared_ptr<GpuBuffer> buffer;
-  uint64_t offset = 0;  // in the VkBuffer; a multiple of an element
+  uint64_t offset = 0;  // in the VkBuffer; a multiple of alignment_of()
   uint8_t* host = nullptr;
 };
 
-rtapi::Result<Staging> stage(Gpu& gpu, uint64_t elements, uint32_t element_bytes) {
-  auto made = gpu.create_buffer((elements + 1) * element_bytes, "staging memory of a texture",
+rtapi::Result<Staging> stage(Gpu& gpu, uint64_t elements, uint32_t bytes) {
+  const uint32_t alignment = alignment_of(bytes);
+  auto made = gpu.create_buffer(elements * bytes + alignment, "staging memory of a texture",
                                 InitialContents::kAny);
   if (!made) return made.error();
   Staging result;
   result.buffer = std::move(*made);
   const uint64_t start = result.buffer->offset();
-  result.offset = (start + element_bytes - 1) / element_bytes * element_bytes;
+  result.offset = (start + alignment - 1) / alignment * alignment;
   result.host = result.buffer->host() + (result.offset - start);
   return result;
 }
@@ -114,9 +128,9 @@ VkBufferImageCopy region_of(const CopyTextureCommand& command, const TextureCopy
 VkBufferImageCopy region_of(const CopyTextureCommand& command, const TextureCopyPlace& texture,
                             const TextureCopyPlace& buffer) {
   const Image& image = image_of(texture);
-  VkBufferImageCopy region =
-      region_of(command, texture, buffer_offset(buffer, image.element_bytes()));
-  region.bufferRowLength = buffer.row_pitch / image.element_bytes() * image.block_side();
+  const uint32_t bytes = element_bytes(texture);
+  VkBufferImageCopy region = region_of(command, texture, buffer_offset(buffer, bytes));
+  region.bufferRowLength = buffer.row_pitch / bytes * image.block_side();
   region.bufferImageHeight =
       static_cast<uint32_t>(buffer.slice_pitch / buffer.row_pitch) * image.block_side();
   return region;
@@ -149,15 +163,15 @@ std::array<VkBufferImageCopy, 2> regions_of_both(const CopyTextureCommand& comma
 // Calls visit(element, depth, stencil) with pointers to the bytes of every texel. An element has 24
 // bits of depth and 8 of stencil, or a float, 8 bits of stencil and 24 that are not used.
 template <class Visit>
-void each_of_both(const CopyTextureCommand& command, const TextureCopyPlace& buffer,
-                  uint32_t element_bytes, const DepthAndStencil& staged, const Visit& visit) {
+void each_of_both(const CopyTextureCommand& command, const TextureCopyPlace& buffer, uint32_t bytes,
+                  const DepthAndStencil& staged, const Visit& visit) {
   uint8_t* depth = staged.depth.host;
   uint8_t* stencil = staged.stencil.host;
-  uint8_t* const first = buffer.buffer->host() + first_byte(buffer, element_bytes);
+  uint8_t* const first = buffer.buffer->host() + first_byte(buffer, bytes);
   for (uint32_t z = 0; z < command.extent[2]; ++z) {
     for (uint32_t y = 0; y < command.extent[1]; ++y) {
       uint8_t* element = first + z * buffer.slice_pitch + uint64_t{y} * buffer.row_pitch;
-      for (uint32_t x = 0; x < command.extent[0]; ++x, element += element_bytes) {
+      for (uint32_t x = 0; x < command.extent[0]; ++x, element += bytes) {
         visit(element, depth, stencil);
         depth += 4;
         stencil += 1;
@@ -201,7 +215,6 @@ class Textures final : public TextureStore {
   rtapi::Status copy_through(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status upload(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status download(CommandStream& stream, const CopyTextureCommand& command);
-  rtapi::Status upload_both(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status download_both(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status clear_buffer(CommandStream& stream, const runtime::ClearUavCommand& command);
   rtapi::Status clear_texture(CommandStream& stream, const Image& image,
@@ -226,8 +239,9 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
   const VkExtent3D extent = extent_of(command, command.source);
   const VkExtent3D at_dest = extent_of(command, command.dest);
   if (dest.type() != source.type() || dest.block_side() != source.block_side() ||
-      dest.aspects() != source.aspects() || extent.width != at_dest.width ||
-      extent.height != at_dest.height) {
+      dest.aspects() != source.aspects() ||
+      layers(command.dest).aspectMask != layers(command.source).aspectMask ||
+      extent.width != at_dest.width || extent.height != at_dest.height) {
     return copy_through(stream, command);
   }
   stream.everything();
@@ -250,7 +264,7 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
 // of blocks that reach out of an image, only in some cases.
 rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& dest = image_of(command.dest);
-  auto between = stage(*gpu_, element_count(command), dest.element_bytes());
+  auto between = stage(*gpu_, element_count(command), element_bytes(command.dest));
   if (!between) return between.error();
   stream.everything();
   auto commands = stream.record("CopyTextureRegion");
@@ -270,9 +284,8 @@ rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCom
 
 rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.dest);
-  if (has_both(image)) return upload_both(stream, command);
   const TextureCopyPlace& source = command.source;
-  const uint32_t element = image.element_bytes();
+  const uint32_t element = element_bytes(command.dest);
   VkBufferImageCopy region = {};
   VkBuffer buffer = VK_NULL_HANDLE;
   if (expressible(source, element)) {
@@ -306,9 +319,11 @@ rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& 
 
 rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.source);
-  if (has_both(image)) return download_both(stream, command);
+  if (has_both(image) && command.source.plane == runtime::kAllPlanes) {
+    return download_both(stream, command);
+  }
   const TextureCopyPlace& dest = command.dest;
-  const uint32_t element = image.element_bytes();
+  const uint32_t element = element_bytes(command.source);
   VkBufferImageCopy region = {};
   const bool direct = expressible(dest, element);
   Staging rows;
@@ -343,32 +358,6 @@ rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand
   return {};
 }
 
-rtapi::Status Textures::upload_both(CommandStream& stream, const CopyTextureCommand& command) {
-  const Image& image = image_of(command.dest);
-  if (auto s = stream.flush(); !s) return s;
-  auto staged = stage_both(*gpu_, command);
-  if (!staged) return staged.error();
-  const uint32_t stencil_at = image.element_bytes() == 4 ? 3 : 4;
-  each_of_both(command, command.source, image.element_bytes(), *staged,
-               [&](const uint8_t* element, uint8_t* depth, uint8_t* stencil) {
-                 std::memcpy(depth, element, 4);
-                 if (stencil_at == 3) depth[3] = 0;
-                 *stencil = element[stencil_at];
-               });
-  auto commands = stream.record("CopyTextureRegion to a texture");
-  if (!commands) return commands.error();
-  const auto regions = regions_of_both(command, command.dest, *staged);
-  const VkBuffer buffers[] = {staged->depth.buffer->handle(), staged->stencil.buffer->handle()};
-  for (size_t i = 0; i < regions.size(); ++i) {
-    gpu_->vk().vkCmdCopyBufferToImage(*commands, buffers[i], image.handle(),
-                                      VK_IMAGE_LAYOUT_GENERAL, 1, &regions[i]);
-  }
-  stream.keep(command.dest.texture);
-  stream.keep(staged->depth.buffer);
-  stream.keep(staged->stencil.buffer);
-  return {};
-}
-
 rtapi::Status Textures::download_both(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.source);
   auto staged = stage_both(*gpu_, command);
@@ -384,11 +373,11 @@ rtapi::Status Textures::download_both(CommandStream& stream, const CopyTextureCo
   }
   stream.keep(command.source.texture);
   if (auto s = stream.flush(); !s) return s;
-  const uint32_t element_bytes = image.element_bytes();
-  const uint32_t stencil_at = element_bytes == 4 ? 3 : 4;
-  each_of_both(command, command.dest, element_bytes, *staged,
+  const uint32_t bytes = image.element_bytes();
+  const uint32_t stencil_at = bytes == 4 ? 3 : 4;
+  each_of_both(command, command.dest, bytes, *staged,
                [&](uint8_t* element, const uint8_t* depth, const uint8_t* stencil) {
-                 std::memset(element, 0, element_bytes);
+                 std::memset(element, 0, bytes);
                  std::memcpy(element, depth, stencil_at);
                  element[stencil_at] = *stencil;
                });
