@@ -66,6 +66,8 @@ SAME_VALUE(rtapi::SrvDimension::kTexture1D, D3D12_SRV_DIMENSION_TEXTURE1D);
 SAME_VALUE(rtapi::SrvDimension::kTexture1DArray, D3D12_SRV_DIMENSION_TEXTURE1DARRAY);
 SAME_VALUE(rtapi::SrvDimension::kTexture2D, D3D12_SRV_DIMENSION_TEXTURE2D);
 SAME_VALUE(rtapi::SrvDimension::kTexture2DArray, D3D12_SRV_DIMENSION_TEXTURE2DARRAY);
+SAME_VALUE(rtapi::SrvDimension::kTexture2DMS, D3D12_SRV_DIMENSION_TEXTURE2DMS);
+SAME_VALUE(rtapi::SrvDimension::kTexture2DMSArray, D3D12_SRV_DIMENSION_TEXTURE2DMSARRAY);
 SAME_VALUE(rtapi::SrvDimension::kTexture3D, D3D12_SRV_DIMENSION_TEXTURE3D);
 SAME_VALUE(rtapi::SrvDimension::kTextureCube, D3D12_SRV_DIMENSION_TEXTURECUBE);
 SAME_VALUE(rtapi::SrvDimension::kTextureCubeArray, D3D12_SRV_DIMENSION_TEXTURECUBEARRAY);
@@ -260,6 +262,12 @@ SAME_VALUE(rtapi::ResourceStates::kPixelShaderResource, D3D12_RESOURCE_STATE_PIX
 SAME_VALUE(rtapi::ResourceStates::kIndirectArgument, D3D12_RESOURCE_STATE_INDIRECT_ARGUMENT);
 SAME_VALUE(rtapi::ResourceStates::kCopyDest, D3D12_RESOURCE_STATE_COPY_DEST);
 SAME_VALUE(rtapi::ResourceStates::kCopySource, D3D12_RESOURCE_STATE_COPY_SOURCE);
+SAME_VALUE(rtapi::ResourceStates::kResolveDest, D3D12_RESOURCE_STATE_RESOLVE_DEST);
+SAME_VALUE(rtapi::ResourceStates::kResolveSource, D3D12_RESOURCE_STATE_RESOLVE_SOURCE);
+SAME_VALUE(rtapi::ResolveMode::kDecompress, D3D12_RESOLVE_MODE_DECOMPRESS);
+SAME_VALUE(rtapi::ResolveMode::kMin, D3D12_RESOLVE_MODE_MIN);
+SAME_VALUE(rtapi::ResolveMode::kMax, D3D12_RESOLVE_MODE_MAX);
+SAME_VALUE(rtapi::ResolveMode::kAverage, D3D12_RESOLVE_MODE_AVERAGE);
 SAME_VALUE(rtapi::ResourceStates::kGenericRead, D3D12_RESOURCE_STATE_GENERIC_READ);
 SAME_VALUE(rtapi::ResourceStates::kAllShaderResource, D3D12_RESOURCE_STATE_ALL_SHADER_RESOURCE);
 SAME_VALUE(rtapi::ResourceStates::kRaytracingAccelerationStructure,

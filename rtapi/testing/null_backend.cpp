@@ -67,6 +67,9 @@ class NullBackend : public runtime::BackendDevice {
            (!blended || type != FormatClass::kSnorm);
   }
 
+  // As lavapipe.
+  bool supports_samples(Format, uint32_t count) const override { return count == 1 || count == 4; }
+
   Result<std::shared_ptr<runtime::BackendPipeline>> create_raytracing_pipeline(
       std::shared_ptr<const runtime::LinkedPipeline> linked) override {
     auto pipeline = std::make_shared<NullPipeline>();

@@ -99,6 +99,13 @@ class BackendDevice {
   // they can blend there.
   virtual bool supports_target(rtapi::Format format, bool blended) const = 0;
 
+  // Returns whether targets in this format can have that many samples, with the standard pattern.
+  virtual bool supports_samples(rtapi::Format format, uint32_t count) const = 0;
+  // Returns whether ResolveCommand can have this mode.
+  virtual bool supports_resolve(rtapi::ResolveMode mode) const {
+    return mode == rtapi::ResolveMode::kAverage;
+  }
+
   // Pipelines
   virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_raytracing_pipeline(
       std::shared_ptr<const LinkedPipeline> pipeline) = 0;

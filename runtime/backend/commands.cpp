@@ -24,6 +24,7 @@ struct NameOf {
     return copy.immediate ? "WriteBufferImmediate" : "CopyBufferRegion";
   }
   const char* operator()(const CopyTextureCommand&) const { return "CopyTextureRegion"; }
+  const char* operator()(const ResolveCommand&) const { return "ResolveSubresource"; }
   const char* operator()(const ClearUavCommand&) const { return "ClearUnorderedAccessView"; }
   const char* operator()(const BarrierCommand& command) const {
     return command.kind == BarrierCommand::Kind::kAccess ? "Barrier" : "ResourceBarrier";

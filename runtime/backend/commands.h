@@ -205,6 +205,16 @@ struct CopyTextureCommand {
   bool any_state = false;  // from a helper that takes resources in any state
 };
 
+// Reduces the samples of pixels of one texture to another's texels. Checked: the pixels are inside
+// both, and both can be seen as `format`.
+struct ResolveCommand {
+  TextureCopyPlace dest;    // textures, of which only x and y of the origin count
+  TextureCopyPlace source;  // the multisampled one
+  uint32_t extent[2] = {0, 0};
+  rtapi::Format format = rtapi::Format::kUnknown;
+  rtapi::ResolveMode mode = rtapi::ResolveMode::kAverage;
+};
+
 // Writes every element of an unordered access view: a typed, raw or structured buffer, or a
 // texture. Values are converted to the format as in HLSL's typed stores; raw and structured buffers
 // take the DWORD values[0].
@@ -244,9 +254,9 @@ struct EventCommand {
 using Command =
     std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
                  EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, RtasOperationsCommand,
-                 CopyBufferCommand, CopyTextureCommand, ClearUavCommand, BarrierCommand,
-                 EventCommand, DrawCommand, ClearTargetCommand, BeginQueryCommand, EndQueryCommand,
-                 TimestampCommand, ResolveQueriesCommand, PredicationCommand>;
+                 CopyBufferCommand, CopyTextureCommand, ResolveCommand, ClearUavCommand,
+                 BarrierCommand, EventCommand, DrawCommand, ClearTargetCommand, BeginQueryCommand,
+                 EndQueryCommand, TimestampCommand, ResolveQueriesCommand, PredicationCommand>;
 
 // Names the application's call, for messages: "DispatchRays".
 const char* command_name(const Command& command);

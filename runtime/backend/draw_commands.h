@@ -28,6 +28,7 @@ struct TargetView {
   uint32_t slice_count = 1;
   uint32_t width = 0;  // of the mip, in texels
   uint32_t height = 0;
+  uint32_t samples = 1;
   bool read_only_depth = false;
   bool read_only_stencil = false;
 

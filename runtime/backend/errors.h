@@ -26,7 +26,7 @@ using errors::public_id;
 // "KA0790 title: detail". `detail` says what, where, the actual and the allowed value, what to do.
 rtapi::Error make_error(Id id, const std::string& detail);
 
-inline constexpr char kMultisampledUse[] = "it used a Texture2DMS or RWTexture2DMS";
+inline constexpr char kMultisampledUse[] = "it used a RWTexture2DMS or RWTexture2DMSArray";
 // Returns the id for the reason that ended a dispatch.
 Id removal_id(shader::RemovalReason reason);
 // With a code that the row cannot know.

@@ -46,6 +46,7 @@ class Executor {
   rtapi::Status operator()(const CopyTextureCommand& command) {
     return target_.copy_texture(command);
   }
+  rtapi::Status operator()(const ResolveCommand& command) { return target_.resolve(command); }
   rtapi::Status operator()(const ClearUavCommand& command) { return target_.clear(command); }
   rtapi::Status operator()(const DrawCommand& command) {
     const rtapi::DrawIndexedArguments& a = command.arguments;
@@ -106,6 +107,7 @@ bool is_predicated(const Command& command) {
          std::holds_alternative<DispatchCommand>(command) ||
          std::holds_alternative<ExecuteIndirectCommand>(command) ||
          std::holds_alternative<CopyTextureCommand>(command) ||
+         std::holds_alternative<ResolveCommand>(command) ||
          std::holds_alternative<ClearUavCommand>(command) ||
          std::holds_alternative<ClearTargetCommand>(command);
 }

@@ -47,6 +47,7 @@ class CommandTarget {
                                            const std::string& label) = 0;
   virtual rtapi::Status copy_buffer(const CopyBufferCommand& command, const std::string& label) = 0;
   virtual rtapi::Status copy_texture(const CopyTextureCommand& command) = 0;
+  virtual rtapi::Status resolve(const ResolveCommand& command) = 0;
   virtual rtapi::Status clear(const ClearUavCommand& command) = 0;
   virtual rtapi::Status write_timestamp(const TimestampCommand& command) = 0;
   virtual rtapi::Status resolve_timestamps(const ResolveQueriesCommand& command) = 0;

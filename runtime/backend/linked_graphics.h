@@ -54,7 +54,13 @@ struct PixelSystemColumns {
   uint32_t primitive_id = kNoColumn;   // in
   uint32_t is_front_face = kNoColumn;  // in
   uint32_t barycentrics = kNoColumn;   // in, 3 columns or fewer
+  uint32_t coverage_in = kNoColumn;
+  uint32_t coverage_out = kNoColumn;
+  uint32_t sample_index = kNoColumn;  // in
+  uint32_t sample_count = kNoColumn;  // in
   bool barycentrics_no_perspective = false;
+  shader::Interpolation position_place = shader::Interpolation::kLinear;  // where in the pixel
+  shader::Interpolation barycentrics_place = shader::Interpolation::kLinear;
   uint8_t position_components = 0;
   uint8_t barycentric_components = 0;
   uint32_t depth = kNoColumn;  // out
@@ -78,6 +84,8 @@ struct LinkedGraphics {
   rtapi::RasterizerDesc rasterizer;
   rtapi::DepthStencilDesc depth_stencil;
   uint32_t sample_mask = 0xFFFFFFFFu;
+  uint32_t samples = 1;
+  bool alpha_to_coverage = false;
   rtapi::IndexBufferStripCutValue strip_cut = rtapi::IndexBufferStripCutValue::kDisabled;
   rtapi::Format target_formats[rtapi::kSimultaneousRenderTargetCount] = {};
   uint32_t target_count = 0;

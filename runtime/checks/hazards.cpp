@@ -13,7 +13,8 @@ using rtapi::HasAny;
 using rtapi::ResourceStates;
 
 constexpr ResourceStates kWritable = ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest |
-                                     ResourceStates::kRenderTarget | ResourceStates::kDepthWrite;
+                                     ResourceStates::kRenderTarget | ResourceStates::kDepthWrite |
+                                     ResourceStates::kResolveDest;
 
 }  // namespace
 
@@ -30,6 +31,8 @@ std::string state_name(ResourceStates state) {
       {ResourceStates::kIndirectArgument, "kIndirectArgument"},
       {ResourceStates::kCopyDest, "kCopyDest"},
       {ResourceStates::kCopySource, "kCopySource"},
+      {ResourceStates::kResolveDest, "kResolveDest"},
+      {ResourceStates::kResolveSource, "kResolveSource"},
   };
   if (state == ResourceStates::kCommon) return "kCommon";
   if (state == ResourceStates::kGenericRead) return "kGenericRead";

@@ -443,6 +443,13 @@ void Layer::check(const runtime::PredicationCommand& command) {
                "the predicate");
 }
 
+void Layer::check(const runtime::ResolveCommand& command) {
+  textures_.use(command.source.texture.get(), subresource_of(command.source),
+                ResourceStates::kResolveSource, "the resolve's source", label());
+  textures_.use(command.dest.texture.get(), subresource_of(command.dest),
+                ResourceStates::kResolveDest, "the resolve's destination", label());
+}
+
 void Layer::check(const runtime::ClearUavCommand& command) {
   if (command.view.kind == shader::DescriptorKind::kTexture) {
     return textures_.use_view(shader::view_key(command.view.address, true),

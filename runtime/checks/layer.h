@@ -69,6 +69,7 @@ class Layer : public runtime::CommandObserver {
   void check_batch(const runtime::RtasOperation& operation);
   void check(const runtime::CopyBufferCommand& command);
   void check(const runtime::CopyTextureCommand& command);
+  void check(const runtime::ResolveCommand& command);
   void check(const runtime::ClearUavCommand& command);
   void check(const runtime::ResolveQueriesCommand& command);
   void check(const runtime::PredicationCommand& command);
@@ -88,6 +89,9 @@ class Layer : public runtime::CommandObserver {
   void note(const runtime::RtasOperationsCommand& command);
   void note(const runtime::CopyBufferCommand& command);
   void note(const runtime::CopyTextureCommand& command);
+  void note(const runtime::ResolveCommand& command) {
+    draws_.targets().written(command.dest.texture);
+  }
   void note(const runtime::ClearUavCommand& command);
   void note(const runtime::ResolveQueriesCommand& command);
   void note(const runtime::DrawCommand& command) { draws_.targets().note(command); }

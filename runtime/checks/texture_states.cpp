@@ -18,7 +18,8 @@ namespace {
 
 bool is_read(ResourceStates state) {
   return !HasAny(state, ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest |
-                            ResourceStates::kRenderTarget | ResourceStates::kDepthWrite);
+                            ResourceStates::kResolveDest | ResourceStates::kRenderTarget |
+                            ResourceStates::kDepthWrite);
 }
 
 }  // namespace

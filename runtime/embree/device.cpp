@@ -10,6 +10,7 @@
 #include "runtime/backend/compute_limits.h"
 #include "runtime/backend/errors.h"
 #include "runtime/embree/state_object.h"
+#include "runtime/raster/sample_positions.h"
 #include "runtime/raster/target_codec.h"
 #include "runtime/shader/texture/format_codec.h"
 
@@ -210,6 +211,10 @@ bool Device::supports_target(rtapi::Format format, bool blended) const {
   if (rtapi::IsDepthFormat(format)) return !blended;
   const raster::TargetCodec& codec = raster::target_codec(format);
   return codec.bytes != 0 && !(blended && codec.integer);
+}
+
+bool Device::supports_samples(rtapi::Format format, uint32_t count) const {
+  return supports_target(format, false) && raster::has_sample_positions(count);
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics_pipeline(

@@ -57,6 +57,8 @@ raster::Surface surface_of(const runtime::TargetView& view) {
   surface.width = view.width;
   surface.height = view.height;
   surface.slices = view.slice_count;
+  surface.samples = memory.samples();
+  surface.sample_pitch = memory.sample_pitch();
   surface.format = view.format;
   surface.read_only = view.read_only_depth;
   surface.read_only_stencil = view.read_only_stencil;
@@ -66,11 +68,12 @@ raster::Surface surface_of(const runtime::TargetView& view) {
 CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::string& label) {
   CountedOutcome outcome;
   if (!running_.empty() && (running_.size() == kMostDraws ||
-                            running_.front().command.state->targets != command.state->targets)) {
+                            running_.front().command.state->targets != command.state->targets ||
+                            running_.front().command.linked->samples != command.linked->samples)) {
     outcome = flush();
     if (!outcome.status) return outcome;
   }
-  if (running_.empty()) begin_pass(command.state->targets);
+  if (running_.empty()) begin_pass(command.state->targets, command.linked->samples);
   RunningDraw& running = running_.emplace_back();
   running.command = command;
   running.label = label;
@@ -97,8 +100,9 @@ void DrawPass::clear_now() {
   clears_.clear();
 }
 
-void DrawPass::begin_pass(const runtime::DrawTargets& views) {
+void DrawPass::begin_pass(const runtime::DrawTargets& views, uint32_t samples) {
   targets_ = {};
+  targets_.samples = samples;
   for (uint32_t i = 0; i < views.color_count; ++i) targets_.color[i] = surface_of(views.color[i]);
   targets_.depth = surface_of(views.depth);
   const auto take = [&](const runtime::ClearTargetCommand& command) {

@@ -40,7 +40,7 @@ class DrawPass {
   static constexpr size_t kMostDraws = 4096;
 
   void clear_now();
-  void begin_pass(const runtime::DrawTargets& views);
+  void begin_pass(const runtime::DrawTargets& views, uint32_t samples);
   // Tells raster::Observation what to note, and others what was.
   void begin_observation(raster::Observation& noted);
   void end_observation(const raster::Observation& noted);

@@ -13,6 +13,7 @@
 #include "runtime/embree/draw.h"
 #include "runtime/embree/texture.h"
 #include "runtime/embree/timestamps.h"
+#include "runtime/raster/resolve.h"
 
 namespace kaamos::embree {
 namespace {
@@ -64,6 +65,7 @@ class Target final : public runtime::CommandTarget {
   rtapi::Status copy_buffer(const runtime::CopyBufferCommand& command,
                             const std::string& label) override;
   rtapi::Status copy_texture(const runtime::CopyTextureCommand& command) override;
+  rtapi::Status resolve(const runtime::ResolveCommand& command) override;
   rtapi::Status clear(const runtime::ClearUavCommand& command) override;
   rtapi::Status write_timestamp(const runtime::TimestampCommand& command) override {
     if (auto s = finish(); !s) return s;
@@ -134,10 +136,11 @@ uint32_t element_bytes_of(const runtime::TextureCopyPlace& place) {
   return rtapi::GetFormatInfo(runtime::plane_format(format, place.plane)).bytes;
 }
 
-Elements elements_of(const runtime::TextureCopyPlace& place, uint32_t element_bytes) {
+Elements elements_of(const runtime::TextureCopyPlace& place, uint32_t element_bytes,
+                     uint32_t sample) {
   if (place.texture != nullptr) {
     const auto& texture = static_cast<const Texture&>(*place.texture);
-    const auto s = texture.stored().subresource(place.mip, place.array_element);
+    const auto s = texture.stored().subresource(place.mip + sample, place.array_element);
     const uint32_t stride = texture.stored().element_bytes();
     const runtime::PlaneBytes plane = runtime::plane_bytes(texture.format(), place.plane);
     return {s.at(place.origin, stride) + plane.offset, stride, plane.count, s.row_pitch,
@@ -166,21 +169,49 @@ rtapi::Status Target::copy_texture(const runtime::CopyTextureCommand& command) {
   if (auto s = finish(); !s) return s;
   const uint32_t element_bytes =
       std::max(element_bytes_of(command.dest), element_bytes_of(command.source));
-  const Elements dest = elements_of(command.dest, element_bytes);
-  const Elements source = elements_of(command.source, element_bytes);
   auto* texture = static_cast<Texture*>(command.dest.texture.get());
   std::unique_lock<std::mutex> lock;
   if (texture != nullptr) lock = texture->lock();
-  for (uint32_t z = 0; z < command.extent[2]; ++z) {
-    for (uint32_t y = 0; y < command.extent[1]; ++y) {
-      copy_row(dest, dest.first + z * dest.slice_pitch + y * dest.row_pitch, source,
-               source.first + z * source.slice_pitch + y * source.row_pitch, command.extent[0]);
+  // Both sides have as many samples.
+  const uint32_t samples = texture != nullptr ? texture->stored().samples() : 1;
+  for (uint32_t sample = 0; sample < samples; ++sample) {
+    const Elements dest = elements_of(command.dest, element_bytes, sample);
+    const Elements source = elements_of(command.source, element_bytes, sample);
+    for (uint32_t z = 0; z < command.extent[2]; ++z) {
+      for (uint32_t y = 0; y < command.extent[1]; ++y) {
+        copy_row(dest, dest.first + z * dest.slice_pitch + y * dest.row_pitch, source,
+                 source.first + z * source.slice_pitch + y * source.row_pitch, command.extent[0]);
+      }
     }
   }
   if (texture != nullptr) {
     texture->written(command.dest.mip, command.dest.array_element, command.dest.origin,
                      command.extent, device_.arena());
   }
+  return {};
+}
+
+// One element of a texture, from the place's origin on.
+raster::Surface surface_at(const runtime::TextureCopyPlace& place,
+                           const runtime::ResolveCommand& command) {
+  runtime::TargetView view;
+  view.texture = place.texture;
+  view.mip = place.mip;
+  view.first_slice = place.array_element;
+  view.format = command.format;
+  view.width = command.extent[0];
+  view.height = command.extent[1];
+  raster::Surface surface = surface_of(view);
+  surface.texels += uint64_t{place.origin[1]} * surface.row_pitch +
+                    uint64_t{place.origin[0]} *
+                        static_cast<const Texture&>(*place.texture).stored().element_bytes();
+  return surface;
+}
+
+rtapi::Status Target::resolve(const runtime::ResolveCommand& command) {
+  if (auto s = finish(); !s) return s;
+  raster::resolve(surface_at(command.dest, command), surface_at(command.source, command),
+                  command.mode);
   return {};
 }
 

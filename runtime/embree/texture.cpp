@@ -146,8 +146,15 @@ void Texture::fill(const runtime::TextureViewDesc& desc, const TextureMemory& me
   shader::show_decoded(view);
   view.min_lod = desc.min_lod;
   view.slice_count = is_volume() ? 1 : desc.slice_count;
-  const uint32_t mips = std::min(
+  uint32_t mips = std::min(
       {desc.mip_count, uint32_t{desc_.MipLevels} - desc.first_mip, shader::kMaxTextureMips});
+  // Shaders see samples as mips, all of one size.
+  if (memory.samples() > 1) {
+    mips = memory.samples();
+    view.dimension = desc.dimension == rtapi::SrvDimension::kTexture2DMSArray
+                         ? shader::TextureDimension::k2DArray
+                         : shader::TextureDimension::k2D;
+  }
   for (uint32_t mip = 0; mip < mips; ++mip) {
     const TextureMemory::Subresource s =
         memory.subresource(desc.first_mip + mip, is_volume() ? 0 : desc.first_slice);

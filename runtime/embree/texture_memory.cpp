@@ -22,11 +22,13 @@ TextureMemory::TextureMemory(const rtapi::TextureDesc& desc, uint32_t element_by
                              uint32_t block_side)
     : size_{desc.Width, desc.Height, 1},
       is_volume_(desc.Dimension == rtapi::ResourceDimension::kTexture3D),
+      samples_(desc.SampleDesc.Count),
       array_size_(is_volume_ ? 1u : desc.DepthOrArraySize),
       element_bytes_(element_bytes),
       block_side_(block_side) {
   if (is_volume_) size_[2] = desc.DepthOrArraySize;
-  for (uint32_t mip = 0; mip < desc.MipLevels; ++mip) {
+  const uint32_t planes = samples_ > 1 ? samples_ : desc.MipLevels;
+  for (uint32_t mip = 0; mip < planes; ++mip) {
     mip_offsets_.push_back(array_pitch_);
     const Subresource s = mip_layout(mip);
     array_pitch_ += (s.slice_pitch * s.extent[2] + 63) / 64 * 64;
@@ -45,7 +47,7 @@ bool TextureMemory::allocate() {
 TextureMemory::Subresource TextureMemory::mip_layout(uint32_t mip) const {
   Subresource s;
   for (int i = 0; i < 3; ++i) {
-    const uint32_t texels = std::max(size_[i] >> mip, 1u);
+    const uint32_t texels = std::max(size_[i] >> (samples_ > 1 ? 0 : mip), 1u);
     s.extent[i] = i < 2 ? (texels + block_side_ - 1) / block_side_ : texels;
   }
   s.row_pitch = row_pitch_of(uint64_t{s.extent[0]} * element_bytes_);

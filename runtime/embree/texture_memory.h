@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The memory of a texture, or of the texels that its blocks decode to: array elements one after
-// another, each with all its mips.
+// another, each with all its mips. A multisampled texture has its samples in the place of mips,
+// each as large as the first.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +33,12 @@ class TextureMemory {
              uint64_t{position[0]} * element_bytes;
     }
   };
+  // `mip`: or the sample of a multisampled texture.
   Subresource subresource(uint32_t mip, uint32_t array_element) const;
 
+  uint32_t samples() const { return samples_; }
+  // Bytes from a sample to the next.
+  uint64_t sample_pitch() const { return samples_ == 1 ? 0 : mip_offsets_[1]; }
   uint32_t element_bytes() const { return element_bytes_; }
   uint64_t array_pitch() const { return array_pitch_; }  // from an array element to the next
   uint64_t size_bytes() const { return array_pitch_ * array_size_; }
@@ -43,6 +48,7 @@ class TextureMemory {
 
   uint32_t size_[3];
   bool is_volume_;
+  uint32_t samples_;
   uint32_t array_size_;
   uint32_t element_bytes_;
   uint32_t block_side_;

@@ -2,10 +2,12 @@
 #include "runtime/raster/bins.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace kaamos::raster {
 
-void Bins::begin(const TileGrid& grid) {
+void Bins::begin(const TileGrid& grid, bool multisampled) {
+  multisampled_ = multisampled;
   columns_ = grid.columns;
   rows_ = grid.rows;
   // A batch before this one may have been left in the middle.
@@ -26,6 +28,8 @@ void Bins::add_large(const Triangle& triangle, uint32_t left, uint32_t right, ui
   for (int i = 0; i < 3; ++i) {
     edges[i] = edge_of(triangle, i);
     most[i] = edges[i].most(kTileSize);
+    // Samples are up to half a pixel from the middle.
+    if (multisampled_) most[i] += (std::abs(edges[i].a) + std::abs(edges[i].b)) / 2 + 1;
   }
   for (uint32_t row = top; row <= bottom; ++row) {
     const auto y = static_cast<int32_t>(row) * kTileSize;

@@ -23,7 +23,8 @@ struct TileGrid {
 // Collects the tiles of a batch's triangles, then sorts them.
 class Bins {
  public:
-  void begin(const TileGrid& grid);
+  // `multisampled`: pixels are reached where any part of them is.
+  void begin(const TileGrid& grid, bool multisampled = false);
   void add(const Triangle& triangle, uint32_t slice, uint32_t number) {
     const PixelBox& box = triangle.box;
     const auto left = static_cast<uint32_t>(box.left) / kTileSize;
@@ -54,6 +55,7 @@ class Bins {
     if (counts_[tile]++ == 0) touched_.push_back(tile);
   }
 
+  bool multisampled_ = false;
   uint32_t columns_ = 0;
   uint32_t rows_ = 0;
   Storage<Entry> entries_;

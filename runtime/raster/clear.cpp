@@ -112,6 +112,16 @@ void fill_row(uint8_t* texels, uint32_t count, const Fill& fill) {
   }
 }
 
+// Calls f(texel (0, 0)) for each slice and sample.
+template <class F>
+void each_plane(const Surface& surface, const F& f) {
+  for (uint32_t slice = 0; slice < surface.slices; ++slice) {
+    for (uint32_t sample = 0; sample < surface.samples; ++sample) {
+      f(surface.texels + slice * surface.slice_pitch + sample * surface.sample_pitch);
+    }
+  }
+}
+
 }  // namespace
 
 void clear(const Surface& surface, const runtime::ClearTargetCommand& command) {
@@ -121,16 +131,15 @@ void clear(const Surface& surface, const runtime::ClearTargetCommand& command) {
                              static_cast<int32_t>(surface.height)};
   const std::span<const rtapi::Rect> rects =
       command.whole ? std::span(&whole, 1) : std::span<const rtapi::Rect>(command.rects);
-  for (uint32_t slice = 0; slice < surface.slices; ++slice) {
+  each_plane(surface, [&](uint8_t* const texels) {
     for (const rtapi::Rect& rect : rects) {
       for (int32_t y = rect.top; y < rect.bottom; ++y) {
-        uint8_t* const row = surface.texels + slice * surface.slice_pitch +
-                             static_cast<uint64_t>(y) * surface.row_pitch;
+        uint8_t* const row = texels + static_cast<uint64_t>(y) * surface.row_pitch;
         fill_row(row + static_cast<uint64_t>(rect.left) * fill.bytes,
                  static_cast<uint32_t>(rect.right - rect.left), fill);
       }
     }
-  }
+  });
 }
 
 bool set_cleared(Surface& surface, const runtime::ClearTargetCommand& command) {
@@ -150,12 +159,11 @@ void write_cleared(Surface& surface) {
   Fill fill;
   fill.bytes = rtapi::GetFormatInfo(surface.format).bytes;
   std::memcpy(fill.value, surface.value.data(), fill.bytes);
-  for (uint32_t slice = 0; slice < surface.slices; ++slice) {
+  each_plane(surface, [&](uint8_t* const texels) {
     for (uint32_t y = 0; y < surface.height; ++y) {
-      fill_row(surface.texels + slice * surface.slice_pitch + y * surface.row_pitch, surface.width,
-               fill);
+      fill_row(texels + y * surface.row_pitch, surface.width, fill);
     }
-  }
+  });
 }
 
 }  // namespace kaamos::raster

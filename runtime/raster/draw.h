@@ -27,11 +27,14 @@ struct Surface {
   // The texels count as `value`, whatever they hold, and the pass writes all of them.
   bool cleared = false;
   std::array<uint32_t, 4> value = {};  // words of a texel, as of TargetCodec
+  uint32_t samples = 1;
+  uint64_t sample_pitch = 0;  // bytes from a pixel's sample to the next one
 };
 
 struct Targets {
   std::array<Surface, rtapi::kSimultaneousRenderTargetCount> color;
   Surface depth;
+  uint32_t samples = 1;  // of all of them
 };
 
 // `linked`, `state` and all bytes outlive the pass.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/raster/draw_plan.h"
 
+#include <algorithm>
+
+#include "runtime/raster/sample_positions.h"
+
 namespace kaamos::raster {
 namespace {
 
@@ -22,8 +26,18 @@ void plan_rows(const runtime::LinkedGraphics& linked, DrawPlan& plan) {
       }
     }
   };
-  add(Interpolation::kLinear, plan.linear);
-  add(Interpolation::kNoPerspective, plan.screen_linear);
+  const auto add_places = [&](Interpolation center, Interpolation centroid, Interpolation sample,
+                              std::vector<RowAttribute>& to, AttributePlaces& places) {
+    add(center, to);
+    places.centroid = to.size();
+    add(centroid, to);
+    places.sample = to.size();
+    add(sample, to);
+  };
+  add_places(Interpolation::kLinear, Interpolation::kCentroid, Interpolation::kSample, plan.linear,
+             plan.linear_places);
+  add_places(Interpolation::kNoPerspective, Interpolation::kCentroidNoPerspective,
+             Interpolation::kSampleNoPerspective, plan.screen_linear, plan.screen_places);
   add(Interpolation::kNoInterpolation, plan.flat);
   add(Interpolation::kSecondVertex, plan.flat);
   add(Interpolation::kThirdVertex, plan.flat);
@@ -114,6 +128,12 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
   plan.linked = &linked;
   plan.state = draw.state;
   plan.has_pixel = linked.has_pixel();
+  plan.samples = targets.samples;
+  plan.sample_mask = linked.sample_mask & ((1u << plan.samples) - 1);
+  for (const SamplePosition& position : sample_positions(plan.samples)) {
+    plan.least_sample = std::min({plan.least_sample, position.x, position.y});
+    plan.greatest_sample = std::max({plan.greatest_sample, position.x, position.y});
+  }
   const shader::GraphicsDesc& vertex = linked.vertex_desc();
   plan.vertex_inputs = vertex.input_columns;
   plan.vertex_outputs = vertex.output_columns;
@@ -146,7 +166,9 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
     const shader::GraphicsDesc& pixel = linked.pixel_desc();
     plan.pixel_inputs = pixel.input_columns;
     plan.pixel_outputs = pixel.output_columns;
-    plan.discards = (pixel.flags & shader::kGraphicsDiscards) != 0;
+    plan.masks_output = linked.pixel_columns.coverage_out != kNoColumn || linked.alpha_to_coverage;
+    plan.discards = plan.masks_output || (pixel.flags & shader::kGraphicsDiscards) != 0;
+    plan.runs_per_sample = plan.samples > 1 && (pixel.flags & shader::kGraphicsRunsPerSample) != 0;
     plan_rows(linked, plan);
     plan_targets(linked, targets, plan);
     const runtime::PixelSystemColumns& columns = linked.pixel_columns;
@@ -161,7 +183,8 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
   }
   // A pixel shader of which nothing can be seen.
   if (plan.has_pixel && !draw.counted && plan.targets.empty() &&
-      linked.pixel_columns.depth == kNoColumn && linked.pixel_desc().flags == 0) {
+      linked.pixel_columns.depth == kNoColumn && !plan.masks_output &&
+      (linked.pixel_desc().flags & ~uint32_t{shader::kGraphicsRunsPerSample}) == 0) {
     plan.has_pixel = false;
     plan.needs_z = false;
   }
@@ -169,7 +192,7 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
   plan.needs_z = plan.needs_z || plan.late_test || plan.late_write;
   for (int i = 0; i < 4; ++i) plan.blend_factor[i] = draw.state->blend_factor[i];
   plan.draws_nothing =
-      (linked.sample_mask & 1) == 0 ||
+      plan.sample_mask == 0 ||
       (!draw.counted && (!any_viewport || (!plan.has_pixel && plan.depth == DepthKind::kNone &&
                                            plan.stencil == nullptr)));
   return plan;

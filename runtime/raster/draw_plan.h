@@ -27,6 +27,12 @@ struct RowAttribute {
   uint32_t vertex = 0;  // of the primitive, if it is not interpolated
 };
 
+// Numbers of attributes in a list: those before them are in the middle of the pixel.
+struct AttributePlaces {
+  size_t centroid = 0;
+  size_t sample = 0;
+};
+
 // A render target that the pixel shader writes.
 struct PlannedTarget {
   const TargetCodec* codec = nullptr;
@@ -43,6 +49,9 @@ struct DrawPlan {
   const runtime::LinkedGraphics* linked = nullptr;
   const runtime::DrawState* state = nullptr;
   bool draws_nothing = false;
+  uint32_t samples = 1;
+  uint32_t sample_mask = 1;
+  bool runs_per_sample = false;
   bool observed = false;      // counts what becomes of vertices and triangles
   bool has_shading = false;   // triangles come with their TriangleShading
   bool keeps_culled = false;  // for a log of a pixel: triangles go on, marked kCulled
@@ -70,6 +79,9 @@ struct DrawPlan {
   float depth_bias = 0;
   float bias_clamp = 0;
   float slope_bias = 0;
+  // Of a pixel's samples, in subpixels from its corner.
+  int32_t least_sample = kPixelCenter;
+  int32_t greatest_sample = kPixelCenter;
 
   // Pixels. A test or write is early if it happens before the pixel shader runs. Stencil is tested
   // and written where depth is tested.
@@ -82,10 +94,13 @@ struct DrawPlan {
   bool late_write = false;
   bool reads_depth_output = false;  // SV_Depth replaces z
   bool has_pixel = false;
+  bool masks_output = false;  // SV_Coverage or alpha to coverage takes samples out
   bool discards = false;
   uint32_t pixel_inputs = 0;   // columns
   uint32_t pixel_outputs = 0;  // columns
+  // The first two by their places: in the middle of the pixel, at the centroid, at the sample.
   std::vector<RowAttribute> linear, screen_linear, flat;
+  AttributePlaces linear_places, screen_places;
   bool needs_perspective = false;  // weights in perspective
   bool needs_screen = false;       // weights on the screen
   bool needs_z = false;            // pixels keep z for the shader or a late test

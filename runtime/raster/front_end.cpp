@@ -62,7 +62,7 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
   }
   collect_vertices();
   shade_vertices(thread);
-  bins_.begin(grid);
+  bins_.begin(grid, plan.samples > 1);
   triangles_.clear();
   triangles_.reserve(range.count);
   if (plan.has_shading) batch.shading.reserve(range.count);

@@ -53,7 +53,7 @@ class QuadShader {
     queue.count = 0;
   }
 
- private:
+ protected:
   void set_up();
   void set_up_attributes();
   // Whether vertices 1 and 2 are the primitive's 2 and 1.
@@ -66,10 +66,13 @@ class QuadShader {
     Floats8 first, second, rest;
   };
   KAAMOS_INLINE Edges8 edges_at(const int32_t x[2], const int32_t y[2]) const;
-  KAAMOS_INLINE void interpolate(const std::vector<RowAttribute>& attributes, size_t first,
-                                 const Weights8& weights);
+  // Attributes [begin, end) of a list; `first`: the list's place among the differences.
+  KAAMOS_INLINE void interpolate(const std::vector<RowAttribute>& attributes, size_t begin,
+                                 size_t end, size_t first, const Weights8& weights);
   KAAMOS_INLINE void set_barycentrics(const Weights8& weights);
   void finish_observed(uint32_t first, bool pair, const QuadPlaces& places, uint32_t live);
+  float alpha_of(uint32_t lane) const;
+  uint32_t kept_by_output(uint32_t live) const;
   uint32_t test_late(uint32_t first, bool pair, uint32_t live);
   uint32_t test_late_depth(uint32_t first, bool pair, uint32_t live);
   void load_stencil(uint32_t first, bool pair, uint8_t stored[8]) const;
@@ -148,6 +151,10 @@ inline void QuadShader::set_up_attributes() {
     store(inputs_[attribute.pixel_column], splat(static_cast<int32_t>(bits)));
   }
   const runtime::PixelSystemColumns& columns = plan_->linked->pixel_columns;
+  if (columns.sample_index != runtime::kNoColumn) store(inputs_[columns.sample_index], Ints8{});
+  if (columns.sample_count != runtime::kNoColumn) {
+    store(inputs_[columns.sample_count], splat(static_cast<int32_t>(plan_->samples)));
+  }
   if (columns.primitive_id != runtime::kNoColumn) {
     store(inputs_[columns.primitive_id], splat(static_cast<int32_t>(shading_->primitive_id)));
   }
@@ -169,9 +176,13 @@ inline void QuadShader::shade(uint32_t first, bool pair) {
   }
   const uint32_t covered =
       queue.covered[first] | (pair ? static_cast<uint32_t>(queue.covered[second]) << 4 : 0u);
+  if (columns.coverage_in != runtime::kNoColumn) {
+    for (uint32_t i = 0; i < 8; ++i) inputs_[columns.coverage_in][i] = covered >> i & 1;
+  }
   shader::PixelLanes pixel_lanes{inputs_, outputs_, pair ? 0xFFu : 0xFu, covered};
   thread_.pixels(batch_->draw, pixel_lanes);
   uint32_t live = pixel_lanes.live & covered;
+  if (plan_->masks_output) live = kept_by_output(live);
   if (scratch_.observer != nullptr) [[unlikely]] {
     return finish_observed(first, pair, places, live);
   }
@@ -287,26 +298,26 @@ inline void QuadShader::set_attributes(const QuadPlaces& places) {
   };
   if (plan_->needs_perspective) {
     if (clip_ != nullptr) perspective = of_primitive(perspective, clip_->perspective);
-    interpolate(plan_->linear, 0, perspective);
+    interpolate(plan_->linear, 0, plan_->linear.size(), 0, perspective);
   }
   Weights8 on_screen = screen;
   if (plan_->needs_screen) {
     // A part's weights on the screen are linear there, too.
     if (clip_ != nullptr) on_screen = of_primitive(screen, clip_->screen);
-    interpolate(plan_->screen_linear, plan_->linear.size(), on_screen);
+    interpolate(plan_->screen_linear, 0, plan_->screen_linear.size(), plan_->linear.size(),
+                on_screen);
   }
   if (columns.barycentrics != runtime::kNoColumn) {
     set_barycentrics(columns.barycentrics_no_perspective ? on_screen : perspective);
   }
 }
 
-inline void QuadShader::interpolate(const std::vector<RowAttribute>& attributes, size_t first,
-                                    const Weights8& weights) {
+inline void QuadShader::interpolate(const std::vector<RowAttribute>& attributes, size_t begin,
+                                    size_t end, size_t first, const Weights8& weights) {
   const float* base = scratch_.attributes.data() + first;
   const float* d1 = base + linear_words_;
   const float* d2 = d1 + linear_words_;
-  const size_t count = attributes.size();
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = begin; i < end; ++i) {
     store(inputs_[attributes[i].pixel_column],
           splat(base[i]) + weights.first * splat(d1[i]) + weights.second * splat(d2[i]));
   }
@@ -331,6 +342,27 @@ inline uint32_t QuadShader::test_late_as(uint32_t* quads[2], const Floats8& z,
   const uint32_t func = plan_->late_test ? plan_->depth_func : 7;
   const DepthTest<kKind> test(func, viewport.depth_low, viewport.depth_high);
   return bits_of(test.run(quads[0], quads[1], z, lanes_of(live), plan_->late_write));
+}
+
+// What alpha to coverage reads. Without target 0 every sample stays; alpha that the shader does not
+// write is 0. [RAS-111]
+inline float QuadShader::alpha_of(uint32_t lane) const {
+  const auto& target = plan_->linked->pixel_columns.targets[0];
+  if (target.first_column == runtime::kNoColumn) return 1;
+  return target.components < 4 ? 0 : std::bit_cast<float>(outputs_[target.first_column + 3][lane]);
+}
+
+// Those of `live` whose one sample the shader's outputs keep.
+inline uint32_t QuadShader::kept_by_output(uint32_t live) const {
+  const runtime::LinkedGraphics& linked = *plan_->linked;
+  const uint32_t coverage = linked.pixel_columns.coverage_out;
+  for (uint32_t bits = live; bits != 0; bits &= bits - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(bits));
+    bool kept = coverage == runtime::kNoColumn || (outputs_[coverage][i] & 1) != 0;
+    if (linked.alpha_to_coverage) kept = kept && alpha_of(i) > 0.5f;
+    if (!kept) live &= ~(1u << i);
+  }
+  return live;
 }
 
 inline void QuadShader::load_stencil(uint32_t first, bool pair, uint8_t stored[8]) const {

@@ -6,6 +6,7 @@
 #include "kaamos/shader/cpu_level.h"
 #include "runtime/raster/clear.h"
 #include "runtime/raster/front_end.h"
+#include "runtime/raster/multisample_scratch.h"
 #include "runtime/raster/observer.h"
 #include "runtime/raster/tile.h"
 
@@ -254,7 +255,11 @@ struct Rasterizer::Pass {
   void draw_tiles() {
     workers.run(static_cast<uint32_t>(jobs.size()), [&](uint32_t task, ShaderThread& thread) {
       TileScratch* scratch = memory.tiles.take();
-      if (observation == nullptr) {
+      if (targets.samples > 1 && scratch->multisampled == nullptr) {
+        scratch->multisampled = std::make_shared<MultisampleScratch>();
+      }
+      // Pixels of several samples are not noted one by one.
+      if (observation == nullptr || targets.samples > 1) {
         memory.draw_tile(jobs[task], *scratch, thread);
       } else {
         scratch->observer = memory.observers.take();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 #include "runtime/raster/draw_plan.h"
 #include "runtime/raster/edges.h"
@@ -48,6 +49,7 @@ struct QuadQueue {
 
 class TileObserver;
 struct Observation;
+struct MultisampleScratch;  // multisample_scratch.h
 
 // Memory of one thread.
 struct TileScratch {
@@ -58,6 +60,7 @@ struct TileScratch {
   Storage<uint32_t> columns;         // inputs and outputs of the pixel shader
   Storage<float> attributes;         // at vertex 0 and the differences to the others
   TileObserver* observer = nullptr;  // only for draw_tile_observed
+  std::shared_ptr<MultisampleScratch> multisampled;  // null for targets of one sample
 };
 
 // Runs of triangles of one tile, in the order of drawing.

@@ -68,11 +68,12 @@ SetUp set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenV
   const int32_t right = std::max({v[0].x, v[1].x, v[2].x});
   const int32_t top = std::min({v[0].y, v[1].y, v[2].y});
   const int32_t bottom = std::max({v[0].y, v[1].y, v[2].y});
-  constexpr int32_t kUp = kSubpixels - 1 - kPixelCenter;
-  const PixelRect box{std::max(rect.left, (left + kUp) >> kSubpixelBits),
-                      std::max(rect.top, (top + kUp) >> kSubpixelBits),
-                      std::min(rect.right, ((right - kPixelCenter) >> kSubpixelBits) + 1),
-                      std::min(rect.bottom, ((bottom - kPixelCenter) >> kSubpixelBits) + 1)};
+  const int32_t up = kSubpixels - 1 - plan.greatest_sample;
+  const int32_t down = plan.least_sample;
+  const PixelRect box{std::max(rect.left, (left + up) >> kSubpixelBits),
+                      std::max(rect.top, (top + up) >> kSubpixelBits),
+                      std::min(rect.right, ((right - down) >> kSubpixelBits) + 1),
+                      std::min(rect.bottom, ((bottom - down) >> kSubpixelBits) + 1)};
   if (box.empty()) return SetUp::kNoPixel;
   out.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
              static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};

@@ -103,6 +103,28 @@ bool Device::supports_target(rtapi::Format format, bool blended) const {
   return known.plain && (features & needed) != 0;
 }
 
+bool Device::supports_samples(rtapi::Format format, uint32_t count) const {
+  const VkPhysicalDeviceLimits& limits = gpu_->properties().core.limits;
+  if (count > 1 && (!limits.standardSampleLocations || !gpu_->features().sample_shading)) {
+    return false;
+  }
+  const TextureFormat known = texture_format(format);
+  if (format == rtapi::Format::kUnknown) {
+    return (limits.framebufferNoAttachmentsSampleCounts & limits.framebufferColorSampleCounts &
+            count) != 0;
+  }
+  if (known.format == VK_FORMAT_UNDEFINED) return false;
+  const bool color = (known.aspects & VK_IMAGE_ASPECT_COLOR_BIT) != 0;
+  VkImageFormatProperties properties = {};
+  const VkImageUsageFlags usage =
+      VK_IMAGE_USAGE_SAMPLED_BIT |
+      (color ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+  const VkResult r = vkGetPhysicalDeviceImageFormatProperties(
+      gpu_->physical_device(), known.format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, 0,
+      &properties);
+  return r == VK_SUCCESS && (properties.sampleCounts & count) != 0;
+}
+
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics_pipeline(
     std::shared_ptr<const runtime::LinkedGraphics> pipeline) {
   return GraphicsPipeline::create(layout_, std::move(pipeline));

@@ -36,6 +36,7 @@ class Device final : public runtime::BackendDevice {
   rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override;
   bool supports_format(rtapi::Format format, bool unordered_access) const override;
   bool supports_target(rtapi::Format format, bool blended) const override;
+  bool supports_samples(rtapi::Format format, uint32_t count) const override;
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_raytracing_pipeline(
       std::shared_ptr<const runtime::LinkedPipeline> pipeline) override;
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_compute_pipeline(

@@ -9,6 +9,7 @@
 
 #include "runtime/backend/executor.h"
 #include "runtime/vulkan/device.h"
+#include "runtime/vulkan/textures/resolve.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -61,6 +62,10 @@ class Target final : public runtime::CommandTarget {
                                  place.buffer->size_bytes() - place.offset);
     }
     return device_.textures().copy(device_.stream(), command);
+  }
+  rtapi::Status resolve(const runtime::ResolveCommand& command) override {
+    if (auto s = end_draws(); !s) return s;
+    return vulkan::resolve(device_.stream(), command);
   }
   rtapi::Status clear(const runtime::ClearUavCommand& command) override {
     if (auto s = end_draws(); !s) return s;

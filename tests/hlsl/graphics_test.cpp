@@ -138,9 +138,11 @@ float4 main(float4 a : A, uint sample : SV_SampleIndex, uint view : SV_ViewID,
   return a + sample + 10 * view + 100 * rate;
 })",
        [](GraphicsRunner& run) {
+         EXPECT_NE(run.graphics().flags & shader::kGraphicsRunsPerSample, 0u);
          run.set("A", 0, 2, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.in("SV_SampleIndex", 0) = all_bits(3);
          run.run();
-         EXPECT_EQ(run.floats("SV_Target", 0, 2), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
+         EXPECT_EQ(run.floats("SV_Target", 0, 2), (Floats{3, 4, 5, 6, 7, 8, 9, 10}));
        }},
       {"HalfInputs", "vs_6_6", R"(
 float4 main(half2 a : A, int16_t b : B, out uint16_t c : C) : SV_Position {
@@ -458,7 +460,7 @@ uint4 main(float f : F) : SV_Target {
          EXPECT_EQ(run.memory[1], 0u);
          EXPECT_EQ(run.memory[4], 0u);
        }},
-      // The one sample is bit 0.
+      // A column each way; the caller takes samples out.
       {"Coverage", "ps_6_6", R"(
 RWByteAddressBuffer r : register(u0);
 struct Out { uint mask : SV_Coverage; float4 c : SV_Target; };
@@ -470,15 +472,19 @@ Out main(float f : F, uint covered : SV_Coverage) {
   return o;
 })",
        [](GraphicsRunner& run) {
-         EXPECT_EQ(run.graphics().input_count, 1u);
-         EXPECT_EQ(run.graphics().output_count, 1u);
-         EXPECT_NE(run.graphics().flags & shader::kGraphicsDiscards, 0u);
+         EXPECT_EQ(run.graphics().flags & shader::kGraphicsDiscards, 0u);
          run.set("F", 0, 0, {0, 1, 2, 3, 4, 5, 6, 7});
+         run.in("SV_Coverage", 0) = {1, 3, 1, 1, 0, 7, 0, 0};
          run.live = 0x2F;
          run.run();
-         EXPECT_EQ(run.live, 0x23u);
+         EXPECT_EQ(run.live, 0x2Fu);
+         const auto mask = run.out("SV_Coverage", 0);
+         EXPECT_EQ(mask[1], 3u);
+         EXPECT_EQ(mask[2], 0u);
+         EXPECT_EQ(mask[3], 2u);
+         EXPECT_EQ(mask[5], ~0u);
          EXPECT_EQ(run.memory[0], 5u) << "a mask of 0 undoes no stores";
-         EXPECT_EQ(run.floats("SV_Target", 0, 0)[1], 1.0f);
+         EXPECT_EQ(run.floats("SV_Target", 0, 0)[1], 3.0f);
          EXPECT_EQ(run.floats("SV_Target", 0, 1)[5], 0.0f) << "its neighbour is a helper";
          EXPECT_EQ(run.floats("SV_Target", 0, 2)[5], 1.0f);
        }},

@@ -421,6 +421,25 @@ class CommandList {
   /// empty resource.
   void CopyResource(const Resource& dest, const Resource& source);
 
+  /// Reduces a subresource of a multisampled texture to one of a texture with one sample and the
+  /// same size: the average of each pixel's samples, of sRGB formats in linear space. `format` is
+  /// that of both, or a typed one of their family; it is no integer and no depth format. The list
+  /// keeps both alive. [D3D12: ResolveSubresource]
+  /// @errors KA0800; KA0575 counts, sizes, formats; KA0817 a subresource that does not exist;
+  /// KA0903 a texture of another device; KA0904 an empty handle.
+  void ResolveSubresource(const Texture& dest, uint32_t dest_subresource, const Texture& source,
+                          uint32_t source_subresource, Format format);
+  /// Reduces those pixels of `source_rect` (null: all) to (x, y) of the destination by `mode`: the
+  /// average as ResolveSubresource, or the least or greatest sample, which integer and depth
+  /// formats may have, too. An empty rectangle resolves nothing.
+  /// [D3D12: ResolveSubresourceRegion]
+  /// @errors KA0800; KA0575 counts, formats, an unknown mode; KA0817 a subresource that does not
+  /// exist, or pixels outside of a side; KA0903 a texture of another device; KA0904 an empty
+  /// handle.
+  void ResolveSubresourceRegion(const Texture& dest, uint32_t dest_subresource, uint32_t x,
+                                uint32_t y, const Texture& source, uint32_t source_subresource,
+                                const Rect* source_rect, Format format, ResolveMode mode);
+
   /// Fills a view with bits, or those texels or elements of it that are in rectangles; of a buffer,
   /// left and right count elements. The view is that of the CPU handle, in any living heap, and is
   /// taken now; it is of `resource`. The GPU handle may name a slot of any heap that shaders see.
@@ -470,10 +489,10 @@ class CommandList {
                         const Buffer& destination, uint64_t destination_offset_bytes);
 
   /// From now on, draws, Dispatch, ExecuteIndirect, CopyBufferRegion, CopyTextureRegion,
-  /// CopyResource and clears are left out when the uint64_t at `offset_bytes`, a multiple of 8, of
-  /// `buffer` is as `op` says. It is read when the list executes, as it is at this call: later
-  /// writes change nothing. An empty buffer ends predication, as the end of the list does. Builds,
-  /// DispatchRays and everything else runs in any case. [D3D12: Predication]
+  /// CopyResource, resolves and clears are left out when the uint64_t at `offset_bytes`, a multiple
+  /// of 8, of `buffer` is as `op` says. It is read when the list executes, as it is at this call:
+  /// later writes change nothing. An empty buffer ends predication, as the end of the list does.
+  /// Builds, DispatchRays and everything else runs in any case. [D3D12: Predication]
   /// @errors KA0800; KA0829 a texture, the offset, or an unknown operation; KA0903 a buffer of
   /// another device.
   void SetPredication(const Resource& buffer, uint64_t offset_bytes, PredicationOp op);

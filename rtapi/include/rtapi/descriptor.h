@@ -86,6 +86,8 @@ enum class SrvDimension : uint32_t {
   kTexture1DArray = 3,
   kTexture2D = 4,
   kTexture2DArray = 5,
+  kTexture2DMS = 6,
+  kTexture2DMSArray = 7,
   kTexture3D = 8,
   kTextureCube = 9,
   kTextureCubeArray = 10,
@@ -139,6 +141,11 @@ struct Tex2DArraySrv {
   uint32_t PlaneSlice = 0;           ///< ignored: the format says which plane
   float ResourceMinLODClamp = 0;     ///< see Tex2DSrv::ResourceMinLODClamp
 };
+/// Elements of a multisampled texture array. [D3D12: D3D12_TEX2DMS_ARRAY_SRV]
+struct Tex2DMSArraySrv {
+  uint32_t FirstArraySlice = 0;      ///< the element that shaders know as 0
+  uint32_t ArraySize = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end of the array
+};
 /// Mip levels of a 3-D texture. [D3D12: D3D12_TEX3D_SRV]
 struct Tex3DSrv {
   uint32_t MostDetailedMip = 0;      ///< the level that shaders know as 0
@@ -183,6 +190,7 @@ struct ShaderResourceViewDesc {
   Tex1DArraySrv Texture1DArray = {};
   Tex2DSrv Texture2D = {};
   Tex2DArraySrv Texture2DArray = {};
+  Tex2DMSArraySrv Texture2DMSArray = {};  ///< kTexture2DMS has no part: it is element 0
   Tex3DSrv Texture3D = {};
   TexCubeSrv TextureCube = {};
   TexCubeArraySrv TextureCubeArray = {};

@@ -163,6 +163,9 @@ class Device {
   /// format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures; the
   /// reason if the device is removed.
   Result<Texture> CreateTexture(const TextureDesc& desc) const;
+  /// Quality levels of targets in `format` with `count` samples: 1, the standard pattern, or 0 if
+  /// there are no such targets. [D3D12: D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS]
+  uint32_t GetMultisampleQualityLevels(Format format, uint32_t count) const;
   /// Finds where `count` subresources of such a texture, from `first_subresource` on, lie in a
   /// buffer that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`
   /// as it is, the others behind it, at multiples of 512 from there. Appends to each vector that is

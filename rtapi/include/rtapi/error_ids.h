@@ -163,6 +163,9 @@ inline constexpr ErrorId kComputeUnlinked{566};  ///< compute shader calls anoth
 inline constexpr ErrorId kBlockAccess{570};  ///< unordered access to a block-compressed texture
 inline constexpr ErrorId kBlockDimension{571};  ///< block-compressed texture of one dimension
 inline constexpr ErrorId kCopyBlocks{572};  ///< copy of parts of blocks
+inline constexpr ErrorId kSampleCount{573};  ///< sample count that a texture or pipeline cannot have
+inline constexpr ErrorId kSampleMismatch{574};  ///< sample counts that differ
+inline constexpr ErrorId kResolve{575};  ///< resolve of what cannot be resolved
 inline constexpr ErrorId kRootSignatureTooLarge{600};  ///< root signature too large
 inline constexpr ErrorId kLocalRootSignatureTooLarge{601};  ///< local root signature too large
 inline constexpr ErrorId kLocalRootSignatureFlags{602};  ///< invalid root signature flags
@@ -294,7 +297,7 @@ inline constexpr ErrorId kStructureSource{796};  ///< source of a build or copy 
 inline constexpr ErrorId kInstanceInactive{797};  ///< instance can never be hit
 inline constexpr ErrorId kIndexOutOfRange{798};  ///< index past VertexCount
 inline constexpr ErrorId kMicromapUnusable{799};  ///< opacity micromap that cannot be used
-inline constexpr ErrorId kMultisampled{844};  ///< a shader uses a multisampled texture
+inline constexpr ErrorId kMultisampled{844};  ///< a shader uses a writable multisampled texture
 inline constexpr ErrorId kRayOutOfRange{888};  ///< rays beyond the range of the traversal
 inline constexpr ErrorId kRecursionLimit{890};  ///< TraceRay past the recursion limit
 inline constexpr ErrorId kShaderStack{891};  ///< the shader stack is used up

@@ -10,6 +10,7 @@
 
 #include <rtapi/descriptor.h>
 #include <rtapi/format.h>
+#include <rtapi/resource.h>
 #include <rtapi/root_signature.h>
 #include <rtapi/shader_library.h>
 #include <rtapi/types.h>
@@ -112,6 +113,9 @@ struct RasterizerDesc {
   /// True if triangles are cut at depth 0 and 1; else only their depth is limited to the viewport's
   /// range, as it always is.
   bool DepthClipEnable = true;
+  /// For lines alone, which are not drawn: triangles are multisampled where targets are.
+  /// [D3D12: D3D12_RASTERIZER_DESC]
+  bool MultisampleEnable = false;
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -208,7 +212,9 @@ struct RenderTargetBlendDesc {
 
 /// Describes how all render targets take colours. [D3D12: D3D12_BLEND_DESC]
 struct BlendDesc {
-  bool AlphaToCoverageEnable = false;   ///< true is refused (KA0721)
+  /// True if a pixel keeps about as many of its samples as the alpha of SV_Target0 says: none at 0,
+  /// all at 1. [D3D11.3: 17.5 Alpha-to-coverage]
+  bool AlphaToCoverageEnable = false;
   bool IndependentBlendEnable = false;  ///< false: RenderTarget[0] holds for all
   /// By render target.
   std::array<RenderTargetBlendDesc, kSimultaneousRenderTargetCount> RenderTarget = {};
@@ -223,14 +229,14 @@ struct GraphicsShader {
   std::string EntryPoint = {};  ///< an export of the stage; empty: the library's only one
 };
 
-/// Describes a graphics pipeline for Device::CreateGraphicsPipelineState. Targets have one sample.
+/// Describes a graphics pipeline for Device::CreateGraphicsPipelineState.
 /// [D3D12: D3D12_GRAPHICS_PIPELINE_STATE_DESC]
 struct GraphicsPipelineStateDesc {
   RootSignature pRootSignature = {};  ///< a global one that feeds every resource of both shaders
   GraphicsShader VS = {};             ///< the vertex shader; it writes SV_Position
   GraphicsShader PS = {};             ///< the pixel shader; without one only depth and stencil
   rtapi::BlendDesc BlendState = {};   ///< blending and write masks
-  /// Bit 0 clear: nothing is drawn.
+  /// A bit for each sample, the lowest for sample 0: those that are drawn.
   uint32_t SampleMask = 0xFFFFFFFFu;
   rtapi::RasterizerDesc RasterizerState = {};      ///< culling, bias, clipping
   rtapi::DepthStencilDesc DepthStencilState = {};  ///< depth and stencil test
@@ -240,6 +246,7 @@ struct GraphicsPipelineStateDesc {
       rtapi::PrimitiveTopologyType::kTriangle;  ///< kTriangle
   std::vector<Format> RTVFormats = {};          ///< at most 8; kUnknown: no target in that slot
   Format DSVFormat = Format::kUnknown;          ///< a depth format, or kUnknown
+  rtapi::SampleDesc SampleDesc = {};            ///< that of every target which draws use
   std::string Name = {};                        ///< for messages; empty: the vertex shader's name
 };
 

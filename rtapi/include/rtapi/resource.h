@@ -66,6 +66,8 @@ enum class ResourceStates : uint32_t {
   kPredication = 0x200,            ///< buffers of SetPredication; the same value
   kCopyDest = 0x400,
   kCopySource = 0x800,
+  kResolveDest = 0x1000,    ///< what resolves write
+  kResolveSource = 0x2000,  ///< the multisampled texture that resolves read
   kGenericRead = 0xAC3,
   kAllShaderResource = 0xC0,
   /// For the whole life of a buffer: no transition into it or out of it.
@@ -153,6 +155,17 @@ class Buffer {
   std::shared_ptr<detail::BufferImpl> impl_;
 };
 
+/// Samples of each pixel. [D3D12: DXGI_SAMPLE_DESC]
+struct SampleDesc {
+  /// 1, or a count for which Device::GetMultisampleQualityLevels gives levels: of 2, 4 and 8. They
+  /// lie where D3D12's standard patterns have them. [D3D11.3: 19.2.4 Standard sample patterns]
+  uint32_t Count = 1;
+  uint32_t Quality = 0;  ///< 0, the only level; 0xFFFFFFFF, the standard pattern, is the same
+
+  /// True if both members are equal.
+  bool operator==(const SampleDesc&) const = default;
+};
+
 /// Describes a texture for Device::CreateTexture. [D3D12: D3D12_RESOURCE_DESC]
 struct TextureDesc {
   ResourceDimension Dimension = ResourceDimension::kTexture2D;  ///< kTexture1D, 2D or 3D
@@ -164,7 +177,10 @@ struct TextureDesc {
   uint16_t DepthOrArraySize = 1;
   uint16_t MipLevels = 1;                          ///< at most the full chain; 0: the full chain
   rtapi::Format Format = rtapi::Format::kUnknown;  ///< any with a FormatInfo; typeless ones too
-  ResourceFlags Flags = ResourceFlags::kNone;      ///< what may write it
+  /// More than 1: a 2-D texture with one mip that is a target, which only draws, clears and copies
+  /// between textures of the same count write. `MipLevels` 0 is then 1.
+  rtapi::SampleDesc SampleDesc = {};
+  ResourceFlags Flags = ResourceFlags::kNone;  ///< what may write it
   /// The state before the first barrier, of all subresources; not
   /// kRaytracingAccelerationStructure, which is for buffers.
   ResourceStates InitialState = ResourceStates::kCommon;
@@ -295,6 +311,15 @@ struct TextureCopyLocation {
   TextureCopyType Type;                        ///< goes with the kind of pResource
   PlacedSubresourceFootprint PlacedFootprint;  ///< buffers
   uint32_t SubresourceIndex = 0;               ///< textures
+};
+
+/// What CommandList::ResolveSubresourceRegion makes of a pixel's samples.
+/// [D3D12: D3D12_RESOLVE_MODE]
+enum class ResolveMode : uint32_t {
+  kDecompress = 0,  ///< refused (KA0575): no texture is compressed
+  kMin = 1,         ///< the least of each component
+  kMax = 2,         ///< the greatest of each component
+  kAverage = 3,     ///< no integer and no depth formats
 };
 
 /// Texels [left, right) x [top, bottom) x [front, back) of a subresource or footprint. Nothing is

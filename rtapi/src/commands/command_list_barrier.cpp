@@ -26,8 +26,6 @@ struct AccessRule {
   Sync sync;
   ResourceStates states;  // in which a resource allows the access
 };
-constexpr ResourceStates kResolveDestState = static_cast<ResourceStates>(0x1000);
-constexpr ResourceStates kResolveSourceState = static_cast<ResourceStates>(0x2000);
 constexpr AccessRule kAccesses[] = {
     {Access::kVertexBuffer, "kVertexBuffer",
      Sync::kAll | Sync::kVertexShading | Sync::kDraw | Sync::kAllShading | Sync::kNonPixelShading,
@@ -55,8 +53,10 @@ constexpr AccessRule kAccesses[] = {
      ResourceStates::kIndirectArgument},
     {Access::kCopyDest, "kCopyDest", Sync::kAll | Sync::kCopy, ResourceStates::kCopyDest},
     {Access::kCopySource, "kCopySource", Sync::kAll | Sync::kCopy, ResourceStates::kCopySource},
-    {Access::kResolveDest, "kResolveDest", Sync::kAll | Sync::kResolve, kResolveDestState},
-    {Access::kResolveSource, "kResolveSource", Sync::kAll | Sync::kResolve, kResolveSourceState},
+    {Access::kResolveDest, "kResolveDest", Sync::kAll | Sync::kResolve,
+     ResourceStates::kResolveDest},
+    {Access::kResolveSource, "kResolveSource", Sync::kAll | Sync::kResolve,
+     ResourceStates::kResolveSource},
     {Access::kAccelerationStructureRead, "kAccelerationStructureRead",
      kShading | Sync::kBuildAccelerationStructure | Sync::kCopyAccelerationStructure |
          Sync::kEmitPostbuildInfo,

@@ -59,7 +59,8 @@ Status check_transition(const ResourceBarrier& barrier) {
 // One side of a texture copy: source or destination.
 struct CopySide {
   runtime::TextureCopyPlace place;
-  uint32_t size[3] = {0, 0, 0};       // texels of the subresource or footprint
+  uint32_t size[3] = {0, 0, 0};  // texels of the subresource or footprint
+  uint32_t samples = 1;
   Format format = Format::kUnknown;   // of the plane
   Format texture = Format::kUnknown;  // of the whole texture; kUnknown for buffers
   std::string name;
@@ -87,6 +88,7 @@ Result<CopySide> resolve_texture_side(const TextureCopyLocation& location, const
   side.size[0] = extent.width;
   side.size[1] = extent.height;
   side.size[2] = extent.depth;
+  side.samples = desc.SampleDesc.Count;
   side.format = runtime::plane_format(desc.Format, place.plane);
   side.texture = desc.Format;
   return side;
@@ -181,6 +183,13 @@ Status check_copy_formats(const CopySide& to, const CopySide& from) {
       static_cast<uint32_t>(from.format), " and ", to.name, " has format ",
       static_cast<uint32_t>(to.format), "; both must belong to one format family",
       a.block_side == b.block_side ? "" : ", or blocks go with integers of the same bytes");
+}
+
+Status check_copy_samples(const CopySide& to, const CopySide& from) {
+  if (to.samples == from.samples) return {};
+  return make_error(Id::kSampleMismatch, "CopyTextureRegion: ", from.name, " has ", from.samples,
+                    " samples and ", to.name, " has ", to.samples,
+                    "; both must have as many, or be resolved");
 }
 
 // Checks that no edge of a box, nor the place that it goes to, lies between blocks. The far edge
@@ -293,6 +302,7 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
                                   "CopyBufferRegion"));
   }
   if (Status s = check_copy_formats(*to, *from); !s.ok()) return impl_->fail(s.error());
+  if (Status s = check_copy_samples(*to, *from); !s.ok()) return impl_->fail(s.error());
   const Box whole = {0, 0, 0, from->size[0], from->size[1], from->size[2]};
   const Box& b = box ? *box : whole;
   const uint32_t first[3] = {b.left, b.top, b.front};
@@ -319,6 +329,17 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
                                     from->size[i], ") do not fit at ", target[i], " of ", to->name,
                                     " (size ", to->size[i], ")"));
     }
+  }
+  // [D3D12: CopyTextureRegion, pSrcBox]
+  const bool whole_copy = std::equal(target, target + 3, std::begin({0u, 0u, 0u})) &&
+                          std::equal(first, first + 3, std::begin({0u, 0u, 0u})) &&
+                          std::equal(last, last + 3, from->size) &&
+                          std::equal(last, last + 3, to->size);
+  if (from->samples > 1 && !whole_copy) {
+    return impl_->fail(make_error(Id::kCopyRange, "CopyTextureRegion: ", from->name, " has ",
+                                  from->samples,
+                                  " samples, so that it is copied as a whole, to a whole "
+                                  "subresource of the same size"));
   }
   if (to->place.texture && to->place.texture == from->place.texture &&
       to->place.mip == from->place.mip && to->place.array_element == from->place.array_element &&

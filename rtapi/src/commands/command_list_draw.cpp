@@ -97,6 +97,21 @@ void record_clear(CommandListImpl& list, const char* call, CpuDescriptorHandle h
   if (command.whole || !command.rects.empty()) list.record(std::move(command));
 }
 
+// [D3D12: DXGI_SAMPLE_DESC of D3D12_GRAPHICS_PIPELINE_STATE_DESC]
+Status check_samples(const char* call, const runtime::DrawTargets& targets,
+                     const runtime::LinkedGraphics& pipeline) {
+  const auto check = [&](const runtime::TargetView& view, const std::string& what) -> Status {
+    if (view.texture == nullptr || view.samples == pipeline.samples) return {};
+    return make_error(Id::kSampleMismatch, call, ": ", what, " has ", view.samples,
+                      " samples, but ", named("graphics pipeline", pipeline.name),
+                      " was made for SampleDesc.Count ", pipeline.samples);
+  };
+  for (uint32_t i = 0; i < targets.color_count; ++i) {
+    if (Status s = check(targets.color[i], concat("render target ", i)); !s.ok()) return s;
+  }
+  return check(targets.depth, "the depth-stencil view");
+}
+
 void record_draw(CommandListImpl& list, const char* call, bool indexed,
                  const DrawIndexedArguments& arguments) {
   if (!list.check_open(call)) return;
@@ -121,6 +136,10 @@ const PipelineStateImpl* CommandListImpl::draw_pipeline(const char* call, bool i
   if (draw_state->topology == PrimitiveTopology::kUndefined) {
     fail(
         make_error(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
+    return nullptr;
+  }
+  if (Status s = check_samples(call, draw_state->targets, *set->graphics); !s.ok()) {
+    fail(s.error());
     return nullptr;
   }
   const auto note = [&](MemoryUse use) {
@@ -278,6 +297,19 @@ void CommandList::OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* 
   }
   targets.color_count = count;
   if (depth_stencil && !read(*depth_stencil, true, "depth-stencil view", targets.depth)) return;
+  const runtime::TargetView* first = nullptr;
+  const auto same_samples = [&](const runtime::TargetView& view) {
+    if (view.texture == nullptr) return true;
+    if (first == nullptr) first = &view;
+    if (view.samples == first->samples) return true;
+    impl_->fail(make_error(Id::kSampleMismatch, "OMSetRenderTargets: targets of ", first->samples,
+                           " and of ", view.samples, " samples; all must have as many"));
+    return false;
+  };
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!same_samples(targets.color[i])) return;
+  }
+  if (!same_samples(targets.depth)) return;
   impl_->writable_draw_state().targets = std::move(targets);
   impl_->target_uses = std::move(uses);
 }

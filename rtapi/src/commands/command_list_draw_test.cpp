@@ -366,8 +366,8 @@ TEST_F(DrawTest, ViewsAreChecked) {
                                               Rtv(0)),
                "KA0730", "array elements");
   EXPECT_ERROR(device_.CreateRenderTargetView(
-                   color, {.ViewDimension = static_cast<RtvDimension>(6)}, Rtv(0)),
-               "KA0730", "dimension 6");
+                   color, {.ViewDimension = static_cast<RtvDimension>(8)}, Rtv(0)),
+               "KA0730", "dimension 8");
   const Texture depth = MakeTarget(Format::kR32Typeless, ResourceFlags::kAllowDepthStencil);
   EXPECT_OK(device_.CreateDepthStencilView(depth, Dsv(0)));
   EXPECT_OK(device_.CreateDepthStencilView(

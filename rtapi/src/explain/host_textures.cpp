@@ -23,6 +23,8 @@ HostTextures::Layout HostTextures::lay_out(const TextureDesc& desc, uint32_t byt
 
 HostTextures::Copy* HostTextures::find(const std::shared_ptr<runtime::BackendTexture>& texture,
                                        const TextureDesc& desc) {
+  // No buffer holds samples: explanations see nothing of multisampled textures.
+  if (desc.SampleDesc.Count > 1) return nullptr;
   auto& found = copies_[texture.get()];
   if (found != nullptr) return found.get();
   auto copy = std::make_unique<Copy>();

@@ -230,6 +230,7 @@ bool link_pixel_system_value(const SignatureElement& input, runtime::PixelSystem
     case SystemValue::kPosition:
       columns.position = input.first_column;
       columns.position_components = input.components;
+      columns.position_place = input.interpolation;
       return true;
     case SystemValue::kPrimitiveId:
       columns.primitive_id = input.first_column;
@@ -240,8 +241,17 @@ bool link_pixel_system_value(const SignatureElement& input, runtime::PixelSystem
     case SystemValue::kBarycentrics:
       columns.barycentrics = input.first_column;
       columns.barycentric_components = input.components;
-      columns.barycentrics_no_perspective =
-          input.interpolation == shader::Interpolation::kNoPerspective;
+      columns.barycentrics_no_perspective = shader::is_no_perspective(input.interpolation);
+      columns.barycentrics_place = input.interpolation;
+      return true;
+    case SystemValue::kCoverage:
+      columns.coverage_in = input.first_column;
+      return true;
+    case SystemValue::kSampleIndex:
+      columns.sample_index = input.first_column;
+      return true;
+    case SystemValue::kSampleCount:
+      columns.sample_count = input.first_column;
       return true;
     default:
       return false;
@@ -320,6 +330,9 @@ Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
   if (!linked.has_pixel()) return {};
   for (const SignatureElement& e : outputs_of(linked.pixel)) {
     if (e.system_value == SystemValue::kDepth) linked.pixel_columns.depth = e.first_column;
+    if (e.system_value == SystemValue::kCoverage) {
+      linked.pixel_columns.coverage_out = e.first_column;
+    }
     if (e.system_value != SystemValue::kTarget) continue;
     const uint32_t slot = e.semantic_index;
     if (slot >= kSimultaneousRenderTargetCount) continue;  // refused by the compiler

@@ -12,6 +12,7 @@
 #include "rtapi/src/pipelines/graphics_link.h"
 #include "rtapi/src/pipelines/pipeline_state_impl.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
+#include "rtapi/src/resources/resource_impl.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
 #include "runtime/backend/linked_graphics.h"
 
@@ -152,7 +153,6 @@ Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
                       " formats; at most 8");
   }
   linked.target_count = static_cast<uint32_t>(desc.RTVFormats.size());
-  if (desc.BlendState.AlphaToCoverageEnable) return unsupported("AlphaToCoverageEnable is true");
   for (uint32_t i = 0; i < kSimultaneousRenderTargetCount; ++i) {
     linked.blend[i] = desc.BlendState.RenderTarget[desc.BlendState.IndependentBlendEnable ? i : 0];
     if (i >= linked.target_count) continue;
@@ -264,11 +264,22 @@ Status link_shaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
 }
 
 void warn_of_sample_mask(const DeviceImpl& device, const LinkedGraphics& linked) {
-  if ((linked.sample_mask & 1) != 0) return;
+  if ((linked.sample_mask & ((uint64_t{1} << linked.samples) - 1)) != 0) return;
   device.report(
       MessageSeverity::kWarning,
       make_error(Id::kGraphicsWarning, named("graphics pipeline", linked.name), ": SampleMask is ",
                  hex(linked.sample_mask), ", so that nothing is drawn; set it to 0xFFFFFFFF"));
+}
+
+Status check_samples(const DeviceImpl& device, const GraphicsPipelineStateDesc& desc) {
+  const std::string name = named("graphics pipeline", desc.Name);
+  if (Status s = check_sample_desc(desc.SampleDesc, name); !s.ok()) return s;
+  const uint32_t count = desc.SampleDesc.Count;
+  for (const Format format : desc.RTVFormats) {
+    if (format == Format::kUnknown) continue;
+    if (Status s = check_sample_support(device, format, count, name); !s.ok()) return s;
+  }
+  return check_sample_support(device, desc.DSVFormat, count, name);
 }
 
 }  // namespace
@@ -296,8 +307,11 @@ Result<PipelineState> Device::CreateGraphicsPipelineState(
   linked->rasterizer = desc.RasterizerState;
   linked->depth_stencil = desc.DepthStencilState;
   linked->sample_mask = desc.SampleMask;
+  linked->samples = desc.SampleDesc.Count;
+  linked->alpha_to_coverage = desc.BlendState.AlphaToCoverageEnable;
   linked->strip_cut = desc.IBStripCutValue;
   if (Status s = take_targets(*impl_, desc, *linked); !s.ok()) return s.error();
+  if (Status s = check_samples(*impl_, desc); !s.ok()) return s.error();
   if (Status s = link_shaders(*impl_, desc, *linked); !s.ok()) return s.error();
   warn_of_sample_mask(*impl_, *linked);
   if (impl_->checks) impl_->checks->created(*linked);

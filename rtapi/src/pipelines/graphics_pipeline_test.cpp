@@ -319,7 +319,6 @@ TEST_F(GraphicsTest, WhatIsNotOfferedIsNamed) {
   };
   without([](auto& d) { d.RasterizerState.FillMode = FillMode::kWireframe; }, "kWireframe");
   without([](auto& d) { d.PrimitiveTopologyType = PrimitiveTopologyType::kLine; }, "kTriangle");
-  without([](auto& d) { d.BlendState.AlphaToCoverageEnable = true; }, "AlphaToCoverageEnable");
   without([](auto& d) { d.BlendState.RenderTarget[0].LogicOpEnable = true; }, "LogicOpEnable");
   without(
       [](auto& d) {

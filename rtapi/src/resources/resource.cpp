@@ -107,6 +107,34 @@ Status check_texture_flags(const TextureDesc& desc, const std::string& name) {
   return {};
 }
 
+// [D3D12: D3D12_RESOURCE_DESC; DXGI_SAMPLE_DESC]
+Status check_samples(const TextureDesc& desc, const std::string& name) {
+  if (Status s = check_sample_desc(desc.SampleDesc, name); !s.ok()) return s;
+  if (desc.SampleDesc.Count == 1) return {};
+  const auto fail = [&](const auto&... text) {
+    return make_error(Id::kSampleCount, name, " has ", desc.SampleDesc.Count, " samples and ",
+                      text...);
+  };
+  if (desc.Dimension != ResourceDimension::kTexture2D) {
+    return fail("dimension ", static_cast<uint32_t>(desc.Dimension), "; it must be kTexture2D");
+  }
+  if (!HasAny(desc.Flags, ResourceFlags::kAllowRenderTarget | ResourceFlags::kAllowDepthStencil)) {
+    return fail(
+        "neither kAllowRenderTarget nor kAllowDepthStencil, so that nothing could write it");
+  }
+  if (HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return fail("kAllowUnorderedAccess; shaders can only read it");
+  }
+  if (desc.MipLevels > 1) return fail(desc.MipLevels, " mip levels; it must have 1");
+  return {};
+}
+
+Status check_backend_samples(const DeviceImpl& device, const TextureDesc& desc) {
+  const bool depth = HasAny(desc.Flags, ResourceFlags::kAllowDepthStencil);
+  return check_sample_support(device, depth ? GetDepthFormat(desc.Format) : desc.Format,
+                              desc.SampleDesc.Count, named("texture", desc.Name));
+}
+
 // Checks that draws can write to a texture as its flags say. Typeless formats are tried by their
 // views.
 Status check_target_support(const DeviceImpl& device, const TextureDesc& desc) {
@@ -164,6 +192,7 @@ Status check_texture(const TextureDesc& desc) {
   }
   if (Status s = check_block_texture(desc, name); !s.ok()) return s;
   if (Status s = check_texture_flags(desc, name); !s.ok()) return s;
+  if (Status s = check_samples(desc, name); !s.ok()) return s;
   if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
     return make_error(Id::kAccelerationStructureBuffer, name,
                       " is a texture; only buffers hold acceleration structures");
@@ -172,6 +201,33 @@ Status check_texture(const TextureDesc& desc) {
 }
 
 }  // namespace
+
+Status check_sample_desc(const SampleDesc& desc, const std::string& name) {
+  constexpr uint32_t kStandardPattern = 0xFFFFFFFFu;
+  const bool level = desc.Quality == 0 || (desc.Count > 1 && desc.Quality == kStandardPattern);
+  if (desc.Count != 0 && level) return {};
+  return make_error(Id::kSampleCount, name, " has SampleDesc {", desc.Count, ", ", desc.Quality,
+                    "}; the count must be at least 1, and the quality 0");
+}
+
+Status check_sample_support(const DeviceImpl& device, Format format, uint32_t count,
+                            const std::string& name) {
+  if (sample_levels(device, format, count) != 0) return {};
+  std::string allowed;
+  for (const uint32_t other : {1u, 2u, 4u, 8u, 16u}) {
+    if (sample_levels(device, format, other) == 0) continue;
+    allowed += concat(allowed.empty() ? "" : ", ", other);
+  }
+  return make_error(Id::kSampleCount, name, " has ", count, " samples; this backend has ", allowed,
+                    " for DXGI format ", static_cast<uint32_t>(format));
+}
+
+uint32_t sample_levels(const DeviceImpl& device, Format format, uint32_t count) {
+  if (count <= 1) return count;
+  // Views of typeless textures have the formats.
+  const bool typeless = GetFormatInfo(format).type == FormatClass::kTypeless;
+  return device.backend->supports_samples(typeless ? Format::kUnknown : format, count) ? 1 : 0;
+}
 
 MipExtent get_mip_extent(const TextureDesc& desc, uint32_t mip) {
   auto at = [mip](uint32_t size) { return std::max(1u, mip < 32 ? size >> mip : 0u); };
@@ -314,8 +370,12 @@ Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (Status s = check_texture(desc); !s.ok()) return s.error();
   if (Status s = check_target_support(*impl_, desc); !s.ok()) return s.error();
+  if (Status s = check_backend_samples(*impl_, desc); !s.ok()) return s.error();
   TextureDesc resolved = desc;
-  if (resolved.MipLevels == 0) resolved.MipLevels = static_cast<uint16_t>(full_mip_count(desc));
+  if (resolved.MipLevels == 0) {
+    const bool one = desc.SampleDesc.Count > 1;
+    resolved.MipLevels = static_cast<uint16_t>(one ? 1 : full_mip_count(desc));
+  }
   auto memory = impl_->backend->create_texture(resolved);
   if (!memory.ok()) return memory.error();
   auto texture = std::make_shared<TextureImpl>();
@@ -328,12 +388,24 @@ Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   return Texture(std::move(texture));
 }
 
+uint32_t Device::GetMultisampleQualityLevels(Format format, uint32_t count) const {
+  if (!impl_) return 0;
+  const bool typeless = GetFormatInfo(format).type == FormatClass::kTypeless;
+  if (!typeless && !impl_->backend->supports_target(format, false)) return 0;
+  return sample_levels(*impl_, format, count);
+}
+
 Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t first,
                                                uint32_t count, uint64_t base_offset,
                                                std::vector<PlacedSubresourceFootprint>* layouts,
                                                std::vector<uint32_t>* row_counts,
                                                std::vector<uint64_t>* row_bytes) const {
   if (Status s = check_texture(desc); !s.ok()) return s.error();
+  if (desc.SampleDesc.Count > 1) {
+    return make_error(Id::kSampleMismatch, named("texture", desc.Name), " has ",
+                      desc.SampleDesc.Count,
+                      " samples; only textures of one sample have a layout in buffers");
+  }
   const uint32_t mips = desc.MipLevels ? desc.MipLevels : full_mip_count(desc);
   const uint32_t of_plane = mips * detail::array_size(desc);
   const uint64_t total = uint64_t{of_plane} * runtime::plane_count(desc.Format);

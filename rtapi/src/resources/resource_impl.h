@@ -43,6 +43,13 @@ MipExtent get_mip_extent(const TextureDesc& desc, uint32_t mip);
 // The same in elements of the format: in whole blocks, if it is block-compressed.
 MipExtent get_mip_elements(const TextureDesc& desc, uint32_t mip);
 uint32_t full_mip_count(const TextureDesc& desc);
+// KA0573 unless the quality is one that there is. `name` says of what, for messages.
+Status check_sample_desc(const SampleDesc& desc, const std::string& name);
+// KA0573 unless the backend has targets of the format with as many samples.
+Status check_sample_support(const DeviceImpl& device, Format format, uint32_t count,
+                            const std::string& name);
+// Quality levels of such targets: 0 or 1. kUnknown: of any format.
+uint32_t sample_levels(const DeviceImpl& device, Format format, uint32_t count);
 uint32_t array_size(const TextureDesc& desc);  // 1 for 3-D textures
 
 // A subresource by what its number says. [D3D12: subresources]

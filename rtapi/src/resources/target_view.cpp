@@ -15,6 +15,7 @@ struct AskedTarget {
   Format format;
   bool whole;        // all elements of mip 0
   bool one_element;  // element 0 of a mip
+  bool multisampled;
   TargetSlices slices;
 };
 
@@ -54,6 +55,11 @@ Status check_format(const DeviceImpl& device, const Texture& texture, bool depth
 
 Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& asked) {
   const TextureDesc& desc = texture.GetDesc();
+  if (!asked.whole && asked.multisampled != (desc.SampleDesc.Count > 1)) {
+    return make_error(Id::kSampleMismatch, named("texture", desc.Name), " has ",
+                      desc.SampleDesc.Count, " samples and a view dimension ",
+                      asked.multisampled ? "with" : "without", " MS");
+  }
   TargetSlices slices = asked.whole ? TargetSlices() : asked.slices;
   if (asked.one_element) {
     slices.FirstArraySlice = 0;
@@ -80,6 +86,7 @@ Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& a
   view.slice_count = slices.ArraySize;
   view.width = extent.width;
   view.height = extent.height;
+  view.samples = desc.SampleDesc.Count;
   return view;
 }
 
@@ -151,14 +158,17 @@ using namespace detail;
 
 Status Device::CreateRenderTargetView(const Texture& texture, const RenderTargetViewDesc& desc,
                                       CpuDescriptorHandle dest) const {
-  if (desc.ViewDimension > RtvDimension::kTexture2DArray ||
+  if (desc.ViewDimension > RtvDimension::kTexture2DMSArray ||
       (desc.ViewDimension != RtvDimension::kUnknown &&
        desc.ViewDimension < RtvDimension::kTexture2D)) {
     return make_error(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
-                      "; it must be kUnknown, kTexture2D or kTexture2DArray");
+                      "; it must be kUnknown, kTexture2D, kTexture2DArray, kTexture2DMS or "
+                      "kTexture2DMSArray");
   }
   const AskedTarget asked = {desc.Format, desc.ViewDimension == RtvDimension::kUnknown,
-                             desc.ViewDimension == RtvDimension::kTexture2D, desc.Texture2DArray};
+                             desc.ViewDimension == RtvDimension::kTexture2D ||
+                                 desc.ViewDimension == RtvDimension::kTexture2DMS,
+                             desc.ViewDimension >= RtvDimension::kTexture2DMS, desc.Texture2DArray};
   return write_target(impl_, texture, asked, false, DsvFlags::kNone, dest);
 }
 
@@ -168,18 +178,21 @@ Status Device::CreateRenderTargetView(const Texture& texture, CpuDescriptorHandl
 
 Status Device::CreateDepthStencilView(const Texture& texture, const DepthStencilViewDesc& desc,
                                       CpuDescriptorHandle dest) const {
-  if (desc.ViewDimension > DsvDimension::kTexture2DArray ||
+  if (desc.ViewDimension > DsvDimension::kTexture2DMSArray ||
       (desc.ViewDimension != DsvDimension::kUnknown &&
        desc.ViewDimension < DsvDimension::kTexture2D)) {
     return make_error(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
-                      "; it must be kUnknown, kTexture2D or kTexture2DArray");
+                      "; it must be kUnknown, kTexture2D, kTexture2DArray, kTexture2DMS or "
+                      "kTexture2DMSArray");
   }
   constexpr DsvFlags kKnown = DsvFlags::kReadOnlyDepth | DsvFlags::kReadOnlyStencil;
   if ((desc.Flags & ~kKnown) != DsvFlags::kNone) {
     return make_error(Id::kTargetView, "undefined flags ", hex(static_cast<uint32_t>(desc.Flags)));
   }
   const AskedTarget asked = {desc.Format, desc.ViewDimension == DsvDimension::kUnknown,
-                             desc.ViewDimension == DsvDimension::kTexture2D, desc.Texture2DArray};
+                             desc.ViewDimension == DsvDimension::kTexture2D ||
+                                 desc.ViewDimension == DsvDimension::kTexture2DMS,
+                             desc.ViewDimension >= DsvDimension::kTexture2DMS, desc.Texture2DArray};
   return write_target(impl_, texture, asked, true, desc.Flags, dest);
 }
 

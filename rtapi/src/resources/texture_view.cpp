@@ -14,6 +14,8 @@ bool fits_dimension(SrvDimension view, ResourceDimension resource) {
       return resource == ResourceDimension::kTexture1D;
     case SrvDimension::kTexture2D:
     case SrvDimension::kTexture2DArray:
+    case SrvDimension::kTexture2DMS:
+    case SrvDimension::kTexture2DMSArray:
     case SrvDimension::kTextureCube:
     case SrvDimension::kTextureCubeArray:
       return resource == ResourceDimension::kTexture2D;
@@ -22,6 +24,10 @@ bool fits_dimension(SrvDimension view, ResourceDimension resource) {
     default:
       return false;
   }
+}
+
+bool is_multisampled(SrvDimension dimension) {
+  return dimension == SrvDimension::kTexture2DMS || dimension == SrvDimension::kTexture2DMSArray;
 }
 
 Status check_view_format(const DeviceImpl& device, const Texture& texture,
@@ -107,6 +113,13 @@ Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceI
     return make_error(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
                       " does not fit ", named("texture", desc.Name), ", whose dimension is ",
                       static_cast<uint32_t>(desc.Dimension));
+  }
+  if (is_multisampled(view.dimension) != (desc.SampleDesc.Count > 1)) {
+    return make_error(
+        Id::kSampleMismatch, "view dimension ", static_cast<uint32_t>(view.dimension),
+        " does not fit ", named("texture", desc.Name), ", which has ", desc.SampleDesc.Count,
+        " samples; it must be ",
+        desc.SampleDesc.Count > 1 ? "one with MS, and no unordered access" : "one without MS");
   }
   if (view.uav && GetFormatInfo(desc.Format).block_side != 1) {
     return make_error(Id::kBlockAccess, named("texture", desc.Name), " has DXGI format ",
@@ -194,6 +207,12 @@ TextureView from_srv(const ShaderResourceViewDesc& d) {
       take(t.MostDetailedMip, t.MipLevels, t.FirstArraySlice, t.ArraySize, t.ResourceMinLODClamp);
       break;
     }
+    case SrvDimension::kTexture2DMS:
+      take(0, 1, 0, 1, 0);
+      break;
+    case SrvDimension::kTexture2DMSArray:
+      take(0, 1, d.Texture2DMSArray.FirstArraySlice, d.Texture2DMSArray.ArraySize, 0);
+      break;
     case SrvDimension::kTexture3D: {
       const auto& t = d.Texture3D;
       take(t.MostDetailedMip, t.MipLevels, 0, 0xFFFFFFFFu, t.ResourceMinLODClamp);
@@ -256,6 +275,10 @@ SrvDimension whole_dimension(const TextureDesc& desc) {
     case ResourceDimension::kTexture3D:
       return SrvDimension::kTexture3D;
     default:
+      if (desc.SampleDesc.Count > 1) {
+        return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture2DMSArray
+                                         : SrvDimension::kTexture2DMS;
+      }
       return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture2DArray : SrvDimension::kTexture2D;
   }
 }

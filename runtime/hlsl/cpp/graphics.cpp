@@ -26,7 +26,9 @@ const char* system_value_name(shader::SystemValue value) {
                                     "kDepth",
                                     "kCoverage",
                                     "kStartVertexLocation",
-                                    "kStartInstanceLocation"};
+                                    "kStartInstanceLocation",
+                                    "kSampleIndex",
+                                    "kSampleCount"};
   return kNames[static_cast<size_t>(value)];
 }
 
@@ -36,8 +38,10 @@ const char* column_type_name(shader::ColumnType type) {
 }
 
 const char* interpolation_name(shader::Interpolation interpolation) {
-  constexpr const char* kNames[] = {"kLinear", "kNoPerspective", "kNoInterpolation",
-                                    "kSecondVertex", "kThirdVertex"};
+  constexpr const char* kNames[] = {
+      "kLinear",     "kNoPerspective",       "kCentroid",        "kCentroidNoPerspective",
+      "kSample",     "kSampleNoPerspective", "kNoInterpolation", "kSecondVertex",
+      "kThirdVertex"};
   return kNames[static_cast<size_t>(interpolation)];
 }
 

@@ -55,6 +55,8 @@ constexpr Dimension kDimensions[] = {
     {"1d_array", "1DArray", "vec2", "ivec2", "float", "int", "3"},
     {"2d", "2D", "vec2", "ivec2", "vec2", "ivec2", "4"},
     {"2d_array", "2DArray", "vec3", "ivec3", "vec2", "ivec2", "5"},
+    {"2d_ms", "2DMS", "vec2", "ivec2", "vec2", "ivec2", "6"},
+    {"2d_ms_array", "2DMSArray", "vec3", "ivec3", "vec2", "ivec2", "7"},
     {"3d", "3D", "vec3", "ivec3", "vec3", "ivec3", "8"},
     {"cube", "Cube", "vec3", "ivec3", "vec3", "ivec3", "9"},
     {"cube_array", "CubeArray", "vec4", "ivec3", "vec3", "ivec3", "10"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Inputs and outputs of vertex and pixel shaders, as kaamos/shader/spirv_interface.h has them.
+#include <algorithm>
+
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/glsl/emitter.h"
 
@@ -39,19 +41,40 @@ std::string GlslEmitter::graphics_input(size_t index) {
     case shader::SystemValue::kIsFrontFace:
       return type + "(gl_FrontFacing)";
     case shader::SystemValue::kPosition:
+      // Where the shader runs for each sample, gl_FragCoord is that of the sample.
+      if ((entry_.graphics_flags & shader::kGraphicsRunsPerSample) != 0 &&
+          !shader::is_at_sample(element.interpolation)) {
+        return "vec4(floor(gl_FragCoord.xy) + 0.5, gl_FragCoord.z, 1.0 / gl_FragCoord.w)";
+      }
       return "vec4(gl_FragCoord.xyz, 1.0 / gl_FragCoord.w)";
+    case shader::SystemValue::kCoverage:
+      // Drivers need not clear the mask of helpers.
+      return type + "(gl_HelperInvocation ? 0 : gl_SampleMaskIn[0])";
+    case shader::SystemValue::kSampleIndex:
+      return type + "(gl_SampleID)";
+    case shader::SystemValue::kSampleCount:
+      return type + "(" + sample_count() + ")";
     default:
       break;
   }
   const std::string name = "g_in_" + std::to_string(index);
-  const char* mode = entry_.stage != kStagePixel              ? ""
-                     : shader::is_flat(element.interpolation) ? "flat "
-                     : element.interpolation == shader::Interpolation::kNoPerspective
-                         ? "noperspective "
-                         : "";
+  std::string mode;
+  if (entry_.stage == kStagePixel) {
+    const shader::Interpolation interpolation = element.interpolation;
+    if (shader::is_flat(interpolation)) mode = "flat ";
+    if (shader::is_no_perspective(interpolation)) mode = "noperspective ";
+    if (shader::is_at_centroid(interpolation)) mode += "centroid ";
+    if (shader::is_at_sample(interpolation)) mode += "sample ";
+  }
   declarations_ += "layout(location = " + std::to_string(index) + ") " + mode + "in " + type + " " +
                    name + ";\n";
   return name;
+}
+
+// The samples of the targets. [spirv_interface.h: kSampleCountConstant]
+std::string GlslEmitter::sample_count() {
+  constant(shader::spirv::kSampleCountConstant, "g_sample_count");
+  return "max(g_sample_count, 1u)";
 }
 
 // Converts a target as D3D does where the driver does not. [spirv_interface.h: kTargetConstant]
@@ -97,6 +120,10 @@ void GlslEmitter::graphics_output(size_t index, const std::string& name) {
     case shader::SystemValue::kDepth:
       return line("gl_FragDepth = isnan(" + name +
                   ") ? uintBitsToFloat(k_dispatch.base[0]) : " + name + ";");
+    case shader::SystemValue::kCoverage:
+      // Drivers with one sample may not look at the mask.
+      line("if ((uint(" + name + ") & ((1u << " + sample_count() + ") - 1u)) == 0u) demote;");
+      return line("gl_SampleMask[0] = int(" + name + ");");
     case shader::SystemValue::kPosition:
       return line("gl_Position = " + name + ";");
     case shader::SystemValue::kRenderTargetArrayIndex:
@@ -158,7 +185,10 @@ std::string GlslEmitter::graphics_head() const {
     out += "#extension GL_ARB_shader_viewport_layer_array : require\n";
     break;
   }
-  if (entry_.graphics_flags & shader::kGraphicsDiscards) {
+  const bool masks = std::any_of(
+      entry_.outputs.begin(), entry_.outputs.end(),
+      [](const SignatureElement& e) { return e.system_value == shader::SystemValue::kCoverage; });
+  if (masks || (entry_.graphics_flags & shader::kGraphicsDiscards) != 0) {
     out += "#extension GL_EXT_demote_to_helper_invocation : require\n";
   }
   return out;

@@ -54,6 +54,10 @@ const char* dimension_name(ResourceKind kind) {
     case ResourceKind::kTexture2DArray:
     case ResourceKind::kRWTexture2DArray:
       return "2d_array";
+    case ResourceKind::kTexture2DMS:
+      return "2d_ms";
+    case ResourceKind::kTexture2DMSArray:
+      return "2d_ms_array";
     case ResourceKind::kTexture3D:
     case ResourceKind::kRWTexture3D:
       return "3d";

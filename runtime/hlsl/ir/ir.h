@@ -66,9 +66,9 @@ enum class ResourceKind : uint8_t {
   kSamplerComparison,
   kAccelerationStructure,
   kRayQuery,
-  kTexture2DMS,  // nothing reads these: a use is a kRemoveDevice
+  kTexture2DMS,  // kTypedLoad: the sample is where others have the mip; kDimensions: the samples
   kTexture2DMSArray,
-  kRWTexture2DMS,
+  kRWTexture2DMS,  // nothing reads these two: a use is a kRemoveDevice
   kRWTexture2DMSArray,
   kAppendStructuredBuffer,  // only before the IR, where both are kRWStructuredBuffer
   kConsumeStructuredBuffer,

@@ -43,6 +43,12 @@ inline uint32_t texture_shape(const Type& resource) {
     case ResourceKind::kRWTexture2DArray:
       dimension = 5;
       break;
+    case ResourceKind::kTexture2DMS:
+      dimension = 6;
+      break;
+    case ResourceKind::kTexture2DMSArray:
+      dimension = 7;
+      break;
     case ResourceKind::kTexture3D:
     case ResourceKind::kRWTexture3D:
       dimension = 8;

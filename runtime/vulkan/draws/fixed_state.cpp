@@ -128,7 +128,8 @@ FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
   rasterizer.depthBiasClamp = linked.rasterizer.DepthBiasClamp;
   rasterizer.depthBiasEnable = bias != 0 || linked.rasterizer.SlopeScaledDepthBias != 0;
 
-  samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  samples.rasterizationSamples = static_cast<VkSampleCountFlagBits>(linked.samples);
+  samples.alphaToCoverageEnable = linked.alpha_to_coverage;
   samples.pSampleMask = &sample_mask;
 
   depth.depthTestEnable =

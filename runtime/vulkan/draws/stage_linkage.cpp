@@ -107,6 +107,9 @@ std::vector<uint32_t> linked_pixel_code(const LinkedGraphics& linked) {
 std::vector<StageConstant> target_constants(const Gpu& gpu, const LinkedGraphics& linked,
                                             const GraphicsVariant& wanted) {
   std::vector<StageConstant> constants;
+  if (linked.samples > 1) {
+    constants.push_back({shader::spirv::kSampleCountConstant, linked.samples});
+  }
   for (uint32_t i = 0; i < wanted.color_count; ++i) {
     const uint32_t conversion = conversion_of(gpu, wanted.colors[i], linked.blend[i].BlendEnable);
     if (conversion != 0) constants.push_back({shader::spirv::kTargetConstant + i, conversion});

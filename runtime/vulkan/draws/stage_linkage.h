@@ -29,7 +29,7 @@ std::vector<VertexAttribute> vertex_attributes(const runtime::LinkedGraphics& li
 // The code of the pixel shader with the locations of the vertex shader's outputs.
 std::vector<uint32_t> linked_pixel_code(const runtime::LinkedGraphics& linked);
 
-// kTargetConstant of each target.
+// kTargetConstant of each target, and kSampleCountConstant.
 std::vector<StageConstant> target_constants(const Gpu& gpu, const runtime::LinkedGraphics& linked,
                                             const GraphicsVariant& wanted);
 

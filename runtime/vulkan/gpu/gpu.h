@@ -44,6 +44,7 @@ struct GpuFeatures {
   bool storage16 = false;
   bool storage8 = false;
   bool int64_atomics = false;
+  bool sample_shading = false;  // shaders may run for each sample
   bool image_cube_array = false;
   bool sampler_anisotropy = false;
   bool image_gather_extended = false;

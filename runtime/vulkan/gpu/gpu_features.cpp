@@ -145,6 +145,7 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   optional_.storage16 = vulkan11_.storageBuffer16BitAccess;
   optional_.storage8 = vulkan12_.storageBuffer8BitAccess;
   optional_.int64_atomics = vulkan12_.shaderBufferInt64Atomics;
+  optional_.sample_shading = core.sampleRateShading;
   optional_.image_cube_array = core.imageCubeArray;
   optional_.sampler_anisotropy = core.samplerAnisotropy;
   optional_.image_gather_extended = core.shaderImageGatherExtended;

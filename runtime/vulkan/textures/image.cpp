@@ -94,7 +94,7 @@ VkImageCreateInfo Image::create_info() const {
   info.extent = extent(0);
   info.mipLevels = desc_.MipLevels;
   info.arrayLayers = array_size();
-  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.samples = static_cast<VkSampleCountFlagBits>(desc_.SampleDesc.Count);
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -109,7 +109,8 @@ VkImageCreateInfo Image::create_info() const {
   if (mutable_format()) {
     info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_EXTENDED_USAGE_BIT;
   }
-  if (type_ == VK_IMAGE_TYPE_2D && info.arrayLayers >= 6 && desc_.Width == desc_.Height) {
+  if (type_ == VK_IMAGE_TYPE_2D && info.arrayLayers >= 6 && desc_.Width == desc_.Height &&
+      desc_.SampleDesc.Count == 1) {
     info.flags |= VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
   }
   return info;
@@ -145,6 +146,10 @@ rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
                        std::to_string(limits.maxExtent.depth) + " with " +
                        std::to_string(limits.maxArrayLayers) + " array elements and " +
                        std::to_string(limits.maxMipLevels) + " mips");
+  }
+  if ((limits.sampleCounts & info.samples) == 0) {
+    return unsupported("the device has no such textures with " +
+                       std::to_string(desc_.SampleDesc.Count) + " samples");
   }
   return {};
 }

@@ -21,6 +21,7 @@ VkImageViewType view_type(SrvDimension dimension) {
     case SrvDimension::kTexture1DArray:
       return VK_IMAGE_VIEW_TYPE_1D_ARRAY;
     case SrvDimension::kTexture2DArray:
+    case SrvDimension::kTexture2DMSArray:
       return VK_IMAGE_VIEW_TYPE_2D_ARRAY;
     case SrvDimension::kTexture3D:
       return VK_IMAGE_VIEW_TYPE_3D;
@@ -161,6 +162,13 @@ rtapi::Result<VkImageView> Image::create_other_form(const TextureViewDesc& desc)
       break;
     case SrvDimension::kTexture2D:
       other.dimension = SrvDimension::kTexture2DArray;
+      break;
+    case SrvDimension::kTexture2DMS:
+      other.dimension = SrvDimension::kTexture2DMSArray;
+      break;
+    case SrvDimension::kTexture2DMSArray:
+      other.dimension = SrvDimension::kTexture2DMS;
+      other.slice_count = 1;
       break;
     case SrvDimension::kTexture1DArray:
       other.dimension = SrvDimension::kTexture1D;

@@ -586,6 +586,14 @@ void make_quad_functions(ir::Module& module, IrBuilder& build, ModuleFacts& fact
     if (!entry.is_graphics()) continue;
     std::set<const ir::Function*> seen;
     entry.graphics_flags |= flags_of(*entry.function, seen);
+    const bool per_sample = std::any_of(
+        entry.inputs.begin(), entry.inputs.end(), [](const ir::SignatureElement& input) {
+          return input.system_value == shader::SystemValue::kSampleIndex ||
+                 shader::is_at_sample(input.interpolation);
+        });
+    if (per_sample && entry.stage == ir::kStagePixel) {
+      entry.graphics_flags |= shader::kGraphicsRunsPerSample;
+    }
     const bool orders = facts.names_ordered_views && entry.stage == ir::kStagePixel &&
                         (entry.graphics_flags & shader::kGraphicsWritesMemory);
     if (orders) entry.graphics_flags |= shader::kGraphicsOrdersPixels;

@@ -23,7 +23,8 @@ constexpr Modifiers kInterpolationModifiers =
 
 bool is_generated(SystemValue value) {
   return value == SystemValue::kPrimitiveId || value == SystemValue::kIsFrontFace ||
-         value == SystemValue::kBarycentrics;
+         value == SystemValue::kBarycentrics || value == SystemValue::kCoverage ||
+         value == SystemValue::kSampleIndex || value == SystemValue::kSampleCount;
 }
 
 // Returns how many vectors of four components the elements fill: each goes to the first one of its
@@ -273,7 +274,6 @@ class GraphicsSignature : StagePart {
       return zero_input(type, *name.semantic, source);
     }
     if (!describe(element, type, *name.semantic, source)) return nullptr;
-    if (element.system_value == SystemValue::kCoverage) return cover(type, source, value);
     const Scalar scalar = element.type == ColumnType::kFloat ? Scalar::kFloat32
                           : element.type == ColumnType::kInt ? Scalar::kInt32
                                                              : Scalar::kUint32;
@@ -339,26 +339,6 @@ class GraphicsSignature : StagePart {
     return nullptr;
   }
 
-  // SV_Coverage says of a pixel's one sample, as an input, whether it is covered; as an output,
-  // whether it stays. [D3D11.3: 16.5 Sample mask]
-  const ir::Expr* cover(const Type* type, const Source& source, const ir::Expr* value) {
-    at(source.location);
-    if (std::exchange(has_coverage_, true)) {
-      fail(CheckId::kSemanticTwice, source.location,
-           {is_output_ ? "outputs" : "inputs", shader(), "SV_Coverage"});
-      return nullptr;
-    }
-    if (!value) return build_.convert(build_.read(live_), plain_scalar(type->scalar));
-    const ir::Expr* number = build_.convert(value, Scalar::kUint32);
-    ir::Stmt* condition = build_.stmt(ir::StmtKind::kIf);
-    condition->value = build_.binary(ir::BinaryOp::kEqual,
-                                     build_.binary(ir::BinaryOp::kBitAnd, number, build_.uint32(1)),
-                                     build_.uint32(0));
-    condition->body.push_back(build_.stmt(ir::StmtKind::kDiscard));
-    lower_.body.emit(condition);
-    return nullptr;
-  }
-
   bool describe(ir::SignatureElement& element, const Type* type, const Semantic& semantic,
                 const Source& source) {
     const SemanticRule rule = find_semantic(semantic.base, point_);
@@ -409,9 +389,16 @@ class GraphicsSignature : StagePart {
     element.interpolation = Interpolation::kLinear;
     if (point_ == SignaturePoint::kVertexIn || point_ == SignaturePoint::kPixelOut) return true;
     const Modifiers modifiers = source.modifiers & kInterpolationModifiers;
+    const bool straight = (modifiers & kModNoPerspective) != 0;
     if (modifiers & kModNoInterpolation) {
       element.interpolation = Interpolation::kNoInterpolation;
-    } else if (modifiers & kModNoPerspective) {
+    } else if (modifiers & kModSample) {
+      element.interpolation =
+          straight ? Interpolation::kSampleNoPerspective : Interpolation::kSample;
+    } else if (modifiers & kModCentroid) {
+      element.interpolation =
+          straight ? Interpolation::kCentroidNoPerspective : Interpolation::kCentroid;
+    } else if (straight) {
       element.interpolation = Interpolation::kNoPerspective;
     }
     if (element.type == ColumnType::kFloat) return true;
@@ -421,6 +408,8 @@ class GraphicsSignature : StagePart {
            {std::string(source.name), to_string(type), shader()});
       return false;
     }
+    // Pixels of one triangle differ in their coverage.
+    if (element.system_value == SystemValue::kCoverage) return true;
     element.interpolation = Interpolation::kNoInterpolation;
     return true;
   }
@@ -432,7 +421,6 @@ class GraphicsSignature : StagePart {
   const ir::Variable* const live_;
   size_t parameter_ = 0;  // the function's that is being read
   std::vector<uint32_t> path_;
-  bool has_coverage_ = false;
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ constexpr Row kRows[] = {
     {"SV_DepthLessEqual", SystemValue::kDepth, "...s"},
     {"SV_Coverage", SystemValue::kCoverage, "..ss"},
     {"SV_StencilRef", SystemValue::kNone, "...n"},
-    {"SV_SampleIndex", SystemValue::kNone, "..z."},
+    {"SV_SampleIndex", SystemValue::kSampleIndex, "..s."},
     {"SV_InnerCoverage", SystemValue::kNone, "..n."},
     {"SV_ViewID", SystemValue::kNone, "z.z."},
     {"SV_ShadingRate", SystemValue::kNone, ".nz."},

@@ -30,7 +30,7 @@ const uint k_class_u = 2u;
 // literal, so this is one comparison.
 //@ k_other_form
 uint k_other_form(uint dimension) {
-  return dimension < 6u ? dimension ^ 1u : dimension == 8u ? 8u : 19u - dimension;
+  return dimension < 8u ? dimension ^ 1u : dimension == 8u ? 8u : 19u - dimension;
 }
 //@ k_fits
 bool k_fits(k_Descriptor t, uint dimension, uint number) {
@@ -322,6 +322,15 @@ $V k_load_texel_$D_$C(k_Descriptor t, $X at, int mip) {
 $V k_load_texel_$D_$C(k_Descriptor t, $X at, int mip, $O offset) {
   return k_load_texel_$D_$C(t, k_moved(at, offset), mip);
 }
+// Multisampled textures have samples where others have mips.
+//@ k_load_texel_$D_$C 2d_ms 2d_ms_array
+$V k_load_texel_$D_$C(k_Descriptor t, $X from, int index, $O offset) {
+  if (!k_can_read(t, $Ru, k_class_$C)) return $V(0);
+  $X at = k_moved(from, offset);
+  if (uint(index) >= uint(textureSamples(k_texture_$D_$C(t)))) return $V(0);
+  if (!k_inside(at, textureSize(k_texture_$D_$C(t)))) return $V(0);
+  return texelFetch(k_texture_$D_$C(t), at, index);
+}
 //@ k_load_image_$D_$C 1d 1d_array 2d 2d_array 3d
 $V k_load_image_$D_$C(k_Descriptor t, $X at) {
   if (!k_can_write(t, $Ru, k_class_$C)) return $V(0);
@@ -345,6 +354,11 @@ uvec4 k_texture_dimensions_$D(k_Descriptor t, uint number, uint mip) {
   uint levels = uint(textureQueryLevels(k_texture_$D_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
   return uvec4(k_extent(k_size_$D_f(t, int(mip))), levels);
+}
+//@ k_texture_dimensions_$D 2d_ms 2d_ms_array
+uvec4 k_texture_dimensions_$D(k_Descriptor t, uint number, uint mip) {
+  if (!k_can_read(t, $Ru, number)) return uvec4(0u);
+  return uvec4(k_extent(textureSize(k_texture_$D_f(t))), uint(textureSamples(k_texture_$D_f(t))));
 }
 //@ k_texture_dimensions_1d_array
 uvec4 k_texture_dimensions_1d_array(k_Descriptor t, uint number, uint mip) {

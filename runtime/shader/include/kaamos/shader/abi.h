@@ -16,7 +16,7 @@
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 16;
+inline constexpr uint32_t kAbiVersion = 17;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -63,7 +63,8 @@ constexpr bool fits_shape(uint32_t view, uint32_t declared) {
   if (view == declared || declared == 0) return true;
   const uint32_t low = view < declared ? view : declared;
   const uint32_t single = low & 0xFF;
-  return view + declared == 2 * low + 1 && (single == 2 || single == 4 || single == 9);
+  return view + declared == 2 * low + 1 &&
+         (single == 2 || single == 4 || single == 6 || single == 9);
 }
 // The unordered access view of a structured buffer may have a counter of 4 bytes. `format` has bits
 // 2 to 33 of its address, and `access` the others above its own two bits; 0: there is none.

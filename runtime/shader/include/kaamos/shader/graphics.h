@@ -32,22 +32,40 @@ enum class SystemValue : uint8_t {
   kViewportArrayIndex,      // vertex shader out, pixel shader in
   kTarget,                  // pixel shader out; semantic_index is the slot
   kDepth,                   // pixel shader out
-  kCoverage,                // pixel shader in and out, and in no signature: see PixelLanes::live
+  kCoverage,                // pixel shader in and out: a bit for each sample
   kStartVertexLocation,     // vertex shader in: of an indexed draw its BaseVertexLocation
   kStartInstanceLocation,   // vertex shader in
+  kSampleIndex,             // pixel shader in
+  kSampleCount,             // pixel shader in, of no semantic: that of the targets
 };
 
 enum class ColumnType : uint8_t { kFloat, kInt, kUint };
 
-// The way in which a pixel shader's input comes from the three vertices. `centroid` and `sample`
-// are linear, as targets have one sample.
+// The way in which a pixel shader's input comes from the three vertices.
 enum class Interpolation : uint8_t {
-  kLinear,           // perspective correct
-  kNoPerspective,    // linear on the screen
+  kLinear,         // perspective correct
+  kNoPerspective,  // linear on the screen
+  kCentroid,       // kLinear, at a place that the triangle covers
+  kCentroidNoPerspective,
+  kSample,  // kLinear, at the sample: the shader runs once for each
+  kSampleNoPerspective,
   kNoInterpolation,  // the bits of the leading vertex
   kSecondVertex,     // the bits of the vertex that SV_Barycentrics.y belongs to
   kThirdVertex,
 };
+constexpr bool is_at_sample(Interpolation interpolation) {
+  return interpolation == Interpolation::kSample ||
+         interpolation == Interpolation::kSampleNoPerspective;
+}
+constexpr bool is_at_centroid(Interpolation interpolation) {
+  return interpolation == Interpolation::kCentroid ||
+         interpolation == Interpolation::kCentroidNoPerspective;
+}
+constexpr bool is_no_perspective(Interpolation interpolation) {
+  return interpolation == Interpolation::kNoPerspective ||
+         interpolation == Interpolation::kCentroidNoPerspective ||
+         interpolation == Interpolation::kSampleNoPerspective;
+}
 constexpr bool is_flat(Interpolation interpolation) {
   return interpolation >= Interpolation::kNoInterpolation;
 }
@@ -97,6 +115,7 @@ enum GraphicsFlags : uint32_t {
   kGraphicsReadsQuad = 8,          // can reach a derivative or another operation of a quad
   kGraphicsOrdersPixels = 16,      // has a RasterizerOrdered view
   kGraphicsReadsWave = 32,         // can reach a wave or quad operation other than a derivative
+  kGraphicsRunsPerSample = 64,     // reads SV_SampleIndex, or an input at the sample
 };
 
 struct GraphicsDesc {

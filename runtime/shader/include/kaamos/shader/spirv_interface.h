@@ -60,6 +60,8 @@ inline constexpr uint32_t kAllowMicromapsConstant = 0xFFFF0006u;
 // NaN is 0.
 inline constexpr uint32_t kTargetConstant = 0xFFFF0010u;
 inline constexpr uint32_t kLimitedSnorm = 128;
+// Pixel shaders: samples of the targets; 0 stands for 1.
+inline constexpr uint32_t kSampleCountConstant = 0xFFFF0018u;
 
 // Driver faults that generated code works around; each is off unless its bit is set. The ids are
 // those of the list in runtime/vulkan/README.md.
