@@ -214,7 +214,8 @@ bool Device::supports_target(rtapi::Format format, bool blended) const {
 }
 
 bool Device::supports_samples(rtapi::Format format, uint32_t count) const {
-  return supports_target(format, false) && raster::has_sample_positions(count);
+  const bool drawn = format == rtapi::Format::kUnknown || supports_target(format, false);
+  return drawn && raster::has_sample_positions(count);
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics_pipeline(

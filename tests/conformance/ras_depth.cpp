@@ -320,6 +320,7 @@ std::vector<RuleTest> ras_depth_tests() {
   tests.push_back({"RAS-69", shaders_write_depth, "*"});
   tests.push_back({"RAS-71", formats_of_depth});
   tests.push_back(ras_stencil_test());
+  tests.push_back(ras_multisample_test());
   return tests;
 }
 

@@ -14,5 +14,6 @@ std::vector<Corner> slope_over(const Screen& screen, float left, float right);
 // The tests of ras_depth_tests that are about depth bias.
 std::vector<RuleTest> ras_depth_bias_tests();
 RuleTest ras_stencil_test();
+RuleTest ras_multisample_test();
 
 }  // namespace kaamos::conformance
