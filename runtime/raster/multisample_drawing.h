@@ -5,7 +5,10 @@
 // that any sample leaves are shaded.
 #pragma once
 
+#include <mutex>
+
 #include "runtime/raster/multisample_shader.h"
+#include "runtime/raster/observer.h"
 
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
 
@@ -44,6 +47,7 @@ class MultisampleDrawing {
         each_sample([&](auto& one) { one.colors.load(target.slot, kAllBands); });
       }
       draw(run, plan);
+      if (job_.observation != nullptr) note(job_.observation, run.batch->draw);
     }
     each_sample([&](auto& one) {
       const Surface& plane = one.plane.depth;
@@ -91,6 +95,17 @@ class MultisampleDrawing {
     }
   }
 
+  // The sums of what has been drawn since the last call.
+  void note(Observation* observation, uint32_t draw) {
+    runtime::DrawCounts counts;
+    counts.shaded = shader_.shaded() - noted_shaded_;
+    counts.written = shader_.written() + untouched_ - noted_written_;
+    noted_shaded_ += counts.shaded;
+    noted_written_ += counts.written;
+    const std::lock_guard lock(observation->mutex);
+    observation->draws[draw].counts.add(counts);
+  }
+
   // Tests the blocks of one sample of a triangle.
   template <DepthKind kKind, bool kStencil>
   struct Blocks {
@@ -99,6 +114,7 @@ class MultisampleDrawing {
     const DrawPlan& plan;
     const DepthTest<kKind>& test;
     const Triangle& triangle;
+    uint64_t& untouched;
     DepthPlane plane;
     Doubles8 z_of_row;
 
@@ -125,7 +141,10 @@ class MultisampleDrawing {
       if constexpr (kStencil) {
         StencilTest(*plan.stencil, triangle).update(stencil, active, passed_stencil, passed);
       }
-      if (!plan.has_pixel) return;
+      if (!plan.has_pixel) {
+        untouched += static_cast<uint64_t>(std::popcount(passed));
+        return;
+      }
       put(quad, active & 0xF, passed & 0xF);
       put(quad + 1, active >> 4, passed >> 4);
     }
@@ -157,7 +176,7 @@ class MultisampleDrawing {
         for (int32_t& vertex : moved.y) vertex -= positions[s].y - kPixelCenter;
         Coverage coverage;
         if (!coverage.begin(moved, viewport.rect, x, y)) continue;
-        Blocks<kKind, kStencil> blocks{all_, s, plan, test, moved, {}, {}};
+        Blocks<kKind, kStencil> blocks{all_, s, plan, test, moved, untouched_, {}, {}};
         if constexpr (kKind != DepthKind::kNone) blocks.plane.begin(moved, x, y);
         coverage.each_block(blocks);
       }
@@ -174,6 +193,9 @@ class MultisampleDrawing {
   const TileJob& job_;
   MultisampleScratch& all_;
   MultisampleShader shader_;
+  uint64_t untouched_ = 0;  // samples that passed the tests and have no pixel shader
+  uint64_t noted_shaded_ = 0;
+  uint64_t noted_written_ = 0;
 };
 
 }  // namespace kaamos::raster::KAAMOS_RASTER_LEVEL

@@ -24,6 +24,9 @@ class MultisampleShader : public QuadShader {
     if (!plan_->runs_per_sample) return each_pair(kEverySample);
     for (uint32_t s = 0; s < plan_->samples; ++s) each_pair(s);
   }
+  // Runs of the shader, without helpers, and the samples that they left.
+  uint64_t shaded() const { return shaded_; }
+  uint64_t written() const { return written_; }
 
  private:
   static constexpr uint32_t kEverySample = ~0u;
@@ -100,6 +103,8 @@ class MultisampleShader : public QuadShader {
 
   MultisampleScratch& all_;
   std::span<const SamplePosition> positions_;
+  uint64_t shaded_ = 0;
+  uint64_t written_ = 0;
 };
 
 inline MultisampleShader::Places8 MultisampleShader::middle() const {
@@ -304,6 +309,7 @@ inline void MultisampleShader::shade(const Pair& pair) {
   set_inputs(pair);
   uint32_t covered = 0;
   for (uint32_t s = 0; s < plan_->samples; ++s) covered |= pair.lanes_of_sample(pair.passed, s);
+  shaded_ += static_cast<uint64_t>(std::popcount(covered));
   shader::PixelLanes pixel_lanes{inputs_, outputs_, pair.two ? 0xFFu : 0xFu, covered};
   thread_.pixels(batch_->draw, pixel_lanes);
   const uint32_t live = pixel_lanes.live & covered;
@@ -320,6 +326,7 @@ inline void MultisampleShader::shade(const Pair& pair) {
     }
     if (written != 0 && tests_late()) written = test_late_sample(pair, s, written);
     if (written == 0) continue;
+    written_ += static_cast<uint64_t>(std::popcount(written));
     write_targets(*plan_, all_.samples[s].colors, pair.places, outputs_, written);
   }
 }

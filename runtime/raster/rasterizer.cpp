@@ -258,7 +258,7 @@ struct Rasterizer::Pass {
       if (targets.samples > 1 && scratch->multisampled == nullptr) {
         scratch->multisampled = std::make_shared<MultisampleScratch>();
       }
-      // Pixels of several samples are not noted one by one.
+      // Tiles with several samples note sums themselves, and no pixels one by one.
       if (observation == nullptr || targets.samples > 1) {
         memory.draw_tile(jobs[task], *scratch, thread);
       } else {

@@ -3,6 +3,7 @@
 // Rules of targets with several samples. tests/draws looks at each sample by itself.
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 #include "tests/conformance/ras_depth.h"
 
@@ -65,17 +66,29 @@ class Multisampled {
 std::vector<std::byte> draw_quarters(Context& t, Format format) {
   Screen screen(t, {format}, Format::kUnknown, kSide);
   Multisampled target(t, format);
+  const QueryHeap queries =
+      t.device().CreateQueryHeap({.Type = QueryHeapType::kOcclusion, .Count = 1}).value();
+  const Buffer counted =
+      t.device()
+          .CreateBuffer({.SizeInBytes = sizeof(uint64_t), .Heap = HeapType::kReadback})
+          .value();
   GraphicsPipelineStateDesc desc = screen.desc("Pass", "Tint");
   desc.SampleDesc = {kSamples, 0};
   const PipelineState pipeline = screen.make(desc);
   screen.run([&](CommandList& list) {
     target.begin(list);
+    list.BeginQuery(queries, QueryType::kOcclusion, 0);
     for (uint32_t y = 0; y <= kSamples; ++y) {
       const auto top = static_cast<float>(y);
       screen.draw(list, pipeline, screen.rectangle(0, top, 3 + top / 4, top + 1));
     }
+    list.EndQuery(queries, QueryType::kOcclusion, 0);
+    list.ResolveQueryData(queries, QueryType::kOcclusion, 0, 1, counted, 0);
     target.resolve(list);
   });
+  uint64_t samples = 0;
+  std::memcpy(&samples, counted.Map().value().data(), sizeof samples);
+  t.equal("samples", samples, 5u * 3 * kSamples + 0 + 1 + 2 + 3 + 4);
   return target.read();
 }
 
