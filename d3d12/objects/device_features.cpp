@@ -177,8 +177,11 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
         return S_OK;
       });
     case D3D12_FEATURE_MULTISAMPLE_QUALITY_LEVELS:
-      return answer<D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS>(query, [](auto& out) {
-        out.NumQualityLevels = out.SampleCount == 1 ? 1 : 0;
+      return answer<D3D12_FEATURE_DATA_MULTISAMPLE_QUALITY_LEVELS>(query, [this](auto& out) {
+        out.NumQualityLevels = out.SampleCount == 1
+                                   ? 1
+                                   : device_.GetMultisampleQualityLevels(
+                                         static_cast<rtapi::Format>(out.Format), out.SampleCount);
         return out.SampleCount == 0 ? E_FAIL : S_OK;
       });
     case D3D12_FEATURE_FORMAT_INFO:

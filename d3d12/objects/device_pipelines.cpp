@@ -88,6 +88,7 @@ rtapi::RasterizerDesc rasterizer_desc(const D3D12_RASTERIZER_DESC& desc) {
   out.DepthBiasClamp = desc.DepthBiasClamp;
   out.SlopeScaledDepthBias = desc.SlopeScaledDepthBias;
   out.DepthClipEnable = desc.DepthClipEnable != FALSE;
+  out.MultisampleEnable = desc.MultisampleEnable != FALSE;
   return out;
 }
 
@@ -124,10 +125,6 @@ rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
   }
   if (desc.StreamOutput.NumEntries != 0 || desc.StreamOutput.NumStrides != 0) {
     return refuse("StreamOutput: there is no stream output here.");
-  }
-  if (desc.SampleDesc.Count > 1) {
-    return refuse("SampleDesc.Count is " + std::to_string(desc.SampleDesc.Count) +
-                  "; targets have one sample here.");
   }
   if (desc.NumRenderTargets > D3D12_SIMULTANEOUS_RENDER_TARGET_COUNT) {
     return refuse("NumRenderTargets is " + std::to_string(desc.NumRenderTargets) +
@@ -208,6 +205,7 @@ HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc,
     out.RTVFormats.push_back(static_cast<rtapi::Format>(desc.RTVFormats[i]));
   }
   out.DSVFormat = static_cast<rtapi::Format>(desc.DSVFormat);
+  out.SampleDesc = {std::max(desc.SampleDesc.Count, 1u), desc.SampleDesc.Quality};
   auto made = device_.CreateGraphicsPipelineState(out);
   if (!made) return fail(made.error());
   return hand_out(new PipelineState(this, *made, identity), riid, pipeline);

@@ -285,15 +285,33 @@ rtapi::Result<uint64_t> content_bytes(const rtapi::Device& device,
   }
   const uint32_t planes = rtapi::HasStencil(rtapi::GetDepthFormat(texture->Format)) ? 2 : 1;
   std::vector<rtapi::PlacedSubresourceFootprint> layouts;
-  return device.GetCopyableFootprints(*texture, 0, mips * slices * planes, 0, &layouts);
+  const uint32_t samples = texture->SampleDesc.Count;
+  if (samples == 1) {
+    return device.GetCopyableFootprints(*texture, 0, mips * slices * planes, 0, &layouts);
+  }
+  rtapi::TextureDesc one = *texture;
+  one.SampleDesc = {};
+  const auto bytes = device.GetCopyableFootprints(one, 0, slices * planes, 0, &layouts);
+  if (!bytes) return bytes.error();
+  return *bytes * samples;
 }
 
 // Returns the alignment that the desc asks for, of which textures may have 4 KiB if they are small
-// and no targets. [D3D12: GetResourceAllocationInfo; D3D12_RESOURCE_DESC, Alignment]
+// and no targets. Multisampled ones have 4 MiB, or 64 KiB if they are asked for and they fit in 4
+// MiB. [D3D12: GetResourceAllocationInfo; D3D12_RESOURCE_DESC, Alignment]
 rtapi::Result<uint64_t> placement(const D3D12_RESOURCE_DESC1& desc, uint64_t bytes) {
   const bool plain = desc.Dimension != D3D12_RESOURCE_DIMENSION_BUFFER &&
                      (desc.Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
                                     D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) == 0;
+  constexpr uint64_t kMultisampled = D3D12_DEFAULT_MSAA_RESOURCE_PLACEMENT_ALIGNMENT;
+  if (desc.SampleDesc.Count > 1) {
+    if (desc.Alignment == 0 || desc.Alignment == kMultisampled) return kMultisampled;
+    if (desc.Alignment == kPlacement && bytes <= kMultisampled) return kPlacement;
+    return make_error(ErrorId::kResource,
+                      "Alignment is " + std::to_string(desc.Alignment) +
+                          " with several samples; it is 0, 4194304, or 65536 for textures of up to "
+                          "4194304 bytes.");
+  }
   if (desc.Alignment == 0 || desc.Alignment == kPlacement) return kPlacement;
   if (desc.Alignment == kSmallPlacement && plain && bytes <= kPlacement) return kSmallPlacement;
   return make_error(ErrorId::kResource,

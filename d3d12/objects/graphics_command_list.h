@@ -4,6 +4,8 @@
 
 #include <rtapi/rtapi.h>
 
+#include <vector>
+
 #include "d3d12/objects/command_allocator.h"
 #include "d3d12/objects/device_child.h"
 
@@ -87,6 +89,14 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
   void STDMETHODCALLTYPE CopyBufferRegion(ID3D12Resource* dest, UINT64 dest_offset,
                                           ID3D12Resource* source, UINT64 source_offset,
                                           UINT64 bytes) override;
+  void STDMETHODCALLTYPE ResolveSubresource(ID3D12Resource* dest, UINT dest_subresource,
+                                            ID3D12Resource* source, UINT source_subresource,
+                                            DXGI_FORMAT format) override;
+  void STDMETHODCALLTYPE ResolveSubresourceRegion(ID3D12Resource* dest, UINT dest_subresource,
+                                                  UINT x, UINT y, ID3D12Resource* source,
+                                                  UINT source_subresource, D3D12_RECT* source_rect,
+                                                  DXGI_FORMAT format,
+                                                  D3D12_RESOLVE_MODE mode) override;
   void STDMETHODCALLTYPE CopyTextureRegion(const D3D12_TEXTURE_COPY_LOCATION* dest, UINT x, UINT y,
                                            UINT z, const D3D12_TEXTURE_COPY_LOCATION* source,
                                            const D3D12_BOX* box) override;
@@ -146,8 +156,7 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
                                          const D3D12_RENDER_PASS_RENDER_TARGET_DESC* targets,
                                          const D3D12_RENDER_PASS_DEPTH_STENCIL_DESC* depth,
                                          D3D12_RENDER_PASS_FLAGS flags) override;
-  // Resolves need several samples, which targets do not have.
-  void STDMETHODCALLTYPE EndRenderPass() override {}
+  void STDMETHODCALLTYPE EndRenderPass() override;
 
  protected:
   ~GraphicsCommandList() override;
@@ -157,6 +166,15 @@ class GraphicsCommandList final : public DeviceChild<ID3D12GraphicsCommandListEn
   // Reports what cannot be recorded; Close returns the first such code.
   void refuse(ErrorId id, const std::string& detail);
 
+  // What a target of the render pass is resolved to at its end.
+  struct PassResolve {
+    D3D12_RENDER_PASS_ENDING_ACCESS_RESOLVE_PARAMETERS desc;
+    std::vector<D3D12_RENDER_PASS_ENDING_ACCESS_RESOLVE_SUBRESOURCE_PARAMETERS> subresources;
+    D3D12_RESOURCE_STATES source_state;
+  };
+  void note_resolve(const D3D12_RENDER_PASS_ENDING_ACCESS& access, D3D12_RESOURCE_STATES state);
+
+  std::vector<PassResolve> pass_resolves_;
   rtapi::CommandList list_;
   D3D12_COMMAND_LIST_TYPE type_;
   UINT open_events_ = 0;

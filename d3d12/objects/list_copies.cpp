@@ -48,6 +48,27 @@ void GraphicsCommandList::CopyResource(ID3D12Resource* dest, ID3D12Resource* sou
   list_.CopyResource(rtapi_resource(dest), rtapi_resource(source));
 }
 
+void GraphicsCommandList::ResolveSubresource(ID3D12Resource* dest, UINT dest_subresource,
+                                             ID3D12Resource* source, UINT source_subresource,
+                                             DXGI_FORMAT format) {
+  list_.ResolveSubresource(rtapi_texture(dest), dest_subresource, rtapi_texture(source),
+                           source_subresource, static_cast<rtapi::Format>(format));
+}
+
+void GraphicsCommandList::ResolveSubresourceRegion(ID3D12Resource* dest, UINT dest_subresource,
+                                                   UINT x, UINT y, ID3D12Resource* source,
+                                                   UINT source_subresource, D3D12_RECT* source_rect,
+                                                   DXGI_FORMAT format, D3D12_RESOLVE_MODE mode) {
+  const rtapi::Rect rect = source_rect != nullptr
+                               ? rtapi::Rect{source_rect->left, source_rect->top,
+                                             source_rect->right, source_rect->bottom}
+                               : rtapi::Rect{};
+  list_.ResolveSubresourceRegion(rtapi_texture(dest), dest_subresource, x, y, rtapi_texture(source),
+                                 source_subresource, source_rect != nullptr ? &rect : nullptr,
+                                 static_cast<rtapi::Format>(format),
+                                 static_cast<rtapi::ResolveMode>(mode));
+}
+
 void GraphicsCommandList::ClearUnorderedAccessViewUint(D3D12_GPU_DESCRIPTOR_HANDLE gpu,
                                                        D3D12_CPU_DESCRIPTOR_HANDLE cpu,
                                                        ID3D12Resource* resource,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Draws, what they read and write, and clears of targets.
+#include <utility>
+
 #include "d3d12/com/report.h"
 #include "d3d12/objects/graphics_command_list.h"
+#include "d3d12/objects/resource.h"
 #include "d3d12/objects/same_bytes.h"
 
 namespace kaamos::d3d12 {
@@ -83,8 +86,13 @@ void GraphicsCommandList::BeginRenderPass(UINT count,
     refuse(ErrorId::kNullPointer, "BeginRenderPass: pRenderTargets.");
     return;
   }
+  pass_resolves_.clear();
   std::vector<D3D12_CPU_DESCRIPTOR_HANDLE> handles;
-  for (UINT i = 0; i < count; ++i) handles.push_back(targets[i].cpuDescriptor);
+  for (UINT i = 0; i < count; ++i) {
+    handles.push_back(targets[i].cpuDescriptor);
+    note_resolve(targets[i].EndingAccess, D3D12_RESOURCE_STATE_RENDER_TARGET);
+  }
+  if (depth != nullptr) note_resolve(depth->DepthEndingAccess, D3D12_RESOURCE_STATE_DEPTH_WRITE);
   OMSetRenderTargets(count, handles.data(), FALSE,
                      depth != nullptr ? &depth->cpuDescriptor : nullptr);
   for (UINT i = 0; i < count; ++i) {
@@ -101,6 +109,35 @@ void GraphicsCommandList::BeginRenderPass(UINT count,
   };
   clear(depth->DepthBeginningAccess, D3D12_CLEAR_FLAG_DEPTH);
   clear(depth->StencilBeginningAccess, D3D12_CLEAR_FLAG_STENCIL);
+}
+
+void GraphicsCommandList::note_resolve(const D3D12_RENDER_PASS_ENDING_ACCESS& access,
+                                       D3D12_RESOURCE_STATES state) {
+  if (access.Type != D3D12_RENDER_PASS_ENDING_ACCESS_TYPE_RESOLVE) return;
+  const auto* first = access.Resolve.pSubresourceParameters;
+  PassResolve resolve = {access.Resolve, {}, state};
+  if (first != nullptr) {
+    resolve.subresources.assign(first, first + access.Resolve.SubresourceCount);
+  }
+  pass_resolves_.push_back(std::move(resolve));
+}
+
+// Sources stay in their states of targets for the program. [D3D12: Render passes]
+void GraphicsCommandList::EndRenderPass() {
+  for (PassResolve& resolve : std::exchange(pass_resolves_, {})) {
+    const rtapi::Resource source = rtapi_resource(resolve.desc.pSrcResource);
+    const auto drawn = static_cast<rtapi::ResourceStates>(resolve.source_state);
+    constexpr auto kResolved = rtapi::ResourceStates::kResolveSource;
+    list_.ResourceBarrier(rtapi::ResourceBarrier::Transition(source, drawn, kResolved));
+    for (auto& part : resolve.subresources) {
+      const bool whole = part.SrcRect.right == 0 && part.SrcRect.bottom == 0;
+      ResolveSubresourceRegion(resolve.desc.pDstResource, part.DstSubresource, part.DstX, part.DstY,
+                               resolve.desc.pSrcResource, part.SrcSubresource,
+                               whole ? nullptr : &part.SrcRect, resolve.desc.Format,
+                               resolve.desc.ResolveMode);
+    }
+    list_.ResourceBarrier(rtapi::ResourceBarrier::Transition(source, kResolved, drawn));
+  }
 }
 
 }  // namespace kaamos::d3d12

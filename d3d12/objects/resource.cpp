@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "d3d12/objects/resource.h"
 
+#include <algorithm>
+
 #include <cstring>
 
 #include <rtapi/upload.h>
@@ -175,11 +177,6 @@ D3D12_RESOURCE_DESC1 with_sampler_feedback(const D3D12_RESOURCE_DESC& desc) {
 }
 
 rtapi::Result<rtapi::TextureDesc> texture_desc(const D3D12_RESOURCE_DESC1& desc) {
-  if (desc.SampleDesc.Count > 1) {
-    return make_error(ErrorId::kResource, "SampleDesc.Count is " +
-                                              std::to_string(desc.SampleDesc.Count) +
-                                              "; textures have one sample here.");
-  }
   if (desc.Width > UINT32_MAX) {
     return make_error(ErrorId::kResource,
                       "Width is " + std::to_string(desc.Width) + "; textures have up to 16384.");
@@ -198,6 +195,7 @@ rtapi::Result<rtapi::TextureDesc> texture_desc(const D3D12_RESOURCE_DESC1& desc)
   out.DepthOrArraySize = desc.DepthOrArraySize;
   out.MipLevels = desc.MipLevels;
   out.Format = static_cast<rtapi::Format>(desc.Format);
+  out.SampleDesc = {std::max(desc.SampleDesc.Count, 1u), desc.SampleDesc.Quality};
   // Flags about sharing and simultaneous access change nothing where one queue executes at a time.
   out.Flags = static_cast<rtapi::ResourceFlags>(desc.Flags & 0xF);
   return out;

@@ -11,8 +11,8 @@ namespace {
 
 rtapi::Error no_dimension(const char* kind, UINT dimension) {
   return make_error(ErrorId::kView, std::string(kind) + " dimension " + std::to_string(dimension) +
-                                        " is not offered: textures have one sample, and targets "
-                                        "are 2-D textures and arrays of them.");
+                                        " is not offered: targets are 2-D textures and arrays of "
+                                        "them.");
 }
 
 }  // namespace
@@ -47,6 +47,12 @@ rtapi::Result<rtapi::ShaderResourceViewDesc> view_desc(
           desc.Texture2DArray.MostDetailedMip, desc.Texture2DArray.MipLevels,
           desc.Texture2DArray.FirstArraySlice, desc.Texture2DArray.ArraySize,
           desc.Texture2DArray.PlaneSlice,      desc.Texture2DArray.ResourceMinLODClamp};
+      return out;
+    case D3D12_SRV_DIMENSION_TEXTURE2DMS:
+      return out;
+    case D3D12_SRV_DIMENSION_TEXTURE2DMSARRAY:
+      out.Texture2DMSArray = {desc.Texture2DMSArray.FirstArraySlice,
+                              desc.Texture2DMSArray.ArraySize};
       return out;
     case D3D12_SRV_DIMENSION_TEXTURE3D:
       out.Texture3D = {desc.Texture3D.MostDetailedMip, desc.Texture3D.MipLevels,
@@ -117,6 +123,12 @@ rtapi::Result<rtapi::RenderTargetViewDesc> view_desc(const D3D12_RENDER_TARGET_V
       out.Texture2DArray = {desc.Texture2DArray.MipSlice, desc.Texture2DArray.FirstArraySlice,
                             desc.Texture2DArray.ArraySize};
       return out;
+    case D3D12_RTV_DIMENSION_TEXTURE2DMS:
+      return out;
+    case D3D12_RTV_DIMENSION_TEXTURE2DMSARRAY:
+      out.Texture2DArray = {0, desc.Texture2DMSArray.FirstArraySlice,
+                            desc.Texture2DMSArray.ArraySize};
+      return out;
     default:
       return no_dimension("render target view", desc.ViewDimension);
   }
@@ -136,6 +148,12 @@ rtapi::Result<rtapi::DepthStencilViewDesc> view_desc(const D3D12_DEPTH_STENCIL_V
     case D3D12_DSV_DIMENSION_TEXTURE2DARRAY:
       out.Texture2DArray = {desc.Texture2DArray.MipSlice, desc.Texture2DArray.FirstArraySlice,
                             desc.Texture2DArray.ArraySize};
+      return out;
+    case D3D12_DSV_DIMENSION_TEXTURE2DMS:
+      return out;
+    case D3D12_DSV_DIMENSION_TEXTURE2DMSARRAY:
+      out.Texture2DArray = {0, desc.Texture2DMSArray.FirstArraySlice,
+                            desc.Texture2DMSArray.ArraySize};
       return out;
     default:
       return no_dimension("depth-stencil view", desc.ViewDimension);
