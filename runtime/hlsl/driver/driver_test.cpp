@@ -287,8 +287,9 @@ TEST_F(Driver, ComputeTargets) {
 
 TEST_F(Driver, GraphicsTargets) {
   write("draw.hlsl",
-        "struct V { float4 at : SV_Position; nointerpolation int id : ID2; };\n"
-        "V vs(float2 p : POSITION) { V v = {p, 0, 1, 7}; return v; }\n"
+        "struct V { float4 at : SV_Position; nointerpolation int id : ID2;\n"
+        "  noperspective centroid float edge : EDGE; };\n"
+        "V vs(float2 p : POSITION) { V v = {p, 0, 1, 7, 1}; return v; }\n"
         "float ps(V v) : SV_Target3 { return v.id; }\n");
   const Outcome vertex = run("-T vs_6_0 -E vs -emit reflection -no-warnings draw.hlsl");
   EXPECT_EQ(vertex.status, 0) << vertex.error;
@@ -298,6 +299,7 @@ TEST_F(Driver, GraphicsTargets) {
   EXPECT_EQ(pixel.status, 0) << pixel.error;
   EXPECT_THAT(pixel.out, HasSubstr("\"index\": 2"));
   EXPECT_THAT(pixel.out, HasSubstr("\"interpolation\": \"nointerpolation\""));
+  EXPECT_THAT(pixel.out, HasSubstr("\"interpolation\": \"noperspective centroid\""));
   EXPECT_THAT(run("-T ps_6_0 -E ps -emit glsl -no-warnings draw.hlsl").out,
               HasSubstr("layout(location = 1) flat in int"));
   EXPECT_THAT(run("-T ps_6_0 -E ps -no-warnings draw.hlsl").out, HasSubstr("spirv_0"));

@@ -119,7 +119,11 @@ nlohmann::ordered_json binding_json(const Binding& binding) {
 
 nlohmann::ordered_json signature_json(const std::vector<SignatureElement>& elements) {
   constexpr const char* kTypes[] = {"float", "int", "uint"};
-  constexpr const char* kInterpolations[] = {"linear", "noperspective", "nointerpolation"};
+  // In the order of shader::Interpolation.
+  constexpr const char* kInterpolations[] = {
+      "linear",         "noperspective",        "centroid",        "noperspective centroid",
+      "sample",         "noperspective sample", "nointerpolation", "nointerpolation",
+      "nointerpolation"};
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const SignatureElement& element : elements) {
     json.push_back(

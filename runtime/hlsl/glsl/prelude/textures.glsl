@@ -121,19 +121,19 @@ ivec3 k_moved(ivec3 at, ivec3 offset) { return at + offset; }
 #define k_texture_$D_$C(t) k_textures_$D_$C[nonuniformEXT(k_view(t, $Ru))]
 //@ k_image_$D_$C 1d 1d_array 2d 2d_array 3d
 #define k_image_$D_$C(t) k_images_$D_$C[nonuniformEXT(k_view(t, $Ru))]
-//@ k_sampled_$D_$C
+//@ k_sampled_$D_$C 1d 1d_array 2d 2d_array 3d cube cube_array
 #define k_sampled_$D_$C(t, s) \
   $Psampler$DIM(k_texture_$D_$C(t), k_samplers[nonuniformEXT(uint(s.address))])
 //@ k_compared_$D 1d 1d_array 2d 2d_array cube cube_array
 #define k_compared_$D(t, s)     \
   sampler$DIMShadow(k_texture_$D_f(t), k_comparison_samplers[nonuniformEXT(uint(s.address))])
 
-//@ k_sample_level_$D_$C
+//@ k_sample_level_$D_$C 1d 1d_array 2d 2d_array 3d cube cube_array
 $V k_sample_level_$D_$C(k_Descriptor t, k_Descriptor s, $L at, float lod) {
   if (!k_can_sample(t, s, $Ru, k_class_$C)) return $V(0);
   return textureLod(k_sampled_$D_$C(t, s), k_location_$D(at), k_lod(lod));
 }
-//@ k_sample_gradient_$D_$C
+//@ k_sample_gradient_$D_$C 1d 1d_array 2d 2d_array 3d cube cube_array
 $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy) {
   if (!k_can_sample(t, s, $Ru, k_class_$C)) return $V(0);
   return textureGrad(k_sampled_$D_$C(t, s), k_location_$D(at), k_coordinate(ddx),
