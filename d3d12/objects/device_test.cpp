@@ -174,9 +174,12 @@ TEST_F(DeviceCalls, ViewsThatCannotBeAreReported) {
   device_->CreateShaderResourceView(data.Get(), &view, heap->GetCPUDescriptorHandleForHeapStart());
   view.ViewDimension = D3D12_SRV_DIMENSION_TEXTURE2DMS;
   device_->CreateShaderResourceView(data.Get(), &view, heap->GetCPUDescriptorHandleForHeapStart());
-  ASSERT_EQ(messages().size(), 2u);
+  view.ViewDimension = D3D12_SRV_DIMENSION_UNKNOWN;
+  device_->CreateShaderResourceView(data.Get(), &view, heap->GetCPUDescriptorHandleForHeapStart());
+  ASSERT_EQ(messages().size(), 3u);
   EXPECT_EQ(messages()[0].substr(0, 6), "KA0624");
-  EXPECT_EQ(messages()[1].substr(0, 6), "KA4013");
+  EXPECT_EQ(messages()[1].substr(0, 6), "KA0623");
+  EXPECT_EQ(messages()[2].substr(0, 6), "KA4013");
 }
 
 // Ranges {2, 1} into {1, 2}: descriptors 0, 1, 2 arrive in order.
