@@ -106,7 +106,7 @@ class MultisampleDraws : public D3d12Test {
     for (UINT y = 0; y < kSide; ++y) {
       for (UINT x = 0; x < kSide; ++x) {
         const auto red = static_cast<const unsigned char*>(data)[y * kRowPitch + x * 4];
-        // Of a pixel on the diagonal samples 0 and 2 are inside: (-2, -6), (-6, 2).
+        // Samples 0 and 2 of a pixel on the diagonal are inside: (-2, -6), (-6, 2).
         const int expected = x + y < kSide - 1 ? 255 : x + y == kSide - 1 ? 128 : 0;
         EXPECT_NEAR(red, expected, 1) << x << ", " << y;
       }

@@ -79,7 +79,7 @@ struct DrawPlan {
   float depth_bias = 0;
   float bias_clamp = 0;
   float slope_bias = 0;
-  // Of a pixel's samples, in subpixels from its corner.
+  // Where a pixel's samples begin and end in x and y, in subpixels from its corner.
   int32_t least_sample = kPixelCenter;
   int32_t greatest_sample = kPixelCenter;
 

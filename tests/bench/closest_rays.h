@@ -22,7 +22,7 @@ class ClosestRays {
               const std::vector<Ray>& rays);
 
   rtapi::CommandList list_for(rtapi::GpuVirtualAddress top_level) const;
-  // Of the list that ran last.
+  // The hits of the list that ran last.
   std::vector<ClosestResult> results() const;
 
  private:

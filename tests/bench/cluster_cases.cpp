@@ -64,7 +64,7 @@ class Hills {
     CommandList list;
   };
 
-  // Of one instance of the bottom level at the beginning of a buffer.
+  // A top level of one instance of the bottom level at the beginning of a buffer.
   Buffer top_of(const Buffer& bottom_level) {
     RaytracingInstanceDesc instance;
     instance.AccelerationStructure = bottom_level.GetGPUVirtualAddress();

@@ -274,8 +274,8 @@ struct ResourceBarrier {
 /// slice, Depth slices. In block-compressed formats a row is one of blocks, and Width and Height
 /// are multiples of 4. [D3D12: D3D12_SUBRESOURCE_FOOTPRINT]
 struct SubresourceFootprint {
-  /// Of the family of the texture's format; of planes of depth and stencil: of R32 and of R8, where
-  /// 24 bits of depth are the lower ones, and the upper ones undefined.
+  /// A format of the texture's family. The planes of depth and stencil have formats of R32 and R8;
+  /// the lower 24 bits hold a depth of 24 bits, and the upper ones are undefined.
   rtapi::Format Format = rtapi::Format::kUnknown;
   uint32_t Width = 0;     ///< texels, at least 1
   uint32_t Height = 0;    ///< rows, at least 1
