@@ -8,7 +8,7 @@
 #include <rtapi/raytracing.h>
 #include <rtapi/state_object.h>
 
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 
 namespace kaamos::runtime {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/checks/table_proof.h"
+#include "runtime/checks/proof_inputs.h"
 
 namespace kaamos::checks {
 

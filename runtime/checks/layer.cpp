@@ -10,6 +10,7 @@
 #include "runtime/backend/indirect.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
+#include "runtime/checks/traced_levels.h"
 #include "runtime/structures/structure_commands.h"
 
 namespace kaamos::checks {
@@ -180,11 +181,7 @@ void Layer::check(const runtime::ExecuteIndirectCommand& command) {
 void Layer::reached(const runtime::Command& command, std::span<const runtime::ReachedFrom> calls) {
   const auto* rays = std::get_if<runtime::DispatchRaysCommand>(&command);
   if (rays == nullptr) {
-    for (const auto& [shader, call] : calls) {
-      if (call.acceleration_structure == 0) continue;
-      check_top_level(inputs(), call.acceleration_structure,
-                      "compute shader " + in_quotes(shader->name));
-    }
+    for (const runtime::ReachedFrom& each : calls) check_inline_reached(inputs(), each);
     return;
   }
   if (rays->linked == nullptr) return;

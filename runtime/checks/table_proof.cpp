@@ -11,6 +11,7 @@
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
 #include "runtime/checks/record_advice.h"
+#include "runtime/checks/traced_levels.h"
 
 namespace kaamos::checks {
 namespace {
@@ -30,16 +31,6 @@ struct Reason {
   bool procedural = false;
   uint32_t callable = 0;
 };
-
-std::string shader_name(const LinkedShader& shader) {
-  return std::string(stage_name(shader.stage)) + " shader " + in_quotes(shader.name);
-}
-
-std::string call_place(const TraceCall& call) {
-  std::string file = call.file;
-  file = file.substr(file.find_last_of('/') + 1);
-  return " (" + file + ":" + std::to_string(call.line) + ")";
-}
 
 // Returns whether a ray with these flags needs any shader of the record; if it needs none, the
 // record is not reached. [DXR: TraceRay control flow]
@@ -168,15 +159,15 @@ class Proof {
   void follow_ray(const LinkedShader& shader, const TraceCall& call, const Arguments& arguments);
   void reach_from(const runtime::ReachedFrom& from);
   void reach_hits(uint64_t scene, Reason reason);
-  void check_permission(const TrackedInstance& instance, uint32_t geometry);
-  void check_cluster_permission(const TrackedInstance& instance, uint32_t ray_flags);
+  void check_permission(const TrackedInstance& instance, const TrackedStructure& level,
+                        uint32_t ray_flags);
 
   const ProofInputs& inputs_;
   const runtime::DispatchRaysCommand& command_;
   const runtime::LinkedPipeline& linked_;
   ProofResults results_;
-  bool permission_told_ = false;
-  bool cluster_permission_told_ = false;
+  bool micromaps_told_ = false;
+  bool clusters_told_ = false;
   Table tables_[4];
   std::vector<std::pair<const LinkedShader*, Arguments>> pending_;
   std::set<std::pair<const LinkedShader*, const uint8_t*>> entered_;
@@ -383,35 +374,26 @@ void Proof::follow_ray(const LinkedShader& shader, const TraceCall& call,
   for (const uint64_t scene : scenes) reach_hits(scene, reason);
 }
 
-// A pipeline must allow the micromaps that its rays meet. [DXR: D3D12_RAYTRACING_PIPELINE_FLAGS]
-void Proof::check_permission(const TrackedInstance& instance, uint32_t geometry) {
-  constexpr uint32_t kDisabled = 0x20;
-  if ((instance.flags & kDisabled) != 0 || permission_told_ ||
-      rtapi::HasAny(linked_.flags, rtapi::RaytracingPipelineFlags::kAllowOpacityMicromaps)) {
-    return;
-  }
-  permission_told_ = true;
-  report(Id::kMicromapsNotAllowed,
-         "rays reach geometry " + std::to_string(geometry) + " of the bottom level at " +
-             address_name(inputs_.addresses, instance.bottom_level) +
-             ", which has opacity micromaps, but the pipeline does not have the flag "
-             "kAllowOpacityMicromaps. They are ignored.");
-}
-
-// And the clusters. [DXR 2.0: D3D12_RAYTRACING_PIPELINE_FLAG_ALLOW_CLUSTERED_GEOMETRY]
-void Proof::check_cluster_permission(const TrackedInstance& instance, uint32_t ray_flags) {
-  constexpr uint32_t kSkipTriangles = 0x100;
+void Proof::check_permission(const TrackedInstance& instance, const TrackedStructure& level,
+                             uint32_t ray_flags) {
+  using Flags = rtapi::RaytracingPipelineFlags;
   const uint32_t flags = ray_flags | runtime::ray_flags_of(linked_.flags);
-  if ((flags & kSkipTriangles) != 0 || cluster_permission_told_ ||
-      rtapi::HasAny(linked_.flags, rtapi::RaytracingPipelineFlags::kAllowClusteredGeometry)) {
-    return;
+  if (meets_micromaps(instance, level, flags) && !micromaps_told_ &&
+      !rtapi::HasAny(linked_.flags, Flags::kAllowOpacityMicromaps)) {
+    micromaps_told_ = true;
+    report(Id::kMicromapsNotAllowed,
+           "rays reach " + linked_name(inputs_, instance, level) +
+               ", which has opacity micromaps, but the pipeline does not have the flag "
+               "kAllowOpacityMicromaps. They are ignored.");
   }
-  cluster_permission_told_ = true;
-  report(Id::kClustersNotAllowed,
-         "rays reach the bottom level at " +
-             address_name(inputs_.addresses, instance.bottom_level) +
-             ", which consists of clusters, but the pipeline does not have the flag "
-             "kAllowClusteredGeometry. They are hit here, but need not be elsewhere.");
+  if (meets_clusters(level, flags) && !clusters_told_ &&
+      !rtapi::HasAny(linked_.flags, Flags::kAllowClusteredGeometry)) {
+    clusters_told_ = true;
+    report(Id::kClustersNotAllowed,
+           "rays reach " + level_name(inputs_, instance) +
+               ", which consists of clusters, but the pipeline does not have the flag "
+               "kAllowClusteredGeometry. They are hit here, but need not be elsewhere.");
+  }
 }
 
 // Follows a ray of `reason` to every hit record that it can reach in a top level.
@@ -427,11 +409,10 @@ void Proof::reach_hits(uint64_t scene, Reason reason) {
     if (level == nullptr || level->version != instance.version || level->top) continue;
     reason.instance = i;
     reason.contribution = instance.contribution;
-    if (level->of_clusters) check_cluster_permission(instance, call.ray_flags);
+    check_permission(instance, *level, call.ray_flags);
     for (uint32_t g = 0; g < level->geometries.size(); ++g) {
       const runtime::GeometryShape& shape = level->geometries[g];
       if (!reaches(call, instance, shape, runtime::ray_flags_of(linked_.flags))) continue;
-      if (shape.linked) check_permission(instance, g);
       reason.geometry = g;
       reason.procedural = shape.type == rtapi::RaytracingGeometryType::kProceduralPrimitiveAabbs;
       reach(RecordKind::kHitGroup,
@@ -450,20 +431,15 @@ void Proof::reach_from(const runtime::ReachedFrom& from) {
     return reach(RecordKind::kCallable, reached.indices, reason);
   }
   const uint64_t scene = reached.acceleration_structure;
+  if (reached.by != shader::ReachedBy::kTraceRay) {
+    if (!check_inline_reached(inputs_, from)) results_.good = false;
+    return;
+  }
   if (scene != 0 && structures_.insert(scene).second &&
       !check_top_level(inputs_, scene, shader_name(*from.shader))) {
     results_.good = false;
   }
-  if (reached.by != shader::ReachedBy::kTraceRay) return;
-  const uint32_t file = reached.site >> 20;
-  TraceCall call = {};
-  call.ray_flags = reached.ray_flags;
-  call.mask = reached.indices & 0xFFu;
-  call.ray_contribution = reached.indices >> 8 & 15u;
-  call.multiplier = reached.indices >> 12 & 15u;
-  call.miss_index = reached.indices >> 16;
-  call.line = reached.site & 0xFFFFFu;
-  call.file = file < from.shader->library->file_count ? from.shader->library->files[file] : "";
+  const TraceCall call = call_of(from);
   reason.call = &call;
   reach(RecordKind::kMiss, call.miss_index, reason);
   reach_hits(scene, reason);
@@ -478,128 +454,6 @@ ProofResults prove_tables(const ProofInputs& inputs, const runtime::DispatchRays
 ProofResults prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
                            std::span<const runtime::ReachedFrom> calls) {
   return Proof(inputs, command).run(calls);
-}
-
-// Checks the micromaps of one bottom level. `place` names the top level.
-static bool check_micromaps(const ProofInputs& inputs, const TrackedInstance& instance,
-                            const TrackedStructure& level, uint32_t index,
-                            const std::string& place) {
-  const std::string of = place + ", whose instance " + std::to_string(index) +
-                         " refers to the bottom level at " +
-                         address_name(inputs.addresses, instance.bottom_level);
-  constexpr uint32_t kDisabled = 0x20;
-  bool good = true;
-  if ((instance.flags & kDisabled) != 0 && !level.linkages.empty() &&
-      !rtapi::HasAny(level.flags, runtime::BuildFlags::kAllowDisableOmms)) {
-    good = false;
-    inputs.reporter.report(Id::kMicromapsDisabled,
-                           of + " with kDisableOmms, but it was built without kAllowDisableOmms. "
-                                "Its micromaps are ignored.");
-  }
-  for (const TrackedLinkage& linkage : level.linkages) {
-    if (linkage.version == 0) continue;
-    StructureState state;
-    const TrackedStructure* array = inputs.structures.find(linkage.array, state);
-    if (array != nullptr && state == StructureState::kAlive && array->version == linkage.version) {
-      continue;
-    }
-    inputs.reporter.report(
-        Id::kMicromapsReplaced,
-        of + ", which is linked to the micromap array at " +
-            address_name(inputs.addresses, linkage.array) + ": " +
-            (state == StructureState::kAlive
-                 ? "another one has been built there"
-                 : "an acceleration structure " + inputs.structures.history(linkage.array, state)) +
-            ". Rays see what was linked. Link the bottom level anew, by a build or an update.");
-    return false;
-  }
-  return good;
-}
-
-static Id id_of(StructureState state) {
-  switch (state) {
-    case StructureState::kFreed:
-      return Id::kStructureFreed;
-    case StructureState::kOverwritten:
-    case StructureState::kReplaced:
-      return Id::kStructureOverwritten;
-    case StructureState::kBytesCopied:
-      return Id::kStructureBytesCopied;
-    default:
-      return Id::kStructureMissing;
-  }
-}
-
-// Checks that the clusters of a bottom level are those that it was built from.
-static bool check_clusters(const ProofInputs& inputs, const TrackedInstance& instance,
-                           const TrackedStructure& level, uint32_t index,
-                           const std::string& place) {
-  for (const TrackedCluster& cluster : level.clusters) {
-    StructureState state;
-    const TrackedStructure* now = inputs.structures.find(cluster.address, state);
-    const bool alive = state == StructureState::kAlive;
-    if (now != nullptr && alive && now->version == cluster.version) continue;
-    inputs.reporter.report(
-        alive ? Id::kStructureOverwritten : id_of(state),
-        place + ", whose instance " + std::to_string(index) + " refers to the bottom level at " +
-            address_name(inputs.addresses, instance.bottom_level) + ". Of its cluster at " +
-            address_name(inputs.addresses, cluster.address) + ": " +
-            (alive ? "another one has been built there"
-                   : "an acceleration structure " +
-                         inputs.structures.history(cluster.address, state)) +
-            ". Rays see what it was. Build bottom levels anew after their clusters, and keep the "
-            "clusters while rays use them.");
-    return false;
-  }
-  return true;
-}
-
-bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user) {
-  const auto report = [&](Id id, const std::string& text) {
-    inputs.reporter.report(id, text);
-    return false;
-  };
-  StructureState state;
-  const Structures& all = inputs.structures;
-  const TrackedStructure* top = all.find(address, state);
-  const std::string place = user + " uses " + address_name(inputs.addresses, address);
-  if (state != StructureState::kAlive) {
-    return report(id_of(state), place + ": an acceleration structure " +
-                                    all.history(address, state) +
-                                    ". Every ray misses; build one there before the dispatch.");
-  }
-  if (!top->known) return true;
-  if (!top->top) {
-    return report(Id::kStructureLevel,
-                  place +
-                      ", which is a bottom level, but rays are traced against top levels. Make an "
-                      "instance of it in a top level, and pass that.");
-  }
-  bool good = true;
-  for (uint32_t i = 0; i < top->instances.size(); ++i) {
-    const TrackedInstance& instance = top->instances[i];
-    if (instance.version == 0) continue;
-    const TrackedStructure* level = all.find(instance.bottom_level, state);
-    if (level != nullptr && state == StructureState::kAlive && level->version == instance.version) {
-      good = check_micromaps(inputs, instance, *level, i, place) &&
-             check_clusters(inputs, instance, *level, i, place) && good;
-      continue;
-    }
-    const std::string of = place + ", whose instance " + std::to_string(i) +
-                           " refers to the bottom level at " +
-                           address_name(inputs.addresses, instance.bottom_level);
-    if (level != nullptr && state == StructureState::kAlive) {
-      report(Id::kStructureStale, of + ", which was built or updated after the top level. Build or "
-                                       "update the top level after its bottom levels.");
-    } else {
-      report(id_of(state), of + ": an acceleration structure " +
-                               all.history(instance.bottom_level, state) +
-                               ". Keep bottom levels unchanged while a top level refers to them.");
-    }
-    good = false;
-    break;  // the others probably have the same problem
-  }
-  return good;
 }
 
 }  // namespace kaamos::checks

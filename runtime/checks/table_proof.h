@@ -14,23 +14,9 @@
 #include <vector>
 
 #include "runtime/backend/backend.h"
-#include "runtime/checks/identifiers.h"
-#include "runtime/checks/report.h"
-#include "runtime/checks/structures.h"
+#include "runtime/checks/proof_inputs.h"
 
 namespace kaamos::checks {
-
-// A function that tells whether two root signatures have the same parameters, samplers and flags;
-// rtapi knows.
-using SameDefinition = bool (*)(const rtapi::RootSignature&, const rtapi::RootSignature&);
-
-struct ProofInputs {
-  const runtime::AddressMap& addresses;
-  const Structures& structures;
-  const Identifiers& identifiers;
-  Reporter& reporter;
-  SameDefinition same_definition;
-};
 
 // A buffer, texture or structure that a reached shader can read or write.
 struct ShaderUse {
@@ -68,10 +54,5 @@ ProofResults prove_tables(const ProofInputs& inputs, const runtime::DispatchRays
 // The same for calls whose arguments are not constants, after they have run.
 ProofResults prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
                            std::span<const runtime::ReachedFrom> calls);
-
-// Checks the structure behind one acceleration structure binding: it exists, is a top level, and is
-// not stale. `user` says who traces: "ray generation shader \"RayGen\", t0 \"scene\"". False: a
-// problem was reported.
-bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user);
 
 }  // namespace kaamos::checks

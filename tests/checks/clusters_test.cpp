@@ -186,6 +186,32 @@ TEST_P(Clusters, WithoutThePipelinesPermission) {
   expect_one("KA0496", {"\"floor\"", "kAllowClusteredGeometry"});
 }
 
+TEST_P(Clusters, WithoutTheQuerysPermission) {
+  build_clustered_scene();
+  query("Plain");
+  expect_one("KA0496",
+             {"\"Plain\"", "queries.hlsl:", "\"floor\"", "RAYQUERY_FLAG_ALLOW_CLUSTERED_GEOMETRY"});
+  query("FromArray");
+  expect_one("KA0496", {"\"FromArray\"", "\"floor\""});
+  query("PlainRayGen");
+  expect_one("KA0496", {"ray generation shader \"PlainRayGen\"", "\"floor\""});
+  query("AllowsMicromaps");
+  expect_one("KA0496", {"\"AllowsMicromaps\"", "\"floor\""});
+}
+
+TEST_P(Clusters, WhereAQueryNeedsNoPermission) {
+  build_clustered_scene();
+  for (const char* shader : {"AllowsClusters", "AllowsBoth", "SkipsTriangles"}) {
+    query(shader);
+    expect_none();
+  }
+  RaytracingInstanceDesc other = instance(level_memory_);
+  other.InstanceMask = 1;
+  top_ = build(top_inputs({other}), "scene");
+  query("OtherMask");
+  expect_none();
+}
+
 INSTANTIATE_TEST_SUITE_P(Embree, Clusters, ::testing::Values("embree"));
 INSTANTIATE_TEST_SUITE_P(Vulkan, Clusters, ::testing::Values("vulkan"));
 

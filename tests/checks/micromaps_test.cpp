@@ -11,6 +11,11 @@ using BuildFlags = RaytracingAccelerationStructureBuildFlags;
 
 class Micromaps : public World {
  protected:
+  DeviceDesc device_desc() const override {
+    DeviceDesc desc;
+    desc.ShaderModel = kExperimentalShaderModel;  // of queries.hlsl
+    return desc;
+  }
   void SetUp() override {
     World::SetUp();
     if (IsSkipped()) return;
@@ -52,6 +57,20 @@ TEST_P(Micromaps, WithoutThePipelinesPermission) {
   build_linked(BuildFlags::kNone, 0);
   dispatch(make_tables(pipeline_).desc);
   expect_one("KA0493", {"geometry 0", "\"leaves\"", "kAllowOpacityMicromaps"});
+}
+
+TEST_P(Micromaps, WithoutTheQuerysPermission) {
+  build_linked(BuildFlags::kAllowDisableOmms, 0);
+  query("Plain");
+  expect_one("KA0493", {"\"Plain\"", "queries.hlsl:", "geometry 0", "\"leaves\"",
+                        "RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS"});
+  query("AllowsClusters");
+  expect_one("KA0493", {"\"AllowsClusters\"", "\"leaves\""});
+  query("AllowsMicromaps");
+  expect_none();
+  build_linked(BuildFlags::kAllowDisableOmms, 0x20);
+  query("Plain");
+  expect_none();
 }
 
 TEST_P(Micromaps, DisabledWithoutTheBottomLevelsPermission) {

@@ -2,6 +2,7 @@
 #include "tests/checks/world.h"
 
 #include <shaders/checks.h>
+#include <shaders/queries.h>
 
 #include <algorithm>
 
@@ -187,6 +188,55 @@ void World::dispatch(const DispatchRaysDesc& desc) {
   record_dispatch(commands, desc);
   const Status status = execute(commands);
   EXPECT_TRUE(status.ok()) << status.error().message;
+}
+
+void World::query(const std::string& shader) {
+  const RootSignature signature =
+      device_
+          .CreateRootSignature(
+              "SRV(t0), UAV(u0), DescriptorTable(SRV(t0, space = 1, numDescriptors = 2))")
+          .value();
+  const DescriptorHeap heap =
+      device_
+          .CreateDescriptorHeap(
+              {DescriptorHeapType::kCbvSrvUav, 2, DescriptorHeapFlags::kShaderVisible, "queries"})
+          .value();
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
+  view.RaytracingAccelerationStructure.Location = top_.GetGPUVirtualAddress();
+  device_.CreateShaderResourceView({}, view, heap.GetCPUDescriptorHandle(1)).value();
+  const ShaderLibrary library = LoadShaderLibrary(kaamos_shaders_queries()).value();
+  CommandList commands = list();
+  commands.SetDescriptorHeaps({heap});
+  commands.SetComputeRootSignature(signature);
+  commands.SetComputeRootShaderResourceView(0, top_.GetGPUVirtualAddress());
+  commands.SetComputeRootUnorderedAccessView(1, results_.GetGPUVirtualAddress());
+  commands.SetComputeRootDescriptorTable(2, heap.GetGPUDescriptorHandle(0));
+  if (shader == "PlainRayGen") {
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{library, {{shader}}});
+    desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 4});
+    desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 1});
+    desc.Add(GlobalRootSignature{signature});
+    const StateObject pipeline = device_.CreateStateObject(desc).value();
+    ShaderTable table(pipeline, "ray generation");
+    table.AddRecord(shader).value();
+    table.Build(device_).value();
+    DispatchRaysDesc rays;
+    rays.RayGenerationShaderRecord = table.GetRecord(0);
+    commands.SetPipelineState1(pipeline);
+    commands.DispatchRays(rays);
+    execute(commands).value();
+    return;
+  }
+  ComputePipelineStateDesc desc;
+  desc.pRootSignature = signature;
+  desc.CS = library;
+  desc.EntryPoint = shader;
+  const PipelineState pipeline = device_.CreateComputePipelineState(desc).value();
+  commands.SetPipelineState(pipeline);
+  commands.Dispatch(1, 1, 1);
+  execute(commands).value();
 }
 
 void World::copy_bytes(const Buffer& dest, const Buffer& source) {

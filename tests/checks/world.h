@@ -64,6 +64,8 @@ class World : public ::testing::TestWithParam<const char*> {
 
   void record_dispatch(rtapi::CommandList& list, const rtapi::DispatchRaysDesc& desc);
   void dispatch(const rtapi::DispatchRaysDesc& desc);
+  // Runs a shader of queries.hlsl against `top_`.
+  void query(const std::string& shader);
   // Copies 16 bytes with a compute shader, because copy commands into structures are refused.
   void copy_bytes(const rtapi::Buffer& dest, const rtapi::Buffer& source);
   rtapi::CommandList list() { return device_.CreateCommandList().value(); }

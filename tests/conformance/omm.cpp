@@ -466,7 +466,7 @@ std::vector<RuleTest> omm_tests() {
           {"OMM-28", the_order_of_micro_triangles},
           {"OMM-32", both_sides_show_the_same},
           {"OMM-40", without_permission_they_are_ignored, "KA0493"},
-          {"OMM-41", queries},
+          {"OMM-41", queries, "KA0493"},
           {"OMM-39, OMM-41", queries_of_others},
           {"OMM-42", ray_flags_show_it},
           {"OMM-43", what_the_compiler_refuses},

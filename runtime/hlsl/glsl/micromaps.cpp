@@ -5,7 +5,7 @@
 // use micromaps there are top levels whose instances are not opaque for the driver
 // (spirv_interface.h: TopLevelEntry). The same in C++: runtime/structures/opacity_micromap.h.
 // [DXR: Opacity micromaps]
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/glsl/emitter.h"
 

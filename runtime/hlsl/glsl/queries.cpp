@@ -3,7 +3,7 @@
 // RayQuery. Each rayQueryEXT is accompanied by what GLSL does not return, or not at any time: the
 // ray, and whether the query is running and has a candidate. The driver is never asked for a value
 // that does not exist.
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
@@ -143,9 +143,8 @@ std::string GlslEmitter::query_trace_function(bool micromaps) {
                 "(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
                 "mask, " +
                 ray + " ray" +
-                (module_.check_access ? ", uint site, bool unknown) {\n  if (unknown) "
-                                        "k_reached(1u, site, k_structure_of(scene), flags, mask & "
-                                        "0xFFu);\n  k_check_ray(" +
+                (module_.check_access ? ", uint site, bool unknown) {\n  k_reached_inline(site, "
+                                        "unknown, scene, flags, mask);\n  k_check_ray(" +
                                             origin + ", " + t_min + ", " + direction + ", " +
                                             t_max + ", flags, true, site);\n"
                                       : std::string(") {\n")) +

@@ -171,14 +171,11 @@ void run_query(const Action& action, Frame& frame) {
   const uint32_t site = site_of(action.stmt->location);
   switch (action.stmt->query) {
     case ir::QueryOp::kTrace:
-      if (checked && is_unknown(*frame.context->program->module, *action.stmt)) {
-        shader::checked::reached(
-            invocation, shader::ReachedBy::kTraceRayInline, site,
-            shader::checked::structure_of(evaluate_as<shader::Descriptor>(*operands[0], frame)),
-            evaluate_as<uint32_t>(*operands[1], frame),
-            evaluate_as<uint32_t>(*operands[2], frame) & 0xFFu);
-      }
       if (checked) {
+        shader::checked::reached_inline(
+            invocation, site, is_unknown(*frame.context->program->module, *action.stmt),
+            evaluate_as<shader::Descriptor>(*operands[0], frame),
+            evaluate_as<uint32_t>(*operands[1], frame), evaluate_as<uint32_t>(*operands[2], frame));
         shader::checked::check_query_trace(invocation, site,
                                            evaluate_as<uint32_t>(*operands[1], frame),
                                            evaluate_as<shader::RayDesc>(*operands[3], frame));

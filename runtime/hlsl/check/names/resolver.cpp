@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/names/resolver.h"
 
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/names/name_parts.h"
 #include "runtime/hlsl/ir/builtin_types.h"
@@ -422,30 +422,29 @@ const Type* Resolver::resolve_ray_query(const NamePart& part, Scope* scope) {
            {std::to_string(*flags), std::to_string(most)});
     return types_.error();
   }
-  bool allows_micromaps = false;
+  int64_t query_flags = 0;
   // [DXR: RAYQUERY_FLAG]
   if (arguments.size() == 2) {
-    const auto query_flags = value_argument(arguments[1], scope);
-    if (!query_flags) return types_.error();
-    if (*query_flags == 1 && !knows_micromaps) {
+    const auto written = value_argument(arguments[1], scope);
+    if (!written) return types_.error();
+    query_flags = *written;
+    if (query_flags == 1 && !knows_micromaps) {
       report(CheckId::kNeedsShaderModel, arguments[1].location,
              {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", "6.9"});
       return types_.error();
     }
-    allows_micromaps = (*query_flags & 1) != 0;
-    // Clusters are allowed where there are none.
     const int64_t known = shader_model_minor(program_.options->target) >= 10 ? 3 : 1;
-    if (*query_flags < 0 || *query_flags > known) {
-      report(CheckId::kRayQuerySecondFlags, arguments[1].location, {std::to_string(*query_flags)});
+    if (query_flags < 0 || query_flags > known) {
+      report(CheckId::kRayQuerySecondFlags, arguments[1].location, {std::to_string(query_flags)});
       return types_.error();
     }
   }
+  const uint32_t allowed = shader::query_permissions_of(static_cast<uint32_t>(query_flags));
   // [DXR: RAY_FLAG_FORCE_OMM_2_STATE]
-  if ((*flags & kForceOmm2State) != 0 && !allows_micromaps) {
+  if ((*flags & kForceOmm2State) != 0 && (allowed & shader::kRayQueryAllowsMicromaps) == 0) {
     report(CheckId::kRayQueryMicromaps, arguments[0].location);
     return types_.error();
   }
-  const uint32_t allowed = allows_micromaps ? shader::kRayQueryAllowsMicromaps : 0;
   return types_.ray_query(static_cast<uint32_t>(*flags) | allowed);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/check/names/templates.h"
 
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 #include "runtime/hlsl/builder/constants.h"
 #include "runtime/hlsl/check/names/name_parts.h"
 #include "runtime/hlsl/ir/builtin_types.h"
@@ -229,7 +229,8 @@ bool Templates::deduce(const TypeSyntax* syntax, const Type* type,
     return deduce_type(0, types_.scalar(type->scalar));
   }
   if (type->is_query() && part.identifier == resource_name(type->resource)) {
-    deduce_number(0, type->ray_query_flags & ~shader::kRayQueryAllowsMicromaps);
+    deduce_number(0, type->ray_query_flags & ~shader::kRayQueryPermissions);
+    deduce_number(1, shader::query_flags_of(type->ray_query_flags));
     return true;
   }
   if (type->is_resource() && part.identifier == resource_name(type->resource)) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 #include "runtime/hlsl/ir/builtin_types.h"
 
 namespace kaamos::hlsl {
@@ -236,8 +236,9 @@ std::string to_string(const Type* type) {
       std::string text(resource_name(type->resource));
       if (type->is_query()) {
         const uint32_t flags = type->ray_query_flags;
-        text += "<" + std::to_string(flags & ~shader::kRayQueryAllowsMicromaps);
-        text += (flags & shader::kRayQueryAllowsMicromaps) != 0 ? ", 1>" : ">";
+        const uint32_t second = shader::query_flags_of(flags);
+        text += "<" + std::to_string(flags & ~shader::kRayQueryPermissions);
+        text += second != 0 ? ", " + std::to_string(second) + ">" : ">";
       }
       if (type->element && type->resource != ir::ResourceKind::kByteAddressBuffer &&
           type->resource != ir::ResourceKind::kRWByteAddressBuffer) {

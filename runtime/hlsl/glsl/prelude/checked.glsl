@@ -127,6 +127,12 @@ void k_ran_nothing(uint by) {
 uint64_t k_structure_of(k_Descriptor scene) {
   return (scene.kind_access & 0xFFFFu) == 7u ? scene.address : 0UL;
 }
+// The same as checked::reached_inline.
+//@ k_reached_inline
+void k_reached_inline(uint site, bool unknown, k_Descriptor scene, uint flags, uint mask) {
+  if (!unknown && flags >> 30 == 3u) return;
+  k_reached(unknown ? 1u : 3u, site, k_structure_of(scene), flags, mask & 0xFFu);
+}
 
 //@ k_bytes_from
 uint64_t k_bytes_from(uint64_t address) {
@@ -283,8 +289,8 @@ void k_check_ray(vec3 origin, float t_min, vec3 direction, float t_max, uint fla
            packUint2x32(floatBitsToUint(direction.xy)),
            packUint2x32(floatBitsToUint(vec2(direction.z, t_max))));
   }
-  // A query's flags may have kRayQueryAllowsMicromaps of kaamos/shader/micromaps.h.
-  uint own = inline_ray ? flags & 0x7FFFFFFFu : flags;
+  // A query's flags may have kRayQueryPermissions of kaamos/shader/query_permissions.h.
+  uint own = inline_ray ? flags & 0x3FFFFFFFu : flags;
   if (!k_legal_ray_flags(own) || (inline_ray && (flags & 8u) != 0u)) {
     k_tell(inline_ray ? 10u : 9u, site, 0u, 0u, uint64_t(flags), 0UL, 0UL, 0UL);
   }

@@ -427,13 +427,18 @@ constexpr uint32_t make_site(uint32_t file, uint32_t line) {
 }
 
 // A call whose arguments are not all constants in the shader, so that only now it is known what it
-// reaches.
-enum class ReachedBy : uint32_t { kTraceRay, kTraceRayInline, kCallShader };
+// reaches; or a TraceRayInline that lacks a permission for what it may reach.
+enum class ReachedBy : uint32_t {
+  kTraceRay,
+  kTraceRayInline,
+  kCallShader,
+  kTraceRayInlineKnown,  // the structure was known
+};
 struct ReachedCall {
   uint64_t acceleration_structure = 0;
   ReachedBy by = ReachedBy::kTraceRay;
-  uint32_t site = 0;  // as in CheckReport
-  uint32_t ray_flags = 0;
+  uint32_t site = 0;       // as in CheckReport
+  uint32_t ray_flags = 0;  // TraceRayInline: with the RayQuery's permissions
   // TraceRay: mask | contribution << 8 | multiplier << 12 | miss index << 16; CallShader: the
   // index.
   uint32_t indices = 0;

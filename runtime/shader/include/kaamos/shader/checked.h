@@ -9,7 +9,7 @@
 #include "kaamos/shader/bindings.h"
 #include "kaamos/shader/hit_object.h"
 #include "kaamos/shader/memory.h"
-#include "kaamos/shader/micromaps.h"
+#include "kaamos/shader/query_permissions.h"
 #include "kaamos/shader/ray_query.h"
 #include "kaamos/shader/stage.h"
 #include "kaamos/shader/views.h"
@@ -378,18 +378,24 @@ inline void check_query_trace(Invocation& invocation, uint32_t site, uint32_t fl
                               const RayDesc& ray) {
   check_ray(invocation, site, ray);
   constexpr uint32_t kSkipClosestHitShader = 8;
-  if (!legal_ray_flags(flags & ~kRayQueryAllowsMicromaps) || (flags & kSkipClosestHitShader) != 0) {
+  if (!legal_ray_flags(flags & ~kRayQueryPermissions) || (flags & kSkipClosestHitShader) != 0) {
     report(invocation, Finding::kQueryFlags, site, 0, 0, flags);
   }
+}
+
+// `unknown`: the structure is none that the shader names.
+inline void reached_inline(Invocation& invocation, uint32_t site, bool unknown,
+                           const Descriptor& scene, uint32_t flags, uint32_t mask) {
+  if (!unknown && (flags & kRayQueryPermissions) == kRayQueryPermissions) return;
+  reached(invocation, unknown ? ReachedBy::kTraceRayInline : ReachedBy::kTraceRayInlineKnown, site,
+          structure_of(scene), flags, mask & 0xFFu);
 }
 
 template <class Ray>
 inline void trace_ray_inline(Invocation& invocation, uint32_t site, bool unknown, RayQuery& query,
                              const Descriptor& scene, uint32_t flags, uint32_t mask,
                              const Ray& ray) {
-  if (unknown) {
-    reached(invocation, ReachedBy::kTraceRayInline, site, structure_of(scene), flags, mask & 0xFFu);
-  }
+  reached_inline(invocation, site, unknown, scene, flags, mask);
   RayDesc plain;
   __builtin_memcpy(&plain, &ray, sizeof(plain));
   check_query_trace(invocation, site, flags, plain);
