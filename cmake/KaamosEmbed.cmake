@@ -15,12 +15,11 @@ if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
   return()
 endif()
 include_guard()
-set(KAAMOS_EMBED_SCRIPT "${CMAKE_CURRENT_LIST_FILE}")
 
 function(kaamos_embed_texts target name)
   set(output "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
   add_custom_command(OUTPUT "${output}"
-    COMMAND ${CMAKE_COMMAND} -D "OUTPUT=${output}" -D "NAME=${name}" -D "FILES=${ARGN}" -P "${KAAMOS_EMBED_SCRIPT}"
-    DEPENDS ${ARGN} "${KAAMOS_EMBED_SCRIPT}" VERBATIM)
+    COMMAND ${CMAKE_COMMAND} -D "OUTPUT=${output}" -D "NAME=${name}" -D "FILES=${ARGN}" -P "${CMAKE_CURRENT_FUNCTION_LIST_FILE}"
+    DEPENDS ${ARGN} "${CMAKE_CURRENT_FUNCTION_LIST_FILE}" VERBATIM)
   target_sources(${target} PRIVATE "${output}")
 endfunction()

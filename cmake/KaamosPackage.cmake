@@ -146,7 +146,7 @@ function(kaamos_install_package)
   kaamos_collect_dependencies(KAAMOS_DEPENDENCIES ${libraries})
 
   set(programs)
-  foreach(program IN ITEMS kaamos-hlsl kaamos-dxc kaamos-import-vcxproj northlight kaamos-conformance)
+  foreach(program IN ITEMS kaamos-hlsl kaamos-dxc kaamos-import-vcxproj northlight kaamos-conformance kaamos-test)
     if(TARGET ${program})
       list(APPEND programs ${program})
       kaamos_add_alias(${program} ${program})
@@ -169,5 +169,8 @@ function(kaamos_install_package)
     DESTINATION "${KAAMOS_PACKAGE_DIR}" OPTIONAL)
   install(FILES "${PROJECT_SOURCE_DIR}/runtime/shader/gdb/kaamos_gdb.py"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/kaamos/gdb")
+  # kaamos-test carries it with it; editors and other compilers look for a file.
+  install(FILES "${PROJECT_SOURCE_DIR}/tests/shaders/include/kaamos/test.hlsli"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/kaamos/hlsl/kaamos")
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 endfunction()

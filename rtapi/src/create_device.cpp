@@ -2,7 +2,11 @@
 //
 // Puts a device together: its backend, and in checked mode the layer that reads its lists.
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
 
 #include <rtapi/device.h>
 
@@ -10,6 +14,7 @@
 #include "rtapi/src/device/device_impl.h"
 #include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
+#include "runtime/backend/errors.h"
 
 namespace rtapi {
 
@@ -35,6 +40,15 @@ Status check_desc(const DeviceDesc& desc) {
                               "; it must be 4, 8, 16, 32, or 0 (8 lanes)");
   }
   return {};
+}
+
+std::optional<std::array<uint32_t, 3>> print_thread_of_environment() {
+  const char* text = std::getenv("KAAMOS_PRINT_THREAD");
+  std::array<uint32_t, 3> thread = {};
+  if (text == nullptr || std::sscanf(text, "%u,%u,%u", &thread[0], &thread[1], &thread[2]) < 1) {
+    return std::nullopt;
+  }
+  return thread;
 }
 
 }  // namespace
@@ -67,8 +81,13 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   impl->tag = ++g_device_count;
   impl->context.addresses = &impl->addresses;
   // The backend is a member of the device: the pointer outlives it.
+  if (!impl->desc.PrintThread) impl->desc.PrintThread = print_thread_of_environment();
   impl->context.message = [raw = impl.get()](const Message& message) {
-    if (raw->desc.OnMessage) raw->desc.OnMessage(message);
+    if (raw->desc.OnMessage) return raw->desc.OnMessage(message);
+    const auto id = static_cast<runtime::Id>(message.Id.number);
+    if (id == runtime::Id::kShaderPrint || id == runtime::Id::kShaderError) {
+      std::fprintf(stderr, "%s\n", message.Text.c_str());
+    }
   };
   if (desc.Checked) {
     impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/backend/indirect.h"
+#include "runtime/backend/printing.h"
 
 namespace kaamos::runtime {
 namespace {
@@ -137,6 +138,11 @@ rtapi::Status Executor::run(const Command& command) {
   }
   for (const auto& warning : std::exchange(warnings_, {})) {
     context_.message(make_message(warning.id, warning.text));
+  }
+  if (const Printed printed = printed_by(command); printed.buffer != nullptr) {
+    // Also of a shader that removed the device, which may have said why.
+    if (status) status = target_.finish();
+    tell_prints(printed, label(command_name(command)), context_.message);
   }
   return status;
 }

@@ -29,7 +29,8 @@ struct RootBindings {
   // The heaps set on the list; [begin, end) of shader::DispatchConstants. Null: none set.
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
-  rtapi::RootSignature root_signature;  // the one that was set; may be empty
+  std::shared_ptr<BackendBuffer> prints;  // the device's print buffer (printing.h), if it has one
+  rtapi::RootSignature root_signature;    // the one that was set; may be empty
   // The places of its parameters' arguments in `root_arguments`; null without a signature.
   std::shared_ptr<const std::vector<uint32_t>> argument_offsets;
   // Bits of root parameters that were set since; and of those that were set before, under another

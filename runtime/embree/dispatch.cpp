@@ -7,6 +7,7 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/backend/errors.h"
+#include "runtime/backend/printing.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
@@ -214,6 +215,7 @@ void begin_dispatch(const DispatchEnvironment& environment, const runtime::RootB
   };
   range(state.view_heap, abi.view_heap_begin, abi.view_heap_end);
   range(state.sampler_heap, abi.sampler_heap_begin, abi.sampler_heap_end);
+  abi.prints = runtime::view_of_prints(state);
 }
 
 CountedOutcome end_dispatch(RunningDispatch& dispatch) {

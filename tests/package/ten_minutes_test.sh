@@ -5,6 +5,7 @@
 set -euo pipefail
 cmake=$1 build=$2 source=$3 work=$4
 page=$source/examples/d3d12/TEN_MINUTES.md
+source "$(dirname "${BASH_SOURCE[0]}")/page.sh"
 if ! command -v clang++ > /dev/null; then
   echo "clang is not installed (apt install clang)"
   exit 77
@@ -16,10 +17,7 @@ trap 'rm -rf "$work"' EXIT
 export KAAMOS_SDK=$work/sdk KAAMOS_SOURCE=$source
 
 # A backend that is not there, and a debugger, are left out.
-awk '/^<!-- by hand -->/ { skip = 1 }
-     /^```sh/ { if (!skip) inside = 1; skip = 0; next }
-     /^```/ { inside = 0 }
-     inside' "$page" > "$work/blocks.sh"
+blocks_of_page > "$work/blocks.sh"
 [[ ${KAAMOS_REQUIRE_VULKAN:-} == 1 ]] || sed -i '/KAAMOS_BACKEND=vulkan/d' "$work/blocks.sh"
 command -v gdb > /dev/null || sed -i '/^gdb /,/[^\\]$/d' "$work/blocks.sh"
 cd "$work"
@@ -28,15 +26,8 @@ if ! bash -euo pipefail blocks.sh > output.txt 2>&1; then
   exit 1
 fi
 
-# expect WHAT TEXT: the output has the text.
-expect() {
-  grep -qF -- "$2" output.txt && return
-  echo "$page: the output has no $1 (\"$2\"):"
-  cat output.txt
-  exit 1
-}
 while IFS= read -r line; do expect "message of the broken record" "$line"; done \
-  < <(awk '/^```text/ { inside = 1; next } /^```/ { inside = 0 } inside' "$page")
+  < <(shown_by_page)
 pictures=(triangle.ppm)
 [[ ${KAAMOS_REQUIRE_VULKAN:-} == 1 ]] && pictures+=(vulkan.ppm)
 for picture in "${pictures[@]}"; do

@@ -3,9 +3,11 @@
 /// Devices: the factory of everything else.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,8 +81,13 @@ struct DeviceDesc {
   /// undefined: records outside a table or of another state object, missing barriers, structures
   /// that were overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
   bool Checked = false;
+  /// The only thread whose printf and errorf are told, by DispatchRaysIndex, SV_DispatchThreadID,
+  /// (x, y, 0) of a pixel or (vertex, instance, 0); none: all threads'. $KAAMOS_PRINT_THREAD
+  /// ("12,7,0") takes its place where it is none.
+  std::optional<std::array<uint32_t, 3>> PrintThread = std::nullopt;
   /// Called on any thread for what cannot be returned to a caller: errors met while a list
-  /// executes, why the device was removed, warnings. Must not call into the library.
+  /// executes, why the device was removed, warnings, and what shaders print (KA0845, KA0846). Must
+  /// not call into the library. Without it, what shaders print goes to stderr.
   std::function<void(const Message&)> OnMessage = {};
 };
 

@@ -298,6 +298,9 @@ inline constexpr ErrorId kInstanceInactive{797};  ///< instance can never be hit
 inline constexpr ErrorId kIndexOutOfRange{798};  ///< index past VertexCount
 inline constexpr ErrorId kMicromapUnusable{799};  ///< opacity micromap that cannot be used
 inline constexpr ErrorId kMultisampled{844};  ///< a shader uses a writable multisampled texture
+inline constexpr ErrorId kShaderPrint{845};  ///< printf
+inline constexpr ErrorId kShaderError{846};  ///< errorf
+inline constexpr ErrorId kPrintsLost{847};  ///< printf without room
 inline constexpr ErrorId kRayOutOfRange{888};  ///< rays beyond the range of the traversal
 inline constexpr ErrorId kRecursionLimit{890};  ///< TraceRay past the recursion limit
 inline constexpr ErrorId kShaderStack{891};  ///< the shader stack is used up
@@ -658,6 +661,7 @@ inline constexpr ErrorId kSpecializesNothing{2633};  ///< '{0}' specializes no t
 inline constexpr ErrorId kSpecializedLate{2634};  ///< '{0}' is already in use or defined, so it cannot be defined here
 inline constexpr ErrorId kAmbiguousPartial{2635};  ///< several partial specializations fit '{0}' equally well
 inline constexpr ErrorId kNoSuchStatic{2636};  ///< '{0}' has no static member '{1}'
+inline constexpr ErrorId kPrint{2637};  ///< {0}: {1}
 inline constexpr ErrorId kRayQuerySecondFlags{2640};  ///< {0} is not a valid set of RAYQUERY_FLAGs; the second argument of RayQuery is 0, from 6.9 on also 1, from 6.10 on 0 to 3
 inline constexpr ErrorId kAutoWithoutValue{2641};  ///< 'auto' needs an initialiser with a type, so '{0}' cannot have it here
 inline constexpr ErrorId kLoopVariableAgain{2642};  ///< '{0}' hides the variable of a loop before it, which outlives the loop before HLSL 2021

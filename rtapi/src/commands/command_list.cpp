@@ -63,6 +63,7 @@ runtime::RootBindings CommandListImpl::snapshot(const char* call, const RootStat
   state.root_arguments = root.arguments;
   if (view_heap) state.view_heap = view_heap.impl()->memory;
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
+  state.prints = device->prints();
   state.root_signature = root.signature;
   if (const auto& signature = root.signature.impl()) {
     state.argument_offsets = {signature, &signature->offsets};

@@ -113,6 +113,25 @@ std::string describe_heap(const std::optional<HeapSlot>& slot) {
   return " is in a heap of unknown type";
 }
 
+Status DeviceImpl::provide_prints(const runtime::PrintingLibraries& libraries) {
+  const std::lock_guard lock(prints_mutex_);
+  if (libraries.empty() || prints_) return {};
+  BufferDesc buffer;
+  buffer.SizeInBytes = runtime::kPrintBufferBytes;
+  buffer.Heap = HeapType::kReadback;
+  buffer.Name = "print buffer";
+  auto made = backend->create_buffer(buffer);
+  if (!made.ok()) return made.error();
+  runtime::clear_prints(**made, desc.PrintThread);
+  prints_ = std::move(*made);
+  return {};
+}
+
+std::shared_ptr<runtime::BackendBuffer> DeviceImpl::prints() const {
+  const std::lock_guard lock(prints_mutex_);
+  return prints_;
+}
+
 ShaderLibrary DeviceImpl::library_to_run(const ShaderLibrary& library) const {
   if (!reporter) return library;
   CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");

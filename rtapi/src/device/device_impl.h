@@ -19,6 +19,7 @@
 #include "rtapi/src/device/view_names.h"
 #include "rtapi/src/errors/error_table.h"
 #include "runtime/backend/backend.h"
+#include "runtime/backend/printing.h"
 #include "runtime/checks/layer.h"
 #include "runtime/checks/report.h"
 
@@ -61,6 +62,10 @@ struct DeviceImpl {
   // once, with the first that it holds for. Empty if there is nothing to report.
   std::string say_interpreted(const std::string& what, const std::string& reason) const;
 
+  // Makes the print buffer for the pipelines that print, unless there is one already.
+  Status provide_prints(const runtime::PrintingLibraries& libraries);
+  std::shared_ptr<runtime::BackendBuffer> prints() const;
+
   ShaderIdentifier make_identifier(std::string_view name);
 
   // Returns "buffer \"x\" (416 bytes)" for a live address, else "no live buffer".
@@ -82,6 +87,8 @@ struct DeviceImpl {
   std::vector<std::function<void()>> removal_calls_;
   mutable std::mutex said_mutex_;
   mutable std::set<std::string> said_;  // reasons
+  mutable std::mutex prints_mutex_;
+  std::shared_ptr<runtime::BackendBuffer> prints_;
   std::atomic<uint32_t> next_identifier_{1};
 
  public:

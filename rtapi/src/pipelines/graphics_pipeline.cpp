@@ -315,6 +315,9 @@ Result<PipelineState> Device::CreateGraphicsPipelineState(
   if (Status s = link_shaders(*impl_, desc, *linked); !s.ok()) return s.error();
   warn_of_sample_mask(*impl_, *linked);
   if (impl_->checks) impl_->checks->created(*linked);
+  if (Status s = impl_->provide_prints(runtime::printing_libraries(*linked)); !s.ok()) {
+    return s.error();
+  }
   auto pipeline = impl_->backend->create_graphics_pipeline(linked);
   if (!pipeline.ok()) return pipeline.error();
   auto impl = std::make_shared<PipelineStateImpl>();

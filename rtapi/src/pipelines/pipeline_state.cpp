@@ -89,6 +89,9 @@ Result<PipelineState> Device::CreateComputePipelineState(
   linked->shader.stack_bytes = (*kernel)->stack_bytes;
   linked->shader.library_owner = desc.CS;
   linked->shader.global_root_signature = desc.pRootSignature;
+  if (Status s = impl_->provide_prints(runtime::printing_libraries(*linked)); !s.ok()) {
+    return s.error();
+  }
   auto pipeline = impl_->backend->create_compute_pipeline(linked);
   if (!pipeline.ok()) return pipeline.error();
   auto impl = std::make_shared<PipelineStateImpl>();

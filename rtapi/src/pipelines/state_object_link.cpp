@@ -426,6 +426,8 @@ class Linker {
     out_->linked = linked_;
     if (!parts_.is_collection()) out_->stack_bytes = default_stack_bytes(*linked_);
     if (for_backend && !parts_.is_collection()) {
+      const auto printing = runtime::printing_libraries(*linked_);
+      if (Status s = parts_.device->provide_prints(printing); !s.ok()) return s.error();
       auto pipeline = parts_.device->backend->create_raytracing_pipeline(out_->linked);
       if (!pipeline.ok()) return pipeline.error();
       out_->pipeline = std::move(*pipeline);

@@ -351,6 +351,7 @@ bool is_constant_at(const ir::Expr* e, int depth) {
     case ir::ExprKind::kSystemValue:
     case ir::ExprKind::kBinding:
     case ir::ExprKind::kHeapResource:
+    case ir::ExprKind::kPrintBuffer:
     case ir::ExprKind::kLoad:
     case ir::ExprKind::kLoadElement:
     case ir::ExprKind::kTypedLoad:

@@ -433,6 +433,8 @@ std::string CppEmitter::value(const Expr* e) {
       return query_value(expr);
     case ExprKind::kBinding:
       return binding(expr);
+    case ExprKind::kPrintBuffer:
+      return "ctx.invocation.dispatch->prints";
     case ExprKind::kHeapResource: {
       if (module_.check_access) {
         return "ks::checked::heap_resource(ctx.invocation, " + site(expr.location) + ", " +

@@ -219,6 +219,13 @@ void CppEmitter::emit_tables() {
   }
   line("{}};");
   --indent_;
+  open("static const ks::PrintDesc prints[] = {");
+  for (const Print& print : module_.prints) {
+    line("{" + number(print.id) + "ll, " + quote(print.format) + ", " + quote(print.arguments) +
+         ", " + (print.is_error ? "true" : "false") + "},");
+  }
+  line("{}};");
+  --indent_;
   std::string files = "static const char* const files[] = {";
   for (const std::string& file : module_.files) files += quote(file) + ", ";
   line(files + "nullptr};");
@@ -238,7 +245,7 @@ void CppEmitter::emit_tables() {
        number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " +
        number(module_.files.size()) + ", " +
        (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + ", imports, " +
-       number(module_.imports.size()) + "};");
+       number(module_.imports.size()) + ", prints, " + number(module_.prints.size()) + "};");
 }
 
 }  // namespace kaamos::hlsl

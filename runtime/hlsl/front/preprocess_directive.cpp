@@ -8,8 +8,8 @@ namespace kaamos::hlsl {
 namespace {
 
 // Known in other compilers, but without meaning here.
-constexpr std::array<std::string_view, 8> kIgnoredPragmas = {
-    "warning", "message", "region", "endregion", "clang", "GCC", "dxc", "def"};
+constexpr std::array<std::string_view, 9> kIgnoredPragmas = {
+    "warning", "message", "region", "endregion", "clang", "GCC", "dxc", "def", "kaamos"};
 
 }  // namespace
 

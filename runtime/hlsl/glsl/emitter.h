@@ -235,6 +235,7 @@ class GlslEmitter {
 
   // triangle_positions.cpp
   void declare_address();
+  std::string print_buffer();
   std::string position_table();
   bool reads_tables() const;
   std::string query_table_arguments(bool committed) const;

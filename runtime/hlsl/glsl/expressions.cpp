@@ -271,6 +271,8 @@ std::string GlslEmitter::value(const Expr* e) {
       return query_value(expr);
     case ExprKind::kBinding:
       return binding(expr);
+    case ExprKind::kPrintBuffer:
+      return print_buffer();
     case ExprKind::kHeapResource: {
       if (module_.check_access) {
         const ResourceClass c = class_of(expr.type->resource);

@@ -3,7 +3,9 @@
 // Resources: how a binding leads to its descriptor, typed buffers, textures, atomics.
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 
+#include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/glsl/emitter.h"
 #include "runtime/hlsl/ir/texture_shape.h"
@@ -151,6 +153,17 @@ const char* glsl_atomic(AtomicOp op) {
 }  // namespace
 
 // Declares a specialization constant once.
+std::string GlslEmitter::print_buffer() {
+  static_assert(offsetof(shader::spirv::DispatchBlock, prints) == 640);
+  declare_address();
+  return generated("g_print_buffer",
+                   "k_Descriptor g_print_buffer() {\n"
+                   "  return k_Descriptor(2u | 1u << 16, 0u, g_Address(k_dispatch_address + "
+                   "640UL).v, g_Address(k_dispatch_address + 648UL).v, 0u, 0u);\n"
+                   "}\n") +
+         "()";
+}
+
 std::string GlslEmitter::constant(uint32_t id, const std::string& name) {
   if (made_.insert(name).second) {
     constants_ += "layout(constant_id = " + std::to_string(shader_.constants.size()) +

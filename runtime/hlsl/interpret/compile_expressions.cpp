@@ -253,6 +253,8 @@ void Compiler::compile(Node& node) {
       return in_slot(node, evaluate_binding());
     case ExprKind::kHeapResource:
       return in_slot(node, evaluate_heap_resource());
+    case ExprKind::kPrintBuffer:
+      return in_slot(node, evaluate_print_buffer());
     case ExprKind::kLoad:
     case ExprKind::kLoadElement:
       node.moves = moves_of(expr.type, expr.layout, expr.row_major);

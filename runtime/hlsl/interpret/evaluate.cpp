@@ -273,6 +273,10 @@ const std::byte* heap_resource(const Node& node, Frame& frame) {
   return keep(node, frame, shader::heap_resource(*frame.context->invocation, index, sampler));
 }
 
+const std::byte* print_buffer(const Node& node, Frame& frame) {
+  return keep(node, frame, frame.context->invocation->dispatch->prints);
+}
+
 const std::byte* same_bytes(const Node& node, Frame& frame) {
   const std::byte* from = evaluate(*node.operands[0], frame);
   std::byte* to = frame.temporaries + node.slot;
@@ -397,6 +401,9 @@ Evaluate evaluate_binding() {
 }
 Evaluate evaluate_heap_resource() {
   return heap_resource;
+}
+Evaluate evaluate_print_buffer() {
+  return print_buffer;
 }
 
 }  // namespace kaamos::hlsl::interpret

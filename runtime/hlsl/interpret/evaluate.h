@@ -32,6 +32,7 @@ Evaluate evaluate_triangle_positions();
 Evaluate evaluate_cluster_id();
 Evaluate evaluate_binding();
 Evaluate evaluate_heap_resource();
+Evaluate evaluate_print_buffer();
 
 // memory.cpp
 Evaluate evaluate_load();

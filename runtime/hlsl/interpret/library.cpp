@@ -22,6 +22,7 @@ struct InterpretedLibrary::Tables {
   std::vector<shader::ExportDesc> exports;
   std::vector<shader::SubobjectDesc> subobjects;
   std::vector<shader::ImportDesc> imports;
+  std::vector<shader::PrintDesc> prints;
   std::deque<shader::ComputeDesc> compute;
   std::deque<shader::GraphicsDesc> graphics;
   std::deque<std::vector<shader::SignatureElement>> signatures;
@@ -272,6 +273,10 @@ Result<std::shared_ptr<const InterpretedLibrary>> InterpretedLibrary::create(
   }
   for (const ir::Binding& b : m.bindings) tables.bindings.push_back(describe(b));
   for (const ir::Subobject& s : m.subobjects) tables.subobjects.push_back(describe(s));
+  for (const ir::Print& print : m.prints) {
+    tables.prints.push_back(
+        {print.id, print.format.c_str(), print.arguments.c_str(), print.is_error});
+  }
   for (const ir::Import& import : m.imports) {
     tables.imports.push_back(
         {import.name.c_str(), import.mangled.c_str(), import.signature.c_str()});
@@ -286,6 +291,8 @@ Result<std::shared_ptr<const InterpretedLibrary>> InterpretedLibrary::create(
       shader::kLibraryInterpreted | (m.check_access ? shader::kLibraryChecked : 0u);
   tables.library.files = tables.files.data();
   tables.library.file_count = count(tables.files);
+  tables.library.prints = tables.prints.data();
+  tables.library.print_count = count(tables.prints);
   tables.library.imports = tables.imports.data();
   tables.library.import_count = count(tables.imports);
   if (!m.source.empty()) {

@@ -278,8 +278,6 @@ constexpr Family kUnsupported[] = {
     {"AllocateRayQuery", "the name of an instruction; declare a RayQuery", true},
     {"DispatchMesh", "mesh shaders", true},
     {"SetMeshOutputCounts", "mesh shaders", true},
-    {"printf", "printf", true},
-    {"errorf", "errorf", true},
     {"abort", "abort", true},
     {"Process2DQuadTessFactors", "tessellation", false},
     {"tex1D", "Direct3D 9 texture functions", false},
@@ -331,7 +329,9 @@ constexpr std::string_view kByName[] = {"mul",
                                         "AcceptHitAndEndSearch",
                                         "TriangleObjectPositions",
                                         "ClusterID",
-                                        "DebugBreak"};
+                                        "DebugBreak",
+                                        "errorf",
+                                        "printf"};
 
 template <class Rule, size_t N>
 const Rule* find_rule(const Rule (&rules)[N], std::string_view name) {

@@ -158,6 +158,8 @@ class Dumper {
         return call("binding" + std::to_string(of->index), *of);
       case ir::ExprKind::kHeapResource:
         return call("heap", *of);
+      case ir::ExprKind::kPrintBuffer:
+        return call("print_buffer", *of);
       case ir::ExprKind::kLoad:
         return call(std::string(of->layout == ir::Layout::kConstantBuffer ? "load_cb_" : "load_") +
                         (of->row_major ? "rows_" : "") + dump(*of->type),
@@ -439,6 +441,10 @@ std::string dump(const ir::Module& module) {
             std::to_string(entry.attribute_bytes) + " bindings";
     for (const uint32_t binding : entry.bindings) text += " " + std::to_string(binding);
     text += "\n";
+  }
+  for (const ir::Print& print : module.prints) {
+    text += std::string(print.is_error ? "errorf" : "printf") + " (" + print.arguments + ") " +
+            print.format + "\n";
   }
   for (const ir::Import& import : module.imports) text += "import " + import.signature + "\n";
   for (const ir::EntryPoint& entry : module.unlinked_entry_points) {

@@ -189,6 +189,7 @@ enum class ExprKind : uint8_t {
   kTrianglePositions,  // operands: position table (uint2), geometry, primitive. float3x3, a row for
                        // each vertex [kaamos/shader/triangle_positions.h]
   kClusterId,          // operand: position table (uint2). uint32
+  kPrintBuffer,        // the device's RWByteAddressBuffer for printf [kaamos/shader/printing.h]
   kQuad,  // only while a module is made (quad_functions.h): operands[0] combined over the quad
           // of a pixel shader, by `wave`
 };
@@ -536,6 +537,14 @@ struct Subobject {
   Location location;
 };
 
+// One printf or errorf. [shader::PrintDesc]
+struct Print {
+  uint64_t id = 0;
+  std::string format;
+  std::string arguments;
+  bool is_error = false;
+};
+
 struct Module {
   std::string name;    // main source file as given
   std::string target;  // "lib_6_6"
@@ -551,6 +560,7 @@ struct Module {
   std::vector<const Struct*> structs;  // used ones, members before users
   std::vector<Binding> bindings;       // reachable ones
   std::vector<Subobject> subobjects;
+  std::vector<Print> prints;  // by the order of the source, equal ones once
   // Emitters add checks for what DXR leaves undefined. [-check-access]
   bool check_access = false;
   std::string source;  // all source files and options (embedded_source.h); empty: unknown

@@ -223,6 +223,11 @@ class Verifier {
                 "binding is unknown", of);
         break;
       }
+      case ExprKind::kPrintBuffer:
+        require(operands.empty() && type->kind == TypeKind::kResource &&
+                    type->resource == ir::ResourceKind::kRWByteAddressBuffer,
+                "print buffer of another type", of);
+        break;
       case ExprKind::kHeapResource:
         require(operands.size() == 1 && type->kind == TypeKind::kResource, "heap element", of);
         break;

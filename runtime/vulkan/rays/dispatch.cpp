@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "runtime/backend/errors.h"
+#include "runtime/backend/printing.h"
 #include "runtime/backend/ray_flags.h"
 #include "runtime/errors/text.h"
 #include "runtime/vulkan/memory/fault_guard.h"
@@ -364,6 +365,9 @@ DispatchBlock dispatch_block(const runtime::RootBindings& state, const SceneTabl
   };
   range(state.view_heap, block.view_heap_begin, block.view_heap_end);
   range(state.sampler_heap, block.sampler_heap_begin, block.sampler_heap_end);
+  const shader::Descriptor prints = runtime::view_of_prints(state);
+  block.prints = prints.address;
+  block.print_bytes = prints.size_bytes;
   block.instances = scene.instances;
   block.position_tables = scene.position_tables;
   block.top_levels = scene.top_levels;

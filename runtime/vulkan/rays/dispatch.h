@@ -71,7 +71,7 @@ uint64_t bytes_of_blocks(size_t part_count);
 uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
 // A status, and a block behind it.
 inline constexpr uint64_t kStatusBytes = 128;
-inline constexpr uint64_t kBlockBytes = 640;  // blocks are at multiples of 64
+inline constexpr uint64_t kBlockBytes = 704;  // blocks are at multiples of 64
 static_assert(sizeof(shader::spirv::DispatchFeedback) <= kStatusBytes);
 static_assert(sizeof(shader::spirv::DispatchBlock) <= kBlockBytes);
 // Submits what was recorded and waits; wild addresses in shaders are errors.

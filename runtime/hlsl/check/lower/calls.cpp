@@ -79,6 +79,9 @@ Value Calls::lower_call(const CallExpr* expr) {
     report(CheckId::kNotCallable, expr->location);
     return error_value();
   }
+  if (!symbol && name.is_simple() && Printing::is_print(name.last().identifier)) {
+    return lower_.printing.call(name.last().identifier, expr);
+  }
   std::vector<Value> arguments = lower_.expressions.lower_all(expr->arguments, true, true);
   for (const Value& argument : arguments) {
     if (argument.failed()) return error_value();

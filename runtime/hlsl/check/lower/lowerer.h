@@ -27,6 +27,7 @@
 #include "runtime/hlsl/check/lower/packed_numbers.h"
 #include "runtime/hlsl/check/lower/pixel_intrinsics.h"
 #include "runtime/hlsl/check/lower/places.h"
+#include "runtime/hlsl/check/lower/printing.h"
 #include "runtime/hlsl/check/lower/ray_intrinsics.h"
 #include "runtime/hlsl/check/lower/ray_queries.h"
 #include "runtime/hlsl/check/lower/resources.h"
@@ -79,6 +80,7 @@ class Lowerer final : public Evaluator {
   HitObjects hit_objects{*this};
   TrianglePositions triangle_positions{*this};
   Debugging debugging{*this};
+  Printing printing{*this};
   Resources resources{*this};
   Textures textures{*this};
   Multisampled multisampled{*this};

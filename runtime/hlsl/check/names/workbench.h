@@ -14,6 +14,8 @@
 
 namespace kaamos::hlsl {
 
+struct VariableInfo;
+
 struct Workbench {
   Workbench(const SourceManager& sources, DiagnosticEngine& diagnostics)
       : made(std::make_unique<ir::Module>()),
@@ -30,8 +32,9 @@ struct Workbench {
   IrBuilder build;
   Messages messages;
   PayloadFacts payloads;
-  ir::Variable* is_helper = nullptr;  // ModuleFacts::is_helper
-  int depth = 0;                      // of nested declarations, statements and expressions
+  ir::Variable* is_helper = nullptr;     // ModuleFacts::is_helper
+  VariableInfo* print_thread = nullptr;  // Printing::thread()
+  int depth = 0;                         // of nested declarations, statements and expressions
 };
 
 }  // namespace kaamos::hlsl

@@ -181,6 +181,14 @@ bool ComputeStage::check_compute_parameters(FunctionInfo* function, ir::EntryPoi
     valid = valid && argument;
     arguments.push_back(argument);
   }
+  if (const ir::Variable* thread = lower_.printing.thread()) {
+    plain = false;
+    lower_.printing.use_thread(*function);
+    ir::Variable* id = build_.variable("thread", thread->type, ir::Storage::kParameter);
+    wrapper->parameters.push_back(id);
+    entry.parameters.push_back(ir::EntryParameter::kDispatchThreadId);
+    lower_.body.assign(thread, build_.read(id));
+  }
   if (!valid || plain) return valid;
   ir::Stmt* call_statement = build_.stmt(ir::StmtKind::kCall);
   call_statement->function = function->ir;

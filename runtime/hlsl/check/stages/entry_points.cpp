@@ -146,10 +146,24 @@ void EntryPoints::check_entry_point(FunctionInfo* function, uint32_t stage,
   }
   if (!valid || !parameters || !function->ir) return;
   if (!entry.function) entry.function = function->ir;
+  if (stage != ir::kStageCompute && !entry.is_graphics()) name_thread(*function);
   if (stage != ir::kStageCompute && stage != ir::kStageCallable && !entry.is_graphics())
     wrap_payload(function, entry);
   program_.facts.entries.push_back({function, bench_.module.entry_points.size()});
   bench_.module.entry_points.push_back(std::move(entry));
+}
+
+// printf says which thread it comes from.
+void EntryPoints::name_thread(FunctionInfo& function) {
+  const ir::Variable* thread = lower_.printing.thread();
+  if (!thread) return;
+  lower_.printing.use_thread(function);
+  ir::Expr* index = build_.expr(ir::ExprKind::kSystemValue, thread->type);
+  index->system_value = ir::SystemValue::kDispatchRaysIndex;
+  ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
+  statement->place = build_.read(thread);
+  statement->value = index;
+  function.ir->body.insert(function.ir->body.begin(), statement);
 }
 
 bool EntryPoints::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry) {

@@ -28,6 +28,7 @@ class EntryPoints : StagePart {
   void check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name);
   bool check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   uint32_t stage_attribute(FunctionInfo* function);
+  void name_thread(FunctionInfo& function);
   void wrap_payload(FunctionInfo* function, ir::EntryPoint& entry);
 
   Exports& exports_;

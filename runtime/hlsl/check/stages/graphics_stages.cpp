@@ -155,6 +155,18 @@ class GraphicsSignature : StagePart {
     }
   }
 
+  // The thread that printf names.
+  const ir::Expr* thread(const ir::Type* type) {
+    const ir::Expr* zero = build_.uint32(0);
+    if (point_ == SignaturePoint::kPixelIn) {
+      const ir::Expr* pixel = build_.convert(build_.swizzle(position(2), {0, 1}), Scalar::kUint32);
+      return build_.construct(type, {pixel, zero});
+    }
+    const ir::Expr* vertex = number("SV_VertexID", SystemValue::kVertexId);
+    const ir::Expr* instance = number("SV_InstanceID", SystemValue::kInstanceId);
+    return build_.construct(type, {vertex, instance, zero});
+  }
+
  private:
   std::string shader() const {
     return std::string(stage_name(entry_.stage)) + " shader '" + entry_.name + "'";
@@ -303,11 +315,14 @@ class GraphicsSignature : StagePart {
                             {value, inputs->depth_of_pixel()});
   }
 
-  // SV_Position.z, which becomes the last input if it is none yet.
-  const ir::Expr* depth_of_pixel() {
+  const ir::Expr* depth_of_pixel() { return build_.swizzle(position(3), {2}); }
+
+  // SV_Position of a pixel shader, which becomes the last input if it is none yet.
+  const ir::Expr* position(uint8_t least_components) {
     for (size_t i = 0; i < elements.size(); ++i) {
-      if (elements[i].system_value == SystemValue::kPosition) {
-        return build_.swizzle(build_.read(wrapper_.parameters[i]), {2});
+      if (elements[i].system_value == SystemValue::kPosition &&
+          elements[i].components >= least_components) {
+        return build_.read(wrapper_.parameters[i]);
       }
     }
     ir::SignatureElement element;
@@ -315,7 +330,23 @@ class GraphicsSignature : StagePart {
     element.system_value = SystemValue::kPosition;
     element.components = 4;
     const ir::Type* type = build_.vector_type(Scalar::kFloat32, 4);
-    return build_.swizzle(build_.read(imply(std::move(element), "position", type)), {2});
+    return build_.read(imply(std::move(element), "position", type));
+  }
+
+  // The same for a uint that the input assembler makes.
+  const ir::Expr* number(const char* semantic, SystemValue value) {
+    for (size_t i = 0; i < elements.size(); ++i) {
+      if (elements[i].system_value != value) continue;
+      return build_.convert(build_.read(wrapper_.parameters[i]), Scalar::kUint32);
+    }
+    ir::SignatureElement element;
+    element.semantic = semantic;
+    element.system_value = value;
+    element.type = ColumnType::kUint;
+    element.interpolation = Interpolation::kNoInterpolation;
+    element.components = 1;
+    const ir::Type* type = build_.scalar_type(Scalar::kUint32);
+    return build_.read(imply(std::move(element), "number", type));
   }
 
   // Adds an input behind the others.
@@ -495,6 +526,10 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   }
   if (!inputs.failed) inputs.check_limits(location);
   if (is_pixel && !inputs.failed) inputs.read_vertices(*function);
+  if (const ir::Variable* thread = lower_.printing.thread(); thread && !inputs.failed) {
+    lower_.printing.use_thread(*function);
+    lower_.body.assign(thread, inputs.thread(thread->type));
+  }
   function->is_pixel_entry = function->is_pixel_entry || is_pixel;
   lower_.body.emit(call);
   for (Output& output : results) {

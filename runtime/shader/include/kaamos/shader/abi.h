@@ -12,11 +12,12 @@
 #include <cstdint>
 
 #include "kaamos/shader/graphics.h"
+#include "kaamos/shader/printing.h"
 
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 17;
+inline constexpr uint32_t kAbiVersion = 18;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -141,6 +142,8 @@ struct DispatchConstants {
   const AddressRange* ranges_begin = nullptr;
   const AddressRange* ranges_end = nullptr;
   uint32_t max_recursion_depth = 0xFFFFFFFFu;  // for checked libraries
+  // A raw buffer for unordered access (printing.h); null: printf prints nothing.
+  Descriptor prints;
   // True if shaders may read and write texels directly through a descriptor's TextureView;
   // otherwise only the services know what a texture's address stands for.
   bool direct_texels = false;
@@ -680,6 +683,8 @@ struct LibraryDesc {
   uint64_t source_bytes = 0;
   const ImportDesc* imports = nullptr;
   uint32_t import_count = 0;
+  const PrintDesc* prints = nullptr;  // every printf and errorf, once
+  uint32_t print_count = 0;
 };
 
 // The only symbol of a library that is compiled at run time.

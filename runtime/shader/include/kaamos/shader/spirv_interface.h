@@ -108,11 +108,14 @@ struct DispatchBlock {
   uint64_t twin_tables = 0;  // TwinTables, if a shader of the pipeline uses hit objects
   // uint64_t[], indexed by gl_InstanceCustomIndexEXT: the position table of each instance.
   uint64_t position_tables = 0;
+  uint64_t prints = 0;       // the print buffer (printing.h); 0: there is none
+  uint64_t print_bytes = 0;  // of all of it
 };
 static_assert(offsetof(DispatchBlock, root_arguments) == 112);
 static_assert(offsetof(DispatchBlock, twin_tables) == 624);
 static_assert(offsetof(DispatchBlock, position_tables) == 632);
-static_assert(sizeof(DispatchBlock) == 640);
+static_assert(offsetof(DispatchBlock, prints) == 640);
+static_assert(sizeof(DispatchBlock) == 656);
 
 // Maps the HLSL value of an acceleration structure to Vulkan's. A hash table with open addressing:
 // look at slot hash(address) & top_level_mask and at the following slots until you find `address`,
