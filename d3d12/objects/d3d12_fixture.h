@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <wrl/client.h>
 
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,6 +91,35 @@ class D3d12Test : public testing::Test {
  private:
   Quiet quiet_;
   std::optional<Listener> listener_;
+};
+
+// A test that runs on every backend: an instance of each fixture for "embree" and "vulkan".
+class D3d12BackendTest : public D3d12Test, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    setenv("KAAMOS_BACKEND", GetParam(), 1);
+    ComPtr<ID3D12Device> probe;
+    if (FAILED(D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_11_0,
+                                 IID_PPV_ARGS(probe.GetAddressOf())))) {
+      GTEST_SKIP() << "no device: " << GetParam();
+    }
+    D3d12Test::SetUp();
+  }
+  void TearDown() override { unsetenv("KAAMOS_BACKEND"); }
+
+  static D3D12_RESOURCE_DESC texture_desc(UINT width, UINT height, UINT16 depth,
+                                          DXGI_FORMAT format) {
+    D3D12_RESOURCE_DESC desc = {};
+    desc.Dimension =
+        depth > 1 ? D3D12_RESOURCE_DIMENSION_TEXTURE3D : D3D12_RESOURCE_DIMENSION_TEXTURE2D;
+    desc.Width = width;
+    desc.Height = height;
+    desc.DepthOrArraySize = depth;
+    desc.MipLevels = 1;
+    desc.Format = format;
+    desc.SampleDesc.Count = 1;
+    return desc;
+  }
 };
 
 }  // namespace kaamos::d3d12

@@ -71,6 +71,11 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   HRESULT STDMETHODCALLTYPE SetBackgroundProcessingMode(D3D12_BACKGROUND_PROCESSING_MODE mode,
                                                         D3D12_MEASUREMENTS_ACTION action,
                                                         HANDLE event, BOOL* more) override;
+  HRESULT STDMETHODCALLTYPE EnumerateMetaCommands(UINT* count, D3D12_META_COMMAND_DESC*) override {
+    if (count == nullptr) return fail(ErrorId::kNullPointer, "EnumerateMetaCommands: the count.");
+    *count = 0;
+    return S_OK;
+  }
 
   // The debug layer. Of objects the same is stored and printed.
   HRESULT STDMETHODCALLTYPE ReportLiveDeviceObjects(D3D12_RLDO_FLAGS flags) override;

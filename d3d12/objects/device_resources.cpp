@@ -9,11 +9,29 @@ namespace kaamos::d3d12 {
 namespace {
 
 constexpr uint64_t kPlacement = D3D12_DEFAULT_RESOURCE_PLACEMENT_ALIGNMENT;
-constexpr uint64_t kSmallPlacement = D3D12_SMALL_RESOURCE_PLACEMENT_ALIGNMENT;
+
+// Custom heaps choose pages and a pool, of which L1 is memory that the CPU does not see; the others
+// leave both unknown. [D3D12: D3D12_HEAP_PROPERTIES]
+bool fits_its_type(const D3D12_HEAP_PROPERTIES& heap) {
+  const bool pages = heap.CPUPageProperty != D3D12_CPU_PAGE_PROPERTY_UNKNOWN;
+  const bool pool = heap.MemoryPoolPreference != D3D12_MEMORY_POOL_UNKNOWN;
+  if (heap.Type != D3D12_HEAP_TYPE_CUSTOM) return !pages && !pool;
+  return pages && pool &&
+         (heap.MemoryPoolPreference != D3D12_MEMORY_POOL_L1 ||
+          heap.CPUPageProperty == D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE);
+}
 
 // Returns which of rtapi's three heap types has these properties. A custom heap is told by its page
 // property. [D3D12: D3D12_HEAP_PROPERTIES]
 rtapi::Result<rtapi::HeapType> heap_type(const D3D12_HEAP_PROPERTIES& heap) {
+  if (!fits_its_type(heap)) {
+    return make_error(ErrorId::kHeap,
+                      "heap type " + std::to_string(heap.Type) + " with CPUPageProperty " +
+                          std::to_string(heap.CPUPageProperty) + " and MemoryPoolPreference " +
+                          std::to_string(heap.MemoryPoolPreference) +
+                          "; CUSTOM heaps (4) have both, and L1 (2) only with NOT_AVAILABLE (1); "
+                          "the others have neither.");
+  }
   switch (heap.Type) {
     case D3D12_HEAP_TYPE_DEFAULT:
       return rtapi::HeapType::kDefault;
@@ -46,19 +64,20 @@ rtapi::Result<rtapi::Resource> make_buffer(const rtapi::Device& device,
                                            const D3D12_HEAP_PROPERTIES& heap,
                                            const D3D12_RESOURCE_DESC1& desc,
                                            D3D12_RESOURCE_STATES state) {
-  if (desc.Layout != D3D12_TEXTURE_LAYOUT_ROW_MAJOR || desc.Height != 1 ||
-      desc.DepthOrArraySize != 1 || desc.MipLevels != 1 || desc.Format != DXGI_FORMAT_UNKNOWN ||
-      desc.SampleDesc.Count != 1) {
-    return make_error(
-        ErrorId::kResource,
-        "a buffer has Layout ROW_MAJOR (1), Height, DepthOrArraySize, MipLevels and "
-        "SampleDesc.Count 1, and Format UNKNOWN (0); here: " +
-            std::to_string(desc.Layout) + ", " + std::to_string(desc.Height) + ", " +
-            std::to_string(desc.DepthOrArraySize) + ", " + std::to_string(desc.MipLevels) + ", " +
-            std::to_string(desc.SampleDesc.Count) + ", " + std::to_string(desc.Format) + ".");
-  }
+  if (const auto checked = check_buffer_desc(desc); !checked.ok()) return checked.error();
   const auto type = heap_type(heap);
   if (!type) return type.error();
+  // What the GPU writes lies on the default heap. [D3D12: D3D12_HEAP_TYPE]
+  constexpr UINT kWritten =
+      D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET | D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS;
+  if ((desc.Flags & kWritten) != 0 &&
+      (heap.Type == D3D12_HEAP_TYPE_UPLOAD || heap.Type == D3D12_HEAP_TYPE_READBACK)) {
+    return make_error(ErrorId::kResource,
+                      "a buffer on heap type " + std::to_string(heap.Type) + " has Flags " +
+                          std::to_string(desc.Flags) +
+                          "; ALLOW_RENDER_TARGET (1) and ALLOW_UNORDERED_ACCESS (4) need the "
+                          "default heap (1).");
+  }
   rtapi::BufferDesc out;
   out.SizeInBytes = desc.Width;
   out.Heap = *type;
@@ -114,12 +133,12 @@ HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_H
                   ? make_buffer(device.rtapi_device(), heap, desc, state)
                   : make_texture(device.rtapi_device(), heap, desc, state, clear);
   if (!made) return device.reporter().fail(made.error());
-  return hand_out(new Resource(&device, *std::move(made), desc, heap, flags, placed_in), riid,
+  const auto alignment = placement_alignment(desc);
+  if (!alignment) return device.reporter().fail(alignment.error());
+  D3D12_RESOURCE_DESC1 stored = desc;
+  stored.Alignment = *alignment;
+  return hand_out(new Resource(&device, *std::move(made), stored, heap, flags, placed_in), riid,
                   resource);
-}
-
-uint64_t round_up(uint64_t value, uint64_t to) {
-  return (value + to - 1) / to * to;
 }
 
 }  // namespace
@@ -267,94 +286,6 @@ HRESULT Device::CreatePlacedResource(ID3D12Heap* heap, UINT64 offset,
                                resource);
 }
 
-namespace {
-
-// Bytes of a resource's contents.
-rtapi::Result<uint64_t> content_bytes(const rtapi::Device& device,
-                                      const D3D12_RESOURCE_DESC1& desc) {
-  if (desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER) return uint64_t{desc.Width};
-  const auto texture = texture_desc(desc);
-  if (!texture) return texture.error();
-  // A chain of mips that rtapi is to count itself has at most 15 levels.
-  const uint32_t slices =
-      desc.Dimension == D3D12_RESOURCE_DIMENSION_TEXTURE3D ? 1 : desc.DepthOrArraySize;
-  uint32_t mips = desc.MipLevels;
-  for (uint32_t side = std::max<uint32_t>({static_cast<uint32_t>(desc.Width), desc.Height, 1});
-       desc.MipLevels == 0 && side != 0; side /= 2) {
-    ++mips;
-  }
-  const uint32_t planes = rtapi::HasStencil(rtapi::GetDepthFormat(texture->Format)) ? 2 : 1;
-  std::vector<rtapi::PlacedSubresourceFootprint> layouts;
-  const uint32_t samples = texture->SampleDesc.Count;
-  if (samples == 1) {
-    return device.GetCopyableFootprints(*texture, 0, mips * slices * planes, 0, &layouts);
-  }
-  rtapi::TextureDesc one = *texture;
-  one.SampleDesc = {};
-  const auto bytes = device.GetCopyableFootprints(one, 0, slices * planes, 0, &layouts);
-  if (!bytes) return bytes.error();
-  return *bytes * samples;
-}
-
-// Returns the alignment that the desc asks for, of which textures may have 4 KiB if they are small
-// and no targets. Multisampled ones have 4 MiB, or 64 KiB if they are asked for and they fit in 4
-// MiB. [D3D12: GetResourceAllocationInfo; D3D12_RESOURCE_DESC, Alignment]
-rtapi::Result<uint64_t> placement(const D3D12_RESOURCE_DESC1& desc, uint64_t bytes) {
-  const bool plain = desc.Dimension != D3D12_RESOURCE_DIMENSION_BUFFER &&
-                     (desc.Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
-                                    D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) == 0;
-  constexpr uint64_t kMultisampled = D3D12_DEFAULT_MSAA_RESOURCE_PLACEMENT_ALIGNMENT;
-  if (desc.SampleDesc.Count > 1) {
-    if (desc.Alignment == 0 || desc.Alignment == kMultisampled) return kMultisampled;
-    if (desc.Alignment == kPlacement && bytes <= kMultisampled) return kPlacement;
-    return make_error(ErrorId::kResource,
-                      "Alignment is " + std::to_string(desc.Alignment) +
-                          " with several samples; it is 0, 4194304, or 65536 for textures of up to "
-                          "4194304 bytes.");
-  }
-  if (desc.Alignment == 0 || desc.Alignment == kPlacement) return kPlacement;
-  if (desc.Alignment == kSmallPlacement && plain && bytes <= kPlacement) return kSmallPlacement;
-  return make_error(ErrorId::kResource,
-                    "Alignment is " + std::to_string(desc.Alignment) +
-                        "; it is 0, 65536, or 4096 for textures of up to 65536 bytes that are no "
-                        "targets.");
-}
-
-}  // namespace
-
-D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo2(
-    UINT, UINT count, const D3D12_RESOURCE_DESC1* descs, D3D12_RESOURCE_ALLOCATION_INFO1* infos) {
-  D3D12_RESOURCE_ALLOCATION_INFO all = {0, 1};
-  for (UINT i = 0; i < count; ++i) {
-    const auto bytes = content_bytes(device_, descs[i]);
-    const auto alignment = bytes.ok() ? placement(descs[i], *bytes) : bytes;
-    if (!alignment.ok()) {
-      fail(alignment.error());
-      return {UINT64_MAX, kPlacement};
-    }
-    const uint64_t size = round_up(std::max<uint64_t>(*bytes, 1), *alignment);
-    const uint64_t offset = round_up(all.SizeInBytes, *alignment);
-    if (infos != nullptr) infos[i] = {offset, *alignment, size};
-    all.SizeInBytes = offset + size;
-    all.Alignment = std::max(all.Alignment, *alignment);
-  }
-  all.SizeInBytes = round_up(all.SizeInBytes, all.Alignment);
-  return all;
-}
-
-D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo1(
-    UINT visible_mask, UINT count, const D3D12_RESOURCE_DESC* descs,
-    D3D12_RESOURCE_ALLOCATION_INFO1* infos) {
-  std::vector<D3D12_RESOURCE_DESC1> descs1;
-  for (UINT i = 0; i < count; ++i) descs1.push_back(with_sampler_feedback(descs[i]));
-  return GetResourceAllocationInfo2(visible_mask, count, descs1.data(), infos);
-}
-
-D3D12_RESOURCE_ALLOCATION_INFO Device::GetResourceAllocationInfo(UINT visible_mask, UINT count,
-                                                                 const D3D12_RESOURCE_DESC* descs) {
-  return GetResourceAllocationInfo1(visible_mask, count, descs, nullptr);
-}
-
 D3D12_HEAP_PROPERTIES Device::GetCustomHeapProperties(UINT, D3D12_HEAP_TYPE type) {
   const D3D12_CPU_PAGE_PROPERTY page =
       type == D3D12_HEAP_TYPE_UPLOAD     ? D3D12_CPU_PAGE_PROPERTY_WRITE_COMBINE
@@ -363,54 +294,6 @@ D3D12_HEAP_PROPERTIES Device::GetCustomHeapProperties(UINT, D3D12_HEAP_TYPE type
   const D3D12_MEMORY_POOL pool =
       type == D3D12_HEAP_TYPE_DEFAULT ? D3D12_MEMORY_POOL_L1 : D3D12_MEMORY_POOL_L0;
   return {D3D12_HEAP_TYPE_CUSTOM, page, pool, 1, 1};
-}
-
-void Device::GetCopyableFootprints1(const D3D12_RESOURCE_DESC1* desc, UINT first, UINT count,
-                                    UINT64 base_offset, D3D12_PLACED_SUBRESOURCE_FOOTPRINT* layouts,
-                                    UINT* row_counts, UINT64* row_sizes, UINT64* total) {
-  if (desc == nullptr) return;
-  std::vector<rtapi::PlacedSubresourceFootprint> placed;
-  std::vector<uint32_t> rows;
-  std::vector<uint64_t> bytes;
-  rtapi::Result<uint64_t> end = uint64_t{0};
-  if (desc->Dimension == D3D12_RESOURCE_DIMENSION_BUFFER) {
-    // One row of bytes.
-    rtapi::PlacedSubresourceFootprint footprint;
-    footprint.Offset = base_offset;
-    footprint.Footprint = {rtapi::Format::kUnknown, static_cast<uint32_t>(desc->Width), 1, 1,
-                           static_cast<uint32_t>(round_up(desc->Width, 256))};
-    placed.push_back(footprint);
-    rows.push_back(1);
-    bytes.push_back(desc->Width);
-    end = desc->Width;
-  } else if (const auto texture = texture_desc(*desc); !texture) {
-    end = texture.error();
-  } else {
-    end =
-        device_.GetCopyableFootprints(*texture, first, count, base_offset, &placed, &rows, &bytes);
-  }
-  // D3D12 reports a failure as all bits set.
-  if (!end) fail(end.error());
-  static_assert(sizeof(rtapi::PlacedSubresourceFootprint) ==
-                sizeof(D3D12_PLACED_SUBRESOURCE_FOOTPRINT));
-  for (UINT i = 0; i < count; ++i) {
-    const bool known = end.ok() && i < placed.size();
-    if (layouts != nullptr) {
-      std::memset(&layouts[i], 0xFF, sizeof(layouts[i]));
-      if (known) std::memcpy(&layouts[i], &placed[i], sizeof(layouts[i]));
-    }
-    if (row_counts != nullptr) row_counts[i] = known ? rows[i] : UINT32_MAX;
-    if (row_sizes != nullptr) row_sizes[i] = known ? bytes[i] : UINT64_MAX;
-  }
-  if (total != nullptr) *total = end.ok() ? *end : UINT64_MAX;
-}
-
-void Device::GetCopyableFootprints(const D3D12_RESOURCE_DESC* desc, UINT first, UINT count,
-                                   UINT64 base_offset, D3D12_PLACED_SUBRESOURCE_FOOTPRINT* layouts,
-                                   UINT* row_counts, UINT64* row_sizes, UINT64* total) {
-  if (desc == nullptr) return;
-  const D3D12_RESOURCE_DESC1 desc1 = with_sampler_feedback(*desc);
-  GetCopyableFootprints1(&desc1, first, count, base_offset, layouts, row_counts, row_sizes, total);
 }
 
 }  // namespace kaamos::d3d12

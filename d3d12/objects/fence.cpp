@@ -53,7 +53,7 @@ HRESULT Device::SetEventOnMultipleFenceCompletion(ID3D12Fence* const* fences, co
   if (count == 0 || fences == nullptr || values == nullptr) {
     return fail(ErrorId::kNullPointer, "SetEventOnMultipleFenceCompletion: no fences or values.");
   }
-  if (flags > D3D12_MULTIPLE_FENCE_WAIT_FLAG_ANY) {
+  if (static_cast<UINT>(flags) > D3D12_MULTIPLE_FENCE_WAIT_FLAG_ANY) {
     fail(ErrorId::kWin32, "SetEventOnMultipleFenceCompletion: Flags is " + std::to_string(flags) +
                               "; it is 0 (ALL) or 1 (ANY).");
     return E_INVALIDARG;

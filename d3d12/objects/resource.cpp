@@ -19,7 +19,6 @@ Resource::Resource(ID3D12Device* device, rtapi::Resource resource, const D3D12_R
       heap_(heap),
       heap_flags_(heap_flags),
       placed_in_(placed_in) {
-  if (desc_.Alignment == 0) desc_.Alignment = D3D12_DEFAULT_RESOURCE_PLACEMENT_ALIGNMENT;
   if (heap_.CreationNodeMask == 0) heap_.CreationNodeMask = 1;
   if (heap_.VisibleNodeMask == 0) heap_.VisibleNodeMask = 1;
   if (const rtapi::Texture texture = this->texture()) {
@@ -174,6 +173,29 @@ D3D12_RESOURCE_DESC1 with_sampler_feedback(const D3D12_RESOURCE_DESC& desc) {
   return {desc.Dimension,        desc.Alignment, desc.Width,  desc.Height,
           desc.DepthOrArraySize, desc.MipLevels, desc.Format, desc.SampleDesc,
           desc.Layout,           desc.Flags,     {}};
+}
+
+rtapi::Status check_buffer_desc(const D3D12_RESOURCE_DESC1& desc) {
+  if (desc.Layout != D3D12_TEXTURE_LAYOUT_ROW_MAJOR || desc.Height != 1 ||
+      desc.DepthOrArraySize != 1 || desc.MipLevels != 1 || desc.Format != DXGI_FORMAT_UNKNOWN ||
+      desc.SampleDesc.Count != 1) {
+    return make_error(
+        ErrorId::kResource,
+        "a buffer has Layout ROW_MAJOR (1), Height, DepthOrArraySize, MipLevels and "
+        "SampleDesc.Count 1, and Format UNKNOWN (0); here: " +
+            std::to_string(desc.Layout) + ", " + std::to_string(desc.Height) + ", " +
+            std::to_string(desc.DepthOrArraySize) + ", " + std::to_string(desc.MipLevels) + ", " +
+            std::to_string(desc.SampleDesc.Count) + ", " + std::to_string(desc.Format) + ".");
+  }
+  constexpr UINT kOfTextures =
+      D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL | D3D12_RESOURCE_FLAG_ALLOW_SIMULTANEOUS_ACCESS;
+  if ((desc.Flags & kOfTextures) != 0) {
+    return make_error(ErrorId::kResource,
+                      "a buffer's Flags are " + std::to_string(desc.Flags) +
+                          "; ALLOW_DEPTH_STENCIL (2) and ALLOW_SIMULTANEOUS_ACCESS (32) are for "
+                          "textures.");
+  }
+  return {};
 }
 
 rtapi::Result<rtapi::TextureDesc> texture_desc(const D3D12_RESOURCE_DESC1& desc) {

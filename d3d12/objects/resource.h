@@ -87,6 +87,15 @@ inline rtapi::Texture rtapi_texture(ID3D12Resource* resource) {
 /// The desc of GetDesc1 for that of GetDesc.
 D3D12_RESOURCE_DESC1 with_sampler_feedback(const D3D12_RESOURCE_DESC& desc);
 
+/// Whether the description of a buffer is one. [D3D12: D3D12_RESOURCE_DESC]
+/// @errors KA4011.
+rtapi::Status check_buffer_desc(const D3D12_RESOURCE_DESC1& desc);
+
+/// The alignment in bytes that a resource has in a heap: the one that `desc` asks for, or for 0 the
+/// usual one. [D3D12: D3D12_RESOURCE_DESC, Alignment]
+/// @errors KA4011.
+rtapi::Result<uint64_t> placement_alignment(const D3D12_RESOURCE_DESC1& desc);
+
 /// rtapi's description of a texture. Refuses what rtapi has no member for: several samples, unknown
 /// layouts.
 /// @errors KA4011.

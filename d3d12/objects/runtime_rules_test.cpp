@@ -9,19 +9,8 @@
 namespace kaamos::d3d12 {
 namespace {
 
-class RuntimeRules : public D3d12Test, public testing::WithParamInterface<const char*> {
+class RuntimeRules : public D3d12BackendTest {
  protected:
-  void SetUp() override {
-    setenv("KAAMOS_BACKEND", GetParam(), 1);
-    ComPtr<ID3D12Device> probe;
-    if (FAILED(D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_11_0,
-                                 IID_PPV_ARGS(probe.GetAddressOf())))) {
-      GTEST_SKIP() << "no device: " << GetParam();
-    }
-    D3d12Test::SetUp();
-  }
-  void TearDown() override { unsetenv("KAAMOS_BACKEND"); }
-
   std::vector<uint32_t> read(ID3D12Resource* source, size_t count) {
     const auto readback =
         buffer(count * 4, D3D12_HEAP_TYPE_READBACK, D3D12_RESOURCE_STATE_COPY_DEST);
@@ -32,20 +21,6 @@ class RuntimeRules : public D3d12Test, public testing::WithParamInterface<const 
     std::vector<uint32_t> out(count);
     std::memcpy(out.data(), bytes, count * 4);
     return out;
-  }
-
-  static D3D12_RESOURCE_DESC texture_desc(UINT width, UINT height, UINT16 depth,
-                                          DXGI_FORMAT format) {
-    D3D12_RESOURCE_DESC desc = {};
-    desc.Dimension =
-        depth > 1 ? D3D12_RESOURCE_DIMENSION_TEXTURE3D : D3D12_RESOURCE_DIMENSION_TEXTURE2D;
-    desc.Width = width;
-    desc.Height = height;
-    desc.DepthOrArraySize = depth;
-    desc.MipLevels = 1;
-    desc.Format = format;
-    desc.SampleDesc.Count = 1;
-    return desc;
   }
 };
 
