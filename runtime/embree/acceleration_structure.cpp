@@ -132,8 +132,8 @@ rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureComma
   return runtime::copy_structure(device.structure_environment(), command, rebuild_level(device));
 }
 
-rtapi::Status complete_top_levels(Device& device) {
-  return runtime::complete_top_levels(device.structure_environment(), rebuild_level(device));
+rtapi::Status complete_structures(Device& device) {
+  return runtime::complete_structures(device.structure_environment(), rebuild_level(device));
 }
 
 rtapi::Status execute_operations(Device& device, const runtime::RtasOperationsCommand& command,

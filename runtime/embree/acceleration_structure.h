@@ -19,7 +19,7 @@ rtapi::Status build(Device& device, const runtime::BuildCommand& command);
 rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureCommand& command);
 rtapi::Status execute_operations(Device& device, const runtime::RtasOperationsCommand& command,
                                  const std::string& label);
-// To be called before a dispatch. [runtime::complete_top_levels]
-rtapi::Status complete_top_levels(Device& device);
+// To be called before a dispatch. [runtime::complete_structures]
+rtapi::Status complete_structures(Device& device);
 
 }  // namespace kaamos::embree

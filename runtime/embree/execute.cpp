@@ -27,18 +27,18 @@ class Target final : public runtime::CommandTarget {
   runtime::DispatchOutcome dispatch_rays(const runtime::DispatchRaysCommand& command,
                                          const std::string& label) override {
     if (auto s = finish(); !s) return {s};
-    if (auto s = complete_top_levels(device_); !s) return {s};
+    if (auto s = complete_structures(device_); !s) return {s};
     return counted(embree::dispatch_rays(device_.dispatch_environment(), command, label));
   }
   runtime::DispatchOutcome dispatch(const runtime::DispatchCommand& command,
                                     const std::string& label) override {
     if (auto s = finish(); !s) return {s};
-    if (auto s = complete_top_levels(device_); !s) return {s};
+    if (auto s = complete_structures(device_); !s) return {s};
     return counted(dispatch_compute(device_.dispatch_environment(), command, label));
   }
   rtapi::Status draw(const runtime::DrawCommand& command, const std::string& label) override {
     // Shaders may trace rays.
-    if (auto s = complete_top_levels(device_); !s) return s;
+    if (auto s = complete_structures(device_); !s) return s;
     return reported(pass_.draw(command, label));
   }
   rtapi::Status clear_target(const runtime::ClearTargetCommand& command) override {

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <tuple>
 
-#include "runtime/operations/partitioned_top_level.h"
 #include "runtime/structures/build_inputs.h"
 #include "runtime/structures/instances.h"
+#include "runtime/structures/partitioned_instances.h"
 
 namespace kaamos::explain {
 namespace {

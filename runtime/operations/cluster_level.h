@@ -12,16 +12,11 @@
 #include <rtapi/rtas_operations.h>
 
 #include "runtime/operations/notes.h"
-#include "runtime/structures/cluster.h"
+#include "runtime/structures/clustered_level.h"
 #include "runtime/structures/structure_commands.h"
 #include "runtime/structures/structure_copies.h"
 
 namespace kaamos::runtime {
-
-using Clusters = std::vector<std::shared_ptr<const Cluster>>;
-
-// All triangles, put together by geometry index, flags and micromap array.
-std::vector<ClusteredGeometry> geometries_of(const Clusters& clusters);
 
 // Builds the bottom levels of one operation.
 class ClusterLevelBuilder {

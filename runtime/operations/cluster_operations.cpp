@@ -68,6 +68,8 @@ Status make(const rtapi::RtasClasInputsDesc& inputs, Run& run) {
     if (!builder.read(args, i, clusters, run.objects[i].clusters)) continue;
     auto built = builder.build(clusters, i, run.build, run.objects[i].structure);
     if (!built) return built.error();
+    run.objects[i].structure.clusters =
+        std::make_shared<const std::vector<uint64_t>>(run.objects[i].clusters);
     if (*built) run.objects[i].bytes = bytes;
   }
   return {};

@@ -24,25 +24,7 @@ using TranslateArgs = rtapi::RtasPartitionedTlasTranslatePartitionArgs;
 
 constexpr uint32_t kGlobal = rtapi::kRtasPartitionIndexGlobalPartition;
 constexpr uint32_t kContributionMask = 0xFFFFFF;
-constexpr uint32_t kInstanceFlagsMask = 0x3F;  // those of every top level
 constexpr size_t kOperationTypes = 3;
-
-bool translates(const rtapi::RtasPartitionedTlasInputsDesc& inputs) {
-  return HasAny(inputs.Flags, rtapi::RtasPartitionedTlasFlags::kEnablePartitionTranslation);
-}
-
-// All rows without a 3x3 part, or NaN anywhere: not part of the top level at all, whatever its
-// bottom level. [DXR 2.0: Degenerate PTLAS instances]
-bool is_degenerate(const float (&transform)[3][4]) {
-  bool empty = true;
-  for (const auto& row : transform) {
-    for (int i = 0; i < 4; ++i) {
-      if (std::isnan(row[i])) return true;
-      if (i < 3 && row[i] != 0) empty = false;
-    }
-  }
-  return empty;
-}
 
 // One operation's arguments in GPU memory.
 struct Arguments {
@@ -82,15 +64,10 @@ class Builder {
   void check_write(uint32_t index, WriteArgs& args);
   void check_explicit_box(uint32_t index);
   void disable_removed_members();
-  uint32_t place_of(uint32_t partition) const {
-    return partition == kGlobal ? inputs_.PartitionCount : partition;
-  }
   void count(const PartitionedInstance& slot, uint32_t change);
   void check_members();
-  rtapi::Status build_level(const RebuildLevel& build, AccelerationStructure& result) const;
   void activate_changed();
   void activate(uint32_t index);
-  const Translation& translation_of(uint32_t partition) const;
   void mark(uint32_t index);
   bool in_place() const {
     return data_.SourceAccelerationStructureData == data_.DestAccelerationStructureData;
@@ -145,7 +122,7 @@ void Builder::mark(uint32_t index) {
 void Builder::resize() {
   const uint32_t count = inputs_.InstanceCount;
   const auto before = static_cast<uint32_t>(level_->slots.size());
-  const bool had_translations = translates(level_->inputs);
+  const bool had_translations = level_->translates();
   is_changed_.assign(count, 0);
   is_written_.assign(count, 0);
   is_updated_.assign(count, 0);
@@ -156,13 +133,13 @@ void Builder::resize() {
   level_->slots.resize(count);
   level_->instances.resize(count);
   for (uint32_t i = before; i < count; ++i) mark(i);
-  if (had_translations && !translates(inputs_)) {
+  level_->inputs = inputs_;
+  if (had_translations && !level_->translates()) {
     for (uint32_t i = 0; i < std::min(before, count); ++i) mark(i);
     level_->translations.clear();
     level_->global_translation = {};
   }
-  if (translates(inputs_)) level_->translations.resize(inputs_.PartitionCount, Translation{});
-  level_->inputs = inputs_;
+  if (level_->translates()) level_->translations.resize(inputs_.PartitionCount, Translation{});
 }
 
 void Builder::read_operations() {
@@ -342,7 +319,7 @@ void Builder::update(const Arguments& arguments) {
 
 void Builder::translate(const Arguments& arguments) {
   if (arguments.count == 0) return;
-  if (!translates(inputs_)) {
+  if (!level_->translates()) {
     return notes_.add(
         "TRANSLATE_PARTITION needs kEnablePartitionTranslation in the inputs' flags; "
         "it is left out");
@@ -395,7 +372,7 @@ void Builder::disable_removed_members() {
 
 void Builder::count(const PartitionedInstance& slot, uint32_t change) {
   if (level_->members.empty() || !slot.written || is_degenerate(slot.args.Transform)) return;
-  level_->members[place_of(slot.args.PartitionIndex)] += change;
+  level_->members[level_->place_of(slot.args.PartitionIndex)] += change;
 }
 
 void Builder::check_members() {
@@ -415,32 +392,12 @@ void Builder::check_members() {
   }
 }
 
-const Translation& Builder::translation_of(uint32_t partition) const {
-  static constexpr Translation kNone = {};
-  if (!translates(inputs_)) return kNone;
-  return partition == kGlobal ? level_->global_translation : level_->translations[partition];
-}
-
 void Builder::activate(uint32_t index) {
-  const PartitionedInstance& slot = level_->slots[index];
-  Instance& instance = level_->instances[index];
-  instance = {};
-  instance.desc.InstanceMask = 0;
-  if (!slot.written) return;
-  const WriteArgs& args = slot.args;
-  rtapi::RaytracingInstanceDesc& desc = instance.desc;
-  std::memcpy(desc.Transform, args.Transform, sizeof(desc.Transform));
-  const Translation& translation = translation_of(args.PartitionIndex);
-  for (int row = 0; row < 3; ++row) desc.Transform[row][3] += translation[row];
-  instance.id = args.InstanceID;
-  desc.InstanceID = args.InstanceID & 0xFFFFFF;
-  desc.InstanceMask = args.InstanceMask & 0xFF;
-  desc.InstanceContributionToHitGroupIndex = args.InstanceContributionToHitGroupIndex;
-  desc.Flags = static_cast<uint32_t>(args.InstanceFlags) & kInstanceFlagsMask;
-  desc.AccelerationStructure = args.AccelerationStructure;
-  if (is_degenerate(desc.Transform)) return;
-  const char* why = activate_instance(environment_.structures, instance);
-  if (instance.bottom_level != nullptr) notes_.reads(args.AccelerationStructure, 1, "bottom level");
+  const char* why = runtime::activate(environment_.structures, *level_, index);
+  const Instance& instance = level_->instances[index];
+  if (instance.bottom_level != nullptr) {
+    notes_.reads(instance.desc.AccelerationStructure, 1, "bottom level");
+  }
   if (why != nullptr) {
     notes_.add("instance " + std::to_string(index) + ": " + why, Id::kInstanceInactive);
   }
@@ -492,18 +449,6 @@ void Builder::activate_changed() {
   }
 }
 
-rtapi::Status Builder::build_level(const RebuildLevel& build, AccelerationStructure& result) const {
-  if (!build.partitioned_level) return build.top_level(level_->instances, result);
-  if (source_ != nullptr && in_place()) result.top_level = source_->top_level;
-  const auto partition_of = [this](uint32_t instance) {
-    return place_of(level_->slots[instance].args.PartitionIndex);
-  };
-  const bool prefers_trace = HasAny(inputs_.Flags, rtapi::RtasPartitionedTlasFlags::kFastTrace);
-  return build.partitioned_level(
-      {level_->instances, changed_, inputs_.PartitionCount + 1, prefers_trace, partition_of},
-      result);
-}
-
 rtapi::Status Builder::run(const RebuildLevel& build) {
   const uint64_t dest = data_.DestAccelerationStructureData;
   const uint64_t bytes = partitioned_bytes(inputs_);
@@ -521,7 +466,8 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
   result.compacted_bytes = bytes;
   result.instance_count = inputs_.InstanceCount;
   result.partitioned = level_;
-  if (auto s = build_level(build, result); !s) return s;
+  if (source_ != nullptr && in_place()) result.top_level = source_->top_level;
+  if (auto s = build_partitioned_level(build, *level_, changed_, result); !s) return s;
   environment_.structures.place(std::move(result));
   notes_.writes(dest, bytes, "result");
   return {};

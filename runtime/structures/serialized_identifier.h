@@ -12,7 +12,7 @@
 namespace kaamos::runtime {
 
 // Must go up with every change of the format.
-inline constexpr uint32_t kSerializedVersion = 2;
+inline constexpr uint32_t kSerializedVersion = 3;
 
 inline rtapi::SerializedDataDriverMatchingIdentifier serialized_identifier() {
   rtapi::SerializedDataDriverMatchingIdentifier identifier;

@@ -24,7 +24,8 @@ namespace kaamos::runtime {
 struct SerializedSize {
   uint64_t bytes = 0;  // including header and addresses
   // One for each instance of a top level, null or not; 1 block for a bottom level with micromaps,
-  // whose list has an address for each geometry that has some; otherwise 0.
+  // whose list has an address for each geometry that has some, and for a bottom level of clusters
+  // and a partitioned top level; otherwise 0.
   uint64_t pointers = 0;
 };
 SerializedSize serialized_size(const AccelerationStructure& structure);
@@ -46,6 +47,12 @@ struct SerializedStructure {
   // With the addresses of the list after the header; empty if no geometry is linked.
   std::vector<std::shared_ptr<MicromapLinkage>> linkages;
   std::shared_ptr<const MicromapArray> micromaps;  // micromap array
+  // EXPERIMENTAL: what operations made; clusters and templates have their linkage above, too. A
+  // bottom level of clusters is their addresses, and a partitioned top level is not yet activated.
+  std::shared_ptr<const Cluster> cluster;
+  std::shared_ptr<const ClusterTemplate> cluster_template;
+  std::vector<uint64_t> clusters;
+  std::shared_ptr<PartitionedTopLevel> partitioned;
 };
 
 // `bytes` begin with the header, may be longer than the structure, are aligned to 8, and must

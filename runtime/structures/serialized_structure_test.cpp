@@ -172,7 +172,7 @@ TEST(SerializedStructure, MessagesSayWhatIsWrong) {
   EXPECT_NE(message(bytes).find("another driver"), std::string::npos);
   bytes[0] ^= 1;
   bytes[16] ^= 2;
-  EXPECT_NE(message(bytes).find("version 2"), std::string::npos);
+  EXPECT_NE(message(bytes).find("version 3"), std::string::npos);
   bytes[16] ^= 2;
   bytes.back() ^= 1;
   EXPECT_NE(message(bytes).find("checksum"), std::string::npos);

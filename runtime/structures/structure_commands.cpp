@@ -10,6 +10,7 @@
 #include "runtime/errors/text.h"
 #include "runtime/structures/build_inputs.h"
 #include "runtime/structures/micromap_inputs.h"
+#include "runtime/structures/serialized_objects.h"
 #include "runtime/structures/serialized_structure.h"
 
 namespace kaamos::runtime {
@@ -245,14 +246,13 @@ rtapi::Status emit_postbuild_info(
                         "postbuild info is requested, but there is no acceleration structure " +
                             at_address(*environment.context.addresses, source) + ".");
     }
-    if (structure->partitioned != nullptr || structure->is_cluster_object()) {
+    const bool any_has =
+        desc.InfoType == InfoType::kSerialization || desc.InfoType == InfoType::kToolsVisualization;
+    if (is_object(*structure) && !any_has) {
       return make_error(Id::kStructureSource,
-                        std::string("there is no postbuild info of ") +
-                            (structure->partitioned != nullptr
-                                 ? "partitioned top levels"
-                                 : "clusters, templates and bottom levels of clusters") +
-                            ", and one is " + at_address(*environment.context.addresses, source) +
-                            ".");
+                        "what an operation made " +
+                            at_address(*environment.context.addresses, source) +
+                            " has no postbuild info but kSerialization and kToolsVisualization.");
     }
     uint64_t bytes = 0;
     if (auto s = write_info(environment, address, desc.InfoType, *structure, bytes); !s) return s;

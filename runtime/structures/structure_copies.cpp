@@ -6,10 +6,14 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "runtime/backend/dispatch_checks.h"
 #include "runtime/backend/errors.h"
+#include "runtime/structures/clustered_level.h"
+#include "runtime/structures/partitioned_instances.h"
+#include "runtime/structures/serialized_objects.h"
 #include "runtime/structures/serialized_structure.h"
 
 namespace kaamos::runtime {
@@ -51,17 +55,58 @@ uint32_t count_missing(const StructureMap& structures,
 
 rtapi::Status build_top_level(const StructureEnvironment& environment, const RebuildLevel& rebuild,
                               InstanceNotes notes, AccelerationStructure& result) {
-  result.missing_bottom_levels = count_missing(environment.structures, *result.instances);
+  result.missing = count_missing(environment.structures, *result.instances);
   return rebuild.top_level(
       activate_instances(environment, result.address, *result.instances, notes), result);
 }
 
+// Of `level`, as it was last set. The result has a copy of its own.
+rtapi::Status build_partitioned_top_level(const StructureEnvironment& environment,
+                                          const RebuildLevel& rebuild, InstanceNotes notes,
+                                          const PartitionedTopLevel& from,
+                                          AccelerationStructure& result) {
+  auto level = std::make_shared<PartitionedTopLevel>(from);
+  std::vector<uint32_t> all(level->slots.size());
+  result.missing = 0;
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    all[i] = i;
+    const char* why = activate(environment.structures, *level, i);
+    const rtapi::RaytracingInstanceDesc& desc = level->instances[i].desc;
+    const bool missing = count_missing(environment.structures, {&desc, 1}) != 0;
+    if (missing) ++result.missing;
+    if (why == nullptr || (missing && notes == InstanceNotes::kMissingMayCome)) continue;
+    environment.warn(Id::kInstanceInactive,
+                     "the partitioned top level " +
+                         at_address(*environment.context.addresses, result.address) +
+                         ", instance " + std::to_string(i) + ": " + why + ".");
+  }
+  result.top_level = nullptr;
+  if (auto s = build_partitioned_level(rebuild, *level, all, result); !s) return s;
+  result.partitioned = std::move(level);
+  return {};
+}
+
+rtapi::Status build_level_of_clusters(const StructureEnvironment& environment,
+                                      const RebuildLevel& rebuild, AccelerationStructure& result) {
+  const Clusters found = find_clusters(environment.structures, *result.clusters, result.missing);
+  return build_clustered_level(found, rebuild, result);
+}
+
+uint64_t alignment_of(const AccelerationStructure& structure) {
+  if (structure.cluster_template != nullptr) return rtapi::kRtasClusterTemplateByteAlignment;
+  const bool small = structure.micromaps != nullptr || structure.cluster != nullptr;
+  return small ? rtapi::kRaytracingOpacityMicromapArrayByteAlignment
+               : rtapi::kRaytracingAccelerationStructureByteAlignment;
+}
+
 rtapi::Status place(const StructureEnvironment& environment, AccelerationStructure result) {
-  if (result.micromaps == nullptr &&
-      result.address % rtapi::kRaytracingAccelerationStructureByteAlignment != 0) {
+  const uint64_t alignment = alignment_of(result);
+  if (result.address % alignment != 0) {
     return make_error(Id::kStructureSource,
-                      "the copy " + at_address(*environment.context.addresses, result.address) +
-                          " is no micromap array; its address must be a multiple of 256.");
+                      "the copy would be " +
+                          at_address(*environment.context.addresses, result.address) +
+                          "; of such a structure the address must be a multiple of " +
+                          std::to_string(alignment) + ".");
   }
   if (auto s = check_destination(*environment.context.addresses, result.address, result.size_bytes);
       !s) {
@@ -69,6 +114,63 @@ rtapi::Status place(const StructureEnvironment& environment, AccelerationStructu
   }
   environment.structures.place(std::move(result));
   return {};
+}
+
+// The addresses that the application has to write after the header must at least be in buffers.
+rtapi::Status check_pointers(const AddressMap& addresses, std::span<const uint64_t> pointers,
+                             const char* what) {
+  for (size_t i = 0; i < pointers.size(); ++i) {
+    if (pointers[i] == 0 || addresses.bytes_from(pointers[i]) != 0) continue;
+    return make_error(Id::kSerializedData,
+                      std::string(what) + std::to_string(i) + " is " +
+                          at_address(addresses, pointers[i]) +
+                          ". Write the addresses of the copies after the header first.");
+  }
+  return {};
+}
+
+// What was parsed, as a structure without a place.
+rtapi::Status make_level(const StructureEnvironment& environment, SerializedStructure& parsed,
+                         const RebuildLevel& rebuild, AccelerationStructure& result) {
+  const AddressMap& addresses = *environment.context.addresses;
+  std::vector<uint64_t> pointers;
+  switch (parsed.type) {
+    case Type::kOpacityMicromapArray:
+      result.micromaps = parsed.micromaps;
+      result.compacted_bytes = result.micromaps->held_bytes();
+      return {};
+    case Type::kClusterLevel:
+    case Type::kClusterTemplate:
+      result.cluster = parsed.cluster;
+      result.cluster_template = parsed.cluster_template;
+      result.linkages = std::move(parsed.linkages);
+      return {};
+    case Type::kBottomLevel:
+      result.linkages = std::move(parsed.linkages);
+      return rebuild.bottom_level(parsed.geometries, parsed.shapes, result);
+    case Type::kClusteredBottomLevel:
+      if (auto s = check_pointers(addresses, parsed.clusters, "cluster "); !s) return s;
+      result.clusters = std::make_shared<const std::vector<uint64_t>>(std::move(parsed.clusters));
+      return build_level_of_clusters(environment, rebuild, result);
+    case Type::kPartitionedTopLevel:
+      for (const auto& slot : parsed.partitioned->slots) {
+        pointers.push_back(slot.args.AccelerationStructure);
+      }
+      if (auto s = check_pointers(addresses, pointers, "the bottom level of instance "); !s) {
+        return s;
+      }
+      result.instance_count = static_cast<uint32_t>(pointers.size());
+      return build_partitioned_top_level(environment, rebuild, InstanceNotes::kMissingMayCome,
+                                         *parsed.partitioned, result);
+    case Type::kTopLevel:
+      break;
+  }
+  for (const auto& instance : parsed.instances) pointers.push_back(instance.AccelerationStructure);
+  if (auto s = check_pointers(addresses, pointers, "the bottom level of instance "); !s) return s;
+  result.instance_count = static_cast<uint32_t>(parsed.instances.size());
+  result.instances = std::make_shared<const std::vector<rtapi::RaytracingInstanceDesc>>(
+      std::move(parsed.instances));
+  return build_top_level(environment, rebuild, InstanceNotes::kMissingMayCome, result);
 }
 
 rtapi::Status deserialize(const StructureEnvironment& environment,
@@ -101,27 +203,7 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
   result.flags = parsed->flags;
   result.size_bytes = parsed->size_bytes;
   if (auto s = check_destination(addresses, command.dest, result.size_bytes); !s) return s;
-  if (parsed->type == Type::kOpacityMicromapArray) {
-    result.micromaps = parsed->micromaps;
-    result.compacted_bytes = result.micromaps->held_bytes();
-  } else if (parsed->type == Type::kBottomLevel) {
-    result.linkages = std::move(parsed->linkages);
-    if (auto s = rebuild.bottom_level(parsed->geometries, parsed->shapes, result); !s) return s;
-  } else {
-    for (uint32_t i = 0; i < parsed->instances.size(); ++i) {
-      const uint64_t address = parsed->instances[i].AccelerationStructure;
-      if (address == 0 || addresses.bytes_from(address) != 0) continue;
-      return make_error(Id::kSerializedData,
-                        "the bottom level of instance " + std::to_string(i) + " is " +
-                            at_address(addresses, address) +
-                            ". Write the addresses of the bottom levels after the header first.");
-    }
-    result.instance_count = static_cast<uint32_t>(parsed->instances.size());
-    result.instances = std::make_shared<const std::vector<rtapi::RaytracingInstanceDesc>>(
-        std::move(parsed->instances));
-    if (auto s = build_top_level(environment, rebuild, InstanceNotes::kMissingMayCome, result); !s)
-      return s;
-  }
+  if (auto s = make_level(environment, *parsed, rebuild, result); !s) return s;
   result.compacted_bytes = compacted_size(result.size_bytes, result.compacted_bytes);
   return place(environment, std::move(result));
 }
@@ -134,17 +216,6 @@ rtapi::Status copy(const StructureEnvironment& environment,
   if (source == nullptr) {
     return make_error(Id::kStructureSource, "there is no acceleration structure " +
                                                 at_address(addresses, command.source) + ".");
-  }
-  if (source->partitioned != nullptr) {
-    return make_error(Id::kStructureSource,
-                      "the partitioned top level " + at_address(addresses, command.source) +
-                          " cannot be copied; an operation with it as the source and another "
-                          "destination makes a second one.");
-  }
-  if (source->is_cluster_object()) {
-    return make_error(Id::kStructureSource, "what an operation on clusters made " +
-                                                at_address(addresses, command.source) +
-                                                " cannot be copied or serialized.");
   }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
@@ -159,6 +230,15 @@ rtapi::Status copy(const StructureEnvironment& environment,
     if (!out) return out.error();
     decode_for_tools(*source, command.dest, *out);
     return {};
+  }
+  if (is_object(*source)) {
+    return make_error(Id::kStructureSource,
+                      "what an operation made " + at_address(addresses, command.source) +
+                          " cannot be cloned or compacted; " +
+                          (source->partitioned != nullptr
+                               ? "an operation with it as the source and another destination makes "
+                                 "a second one."
+                               : "kMoveClusterObjects makes copies."));
   }
   AccelerationStructure result = *source;
   result.address = command.dest;
@@ -197,25 +277,89 @@ rtapi::Status copy_structure(const StructureEnvironment& environment,
   }
 }
 
-rtapi::Status complete_top_levels(const StructureEnvironment& environment,
-                                  const RebuildLevel& rebuild) {
-  for (const auto& placed : environment.structures.incomplete_top_levels()) {
-    const uint32_t missing = count_missing(environment.structures, *placed->instances);
-    if (missing == placed->missing_bottom_levels && placed->missing_reported) continue;
+namespace {
+
+// Bottom levels whose clusters came after them; `completed` gets their addresses.
+rtapi::Status complete_bottom_levels(const StructureEnvironment& environment,
+                                     const RebuildLevel& rebuild,
+                                     std::unordered_set<uint64_t>& completed) {
+  for (const auto& placed : environment.structures.incomplete()) {
+    if (!placed->of_clusters) continue;
+    uint32_t missing = 0;
+    find_clusters(environment.structures, *placed->clusters, missing);
+    if (missing == placed->missing && placed->missing_reported) continue;
     AccelerationStructure result = *placed;
-    result.missing_reported = true;
-    const auto notes =
-        placed->missing_reported ? InstanceNotes::kMissingMayCome : InstanceNotes::kAll;
-    try {
-      if (auto s = build_top_level(environment, rebuild, notes, result); !s) return s;
-    } catch (const std::bad_alloc&) {
-      return out_of_memory("the deserialized top level " +
-                           at_address(*environment.context.addresses, placed->address));
+    if (missing != 0 && !placed->missing_reported) {
+      environment.warn(Id::kOperationArgument,
+                       "the bottom level that was deserialized " +
+                           at_address(*environment.context.addresses, placed->address) + " lacks " +
+                           std::to_string(missing) + " of its " +
+                           std::to_string(placed->clusters->size()) +
+                           " clusters; deserialize or build them before it is traced.");
     }
-    result.compacted_bytes = compacted_size(result.size_bytes, result.compacted_bytes);
+    result.missing_reported = true;
+    if (auto s = build_level_of_clusters(environment, rebuild, result); !s) return s;
     environment.structures.place(std::move(result));
+    completed.insert(placed->address);
   }
   return {};
+}
+
+bool refers_to(const AccelerationStructure& top_level, const std::unordered_set<uint64_t>& levels) {
+  bool found = false;
+  for_each_instance(top_level, [&](const rtapi::RaytracingInstanceDesc& desc, uint32_t) {
+    found |= levels.contains(desc.AccelerationStructure);
+  });
+  return found;
+}
+
+uint32_t count_missing(const StructureMap& structures, const AccelerationStructure& top_level) {
+  uint32_t count = 0;
+  for_each_instance(top_level, [&](const rtapi::RaytracingInstanceDesc& desc, uint32_t) {
+    count += count_missing(structures, std::span(&desc, 1));
+  });
+  return count;
+}
+
+rtapi::Status rebuild_top_level(const StructureEnvironment& environment,
+                                const AccelerationStructure& placed, const RebuildLevel& rebuild) {
+  AccelerationStructure result = placed;
+  result.missing_reported = true;
+  const auto notes = placed.missing_reported ? InstanceNotes::kMissingMayCome : InstanceNotes::kAll;
+  const rtapi::Status s =
+      placed.partitioned != nullptr
+          ? build_partitioned_top_level(environment, rebuild, notes, *placed.partitioned, result)
+          : build_top_level(environment, rebuild, notes, result);
+  if (!s) return s;
+  result.compacted_bytes = compacted_size(result.size_bytes, result.compacted_bytes);
+  environment.structures.place(std::move(result));
+  return {};
+}
+
+rtapi::Status complete(const StructureEnvironment& environment, const RebuildLevel& rebuild) {
+  const auto incomplete = environment.structures.incomplete();
+  if (incomplete.empty()) return {};
+  std::unordered_set<uint64_t> completed;
+  if (auto s = complete_bottom_levels(environment, rebuild, completed); !s) return s;
+  for (const auto& placed : environment.structures.top_levels()) {
+    const bool changed =
+        placed->missing != 0 && (!placed->missing_reported ||
+                                 count_missing(environment.structures, *placed) != placed->missing);
+    if (!changed && (completed.empty() || !refers_to(*placed, completed))) continue;
+    if (auto s = rebuild_top_level(environment, *placed, rebuild); !s) return s;
+  }
+  return {};
+}
+
+}  // namespace
+
+rtapi::Status complete_structures(const StructureEnvironment& environment,
+                                  const RebuildLevel& rebuild) {
+  try {
+    return complete(environment, rebuild);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("a structure that was deserialized before what it refers to");
+  }
 }
 
 }  // namespace kaamos::runtime

@@ -49,17 +49,18 @@ struct RebuildLevel {
       clustered_level;
 };
 
-// Errors: KA0796: no acceleration structure at the source, or compaction without its flag; KA0795:
-// destination too small; KA0789: serialized data that cannot be read, from parse_serialized.
+// Errors: KA0796: no acceleration structure at the source, compaction without its flag, or a mode
+// that its type does not have; KA0795: destination too small; KA0789: serialized data that cannot
+// be read, from parse_serialized.
 rtapi::Status copy_structure(const StructureEnvironment& environment,
                              const CopyAccelerationStructureCommand& command,
                              const RebuildLevel& rebuild);
 
-// To be called before a dispatch: rebuilds deserialized top levels whose bottom levels were
-// deserialized after them, since any order is allowed. [DXR:
-// D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE] What is still missing stays inactive and is
-// reported once, as KA0797.
-rtapi::Status complete_top_levels(const StructureEnvironment& environment,
+// To be called before a dispatch: rebuilds what was deserialized before what it refers to, bottom
+// levels of clusters and top levels, since any order is allowed. [DXR:
+// D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE] What is still missing is left out and reported
+// once, as KA0788 and KA0797.
+rtapi::Status complete_structures(const StructureEnvironment& environment,
                                   const RebuildLevel& rebuild);
 
 }  // namespace kaamos::runtime

@@ -49,7 +49,7 @@ void StructureMap::place(AccelerationStructure structure) {
   const Header header = {kMagic, next_id_++};
   std::memcpy(structure.host, &header, sizeof(header));
   if (structure.bottom_level) ++owners_[structure.bottom_level.get()];
-  if (structure.missing_bottom_levels != 0) ++incomplete_;
+  if (structure.missing != 0) ++incomplete_;
   link_locked(structure);
   structures_[address] = {header.id,
                           std::make_shared<const AccelerationStructure>(std::move(structure))};
@@ -89,7 +89,7 @@ void StructureMap::evict_locked(uint64_t address, uint64_t size_bytes) {
       const auto owner = owners_.find(level);
       if (--owner->second == 0) owners_.erase(owner);
     }
-    if (it->second.structure->missing_bottom_levels != 0) --incomplete_;
+    if (it->second.structure->missing != 0) --incomplete_;
     it = structures_.erase(it);
   }
 }
@@ -112,23 +112,25 @@ bool StructureMap::is_shared(const BottomLevelBase* level) const {
   return owner != owners_.end() && owner->second > 1;
 }
 
-std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::top_levels() const {
+template <class Condition>
+std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::all_with(
+    Condition condition) const {
   const std::shared_lock lock(mutex_);
   std::vector<std::shared_ptr<const AccelerationStructure>> found;
   for (const auto& [address, placed] : structures_) {
-    if (placed.structure->top_level == nullptr || !has_header(*placed.structure, placed.id))
-      continue;
+    if (!condition(*placed.structure) || !has_header(*placed.structure, placed.id)) continue;
     found.push_back(placed.structure);
   }
   return found;
 }
 
-std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::incomplete_top_levels()
-    const {
+std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::top_levels() const {
+  return all_with([](const auto& structure) { return structure.top_level != nullptr; });
+}
+
+std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::incomplete() const {
   if (incomplete_ == 0) return {};
-  auto found = top_levels();
-  std::erase_if(found, [](const auto& level) { return level->missing_bottom_levels == 0; });
-  return found;
+  return all_with([](const auto& structure) { return structure.missing != 0; });
 }
 
 }  // namespace kaamos::runtime

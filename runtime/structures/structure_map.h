@@ -72,7 +72,7 @@ struct TopLevelBase {
   virtual ~TopLevelBase() = default;
 };
 
-struct PartitionedTopLevel;  // runtime/operations/partitioned_top_level.h
+struct PartitionedTopLevel;  // runtime/structures/partitioned_instances.h
 struct Cluster;              // runtime/structures/cluster.h
 struct ClusterTemplate;      // runtime/structures/cluster.h
 
@@ -89,8 +89,9 @@ struct AccelerationStructure {
   std::shared_ptr<const MicromapArray> micromaps;
   std::shared_ptr<const Cluster> cluster;
   std::shared_ptr<const ClusterTemplate> cluster_template;
-  // Bottom levels: it was built from clusters.
+  // Bottom levels: it was built from clusters; and where they were.
   bool of_clusters = false;
+  std::shared_ptr<const std::vector<uint64_t>> clusters;
   // Bottom levels: by geometry, null for those without; empty if none has one. Clusters: theirs.
   std::vector<std::shared_ptr<MicromapLinkage>> linkages;
   uint32_t instance_count = 0;  // top levels: NumDescs
@@ -99,8 +100,9 @@ struct AccelerationStructure {
   std::shared_ptr<const std::vector<rtapi::RaytracingInstanceDesc>> instances;
   // Partitioned top levels: what their instances were set to; `instances` is null then.
   std::shared_ptr<const PartitionedTopLevel> partitioned;
-  // Deserialized top levels: how many instances had no bottom level at their address yet.
-  uint32_t missing_bottom_levels = 0;
+  // What was deserialized before what it refers to: how many bottom levels of instances, or
+  // clusters, were not at their addresses yet.
+  uint32_t missing = 0;
   bool missing_reported = false;
 
   // It comes from an operation on clusters.
@@ -123,8 +125,8 @@ class StructureMap {
   bool is_shared(const BottomLevelBase* level) const;
   // Every top level whose header is intact.
   std::vector<std::shared_ptr<const AccelerationStructure>> top_levels() const;
-  // Those with missing bottom levels; costs next to nothing while there are none.
-  std::vector<std::shared_ptr<const AccelerationStructure>> incomplete_top_levels() const;
+  // Those that something is missing from; costs next to nothing while there are none.
+  std::vector<std::shared_ptr<const AccelerationStructure>> incomplete() const;
 
  private:
   struct Placed {
@@ -133,6 +135,8 @@ class StructureMap {
   };
   void evict_locked(uint64_t address, uint64_t size_bytes);
   void link_locked(const AccelerationStructure& placed);
+  template <class Condition>
+  std::vector<std::shared_ptr<const AccelerationStructure>> all_with(Condition condition) const;
 
   mutable std::shared_mutex mutex_;
   std::map<uint64_t, Placed> structures_;

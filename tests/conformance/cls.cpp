@@ -621,7 +621,7 @@ std::vector<RuleTest> cls_tests() {
                                {"CLS-37", flags_of_triangles},
                                {"CLS-38, TOP-11", data_access},
                                {"CLS-40", rebuilt}};
-  for (const auto& more : {memory_tests(), template_tests(), micromap_tests()}) {
+  for (const auto& more : {memory_tests(), template_tests(), micromap_tests(), copy_tests()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

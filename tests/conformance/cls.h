@@ -86,6 +86,8 @@ std::vector<float> depths_at(Context& t, const Buffer& top, const std::vector<fl
 std::vector<RuleTest> template_tests();
 // The tests of cls_tests that are about opacity micromaps.
 std::vector<RuleTest> micromap_tests();
+// The tests of cls_tests that are about copies, also of partitioned top levels.
+std::vector<RuleTest> copy_tests();
 // The tests of cls_tests that are about arguments and results in GPU memory.
 std::vector<RuleTest> memory_tests();
 

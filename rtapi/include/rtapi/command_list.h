@@ -363,7 +363,8 @@ class CommandList {
   /// [DXR: EmitRaytracingAccelerationStructurePostbuildInfo]
   /// @errors KA0800; KA0711-0713 a source; KA0712, KA0719 the destination; KA0715 its type, its
   /// alignment or its buffer's flags. When it executes: KA0795 it does not fit, KA0796 a source
-  /// that is no acceleration structure.
+  /// that is no acceleration structure, or one that ExecuteIndirectRTASOperations made, which has
+  /// kSerialization and kToolsVisualization only.
   void EmitRaytracingAccelerationStructurePostbuildInfo(
       const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
       std::span<const GpuVirtualAddress> sources);
@@ -371,14 +372,17 @@ class CommandList {
   /// the ranges do not overlap. The source stays as it is; bottom levels that a top level refers to
   /// are not touched. Sizes: kClone as the source, kCompact, kSerialize and
   /// kVisualizationDecodeForTools by postbuild info, kDeserialize by the header. Structures lie in
-  /// buffers for acceleration structures, serialized and decoded bytes in others.
+  /// buffers for acceleration structures, serialized and decoded bytes in others. EXPERIMENTAL:
+  /// what ExecuteIndirectRTASOperations made takes no kClone and no kCompact; clusters lie at
+  /// multiples of 128, templates of 32.
   /// [DXR: CopyRaytracingAccelerationStructure, D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]
   /// @errors KA0800; KA0711 alignment; KA0712 an address in no live buffer; KA0713 a buffer of the
   /// wrong kind, or bytes written to one without kAllowUnorderedAccess; KA0716 the mode, or both
   /// addresses are the same; KA0719 a buffer is too small. When it executes: KA0789 the serialized
   /// data is of another driver or version, damaged, or names a bottom level in no buffer; KA0795 it
-  /// does not fit; KA0796 the source is no structure, was built without kAllowCompaction, or
-  /// overlaps the destination. Warning: KA0797 an instance of a deserialized top level is inactive.
+  /// does not fit; KA0796 the source is no structure, was built without kAllowCompaction, overlaps
+  /// the destination, or does not take the mode. Warnings: KA0797 an instance of a deserialized top
+  /// level is inactive, KA0788 a deserialized bottom level lacks one of its clusters.
   void CopyRaytracingAccelerationStructure(GpuVirtualAddress dest, GpuVirtualAddress source,
                                            RaytracingAccelerationStructureCopyMode mode);
 

@@ -221,6 +221,14 @@ enum class RaytracingAccelerationStructureType : uint32_t {
   kTopLevel = 0,
   kBottomLevel = 1,
   kOpacityMicromapArray = 2,  ///< what bottom levels are linked to; needs tier 1.2 (KA0546)
+  /// EXPERIMENTAL, of BuildRaytracingAccelerationStructureToolsVisualizationHeader only (KA0700):
+  /// what ExecuteIndirectRTASOperations makes.
+  ///@{
+  kClusterLevel = 3,
+  kClusterTemplate = 4,
+  kClusteredBottomLevel = 5,
+  kPartitionedTopLevel = 6,
+  ///@}
 };
 
 /// Flags that say how a structure is built and what may be done with it later. kPreferFastTrace and
@@ -331,6 +339,8 @@ struct RaytracingAccelerationStructurePostbuildInfoSerializationDesc {
   uint64_t SerializedSizeInBytes = 0;  ///< what kSerialize writes, header and pointers included
   /// One for each instance, also where several name one bottom level or one names none; of a bottom
   /// level 0, or 1 if it is linked to micromap arrays: the number of blocks. Of an array 0.
+  /// EXPERIMENTAL: of clusters and templates as of bottom levels; of a bottom level of clusters and
+  /// of a partitioned top level 1.
   uint64_t NumBottomLevelAccelerationStructurePointers = 0;
 };
 /// The 8 bytes that kCurrentSize writes.
@@ -405,7 +415,9 @@ enum class SerializedHeaderPostambleType : uint32_t {
 
 /// The same header as newer structures have it: a bottom level that is linked to micromap arrays
 /// has one block, with the addresses of the arrays. They are replaced by those of the copies before
-/// kDeserialize; those that are 0 stay so.
+/// kDeserialize; those that are 0 stay so. EXPERIMENTAL: so does a cluster or template; a bottom
+/// level of clusters has a block with the addresses of its clusters, and a partitioned top level
+/// one with those of its instances' bottom levels.
 /// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER1]
 struct SerializedRaytracingAccelerationStructureHeader1 {
   SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};  ///< who can read it
@@ -418,7 +430,11 @@ struct SerializedRaytracingAccelerationStructureHeader1 {
 
 /// The kind of structures whose addresses a block lists.
 /// [DXR: D3D12_SERIALIZED_BLOCK_TYPE]
-enum class SerializedBlockType : uint32_t { kOpacityMicromaps = 0 };
+enum class SerializedBlockType : uint32_t {
+  kOpacityMicromaps = 0,  ///< micromap arrays
+  kBottomLevel = 1,       ///< EXPERIMENTAL: of instances of a partitioned top level
+  kClusterLevel = 2,      ///< EXPERIMENTAL: clusters
+};
 
 /// A block after the header, followed by 8-byte addresses.
 /// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_BLOCK]
@@ -429,6 +445,10 @@ struct SerializedRaytracingAccelerationStructureBlock {
 
 /// The header of what kVisualizationDecodeForTools writes. It is followed by NumDescs instance or
 /// geometry descs without a gap, in the order of the inputs, and what their addresses name.
+/// EXPERIMENTAL: or, without a gap, by the argument that makes the same: one
+/// RtasBuildClasFromTrianglesArgs (vertices kFloat32x3, indices kUint8, micromap indices kUint32),
+/// RtasBuildClusterTemplatesFromTrianglesArgs (likewise; indices kUint32) or
+/// RtasBuildBlasFromClasArgs, or NumDescs RtasPartitionedTlasOperation.
 /// [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER]
 struct BuildRaytracingAccelerationStructureToolsVisualizationHeader {
   /// Tells which kind of descs follow.

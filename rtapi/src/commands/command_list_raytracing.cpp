@@ -17,8 +17,10 @@ Status check_any_structure(const DeviceImpl& device, GpuVirtualAddress address,
   const bool micromaps =
       device.desc.Tier >= RaytracingTier::kTier1_2 && device.backend->has_micromaps();
   return check_structure_address(device, address, what,
-                                 micromaps ? kRaytracingOpacityMicromapArrayByteAlignment
-                                           : kRaytracingAccelerationStructureByteAlignment);
+                                 device.desc.IndirectRtasOperations
+                                     ? kRtasClusterTemplateByteAlignment
+                                 : micromaps ? kRaytracingOpacityMicromapArrayByteAlignment
+                                             : kRaytracingAccelerationStructureByteAlignment);
 }
 
 void use_inputs(CommandListImpl& list, const char* call, const runtime::BuildCommand& command) {

@@ -7,7 +7,7 @@
 #include "rtapi/src/explain/address_text.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 #include "rtapi/src/pipelines/state_object_impl.h"
-#include "runtime/operations/partitioned_top_level.h"
+#include "runtime/structures/partitioned_instances.h"
 #include "runtime/structures/structure_map.h"
 
 namespace rtapi {

@@ -191,7 +191,7 @@ rtapi::Status Structures::execute(CommandStream& stream,
 }
 
 rtapi::Result<SceneTables> Structures::tables() {
-  if (auto s = runtime::complete_top_levels(environment(), rebuild_level()); !s) return s.error();
+  if (auto s = runtime::complete_structures(environment(), rebuild_level()); !s) return s.error();
   auto top_levels = map_->top_levels();
   if (top_levels != listed_) {
     listed_ = std::move(top_levels);
