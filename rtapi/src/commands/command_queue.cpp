@@ -18,21 +18,16 @@ uint64_t FenceImpl::value() const {
 }
 
 void FenceImpl::Signal(uint64_t value) {
-  std::vector<std::weak_ptr<CommandQueueImpl>> woken;
   std::vector<std::function<void()>> reached;
   {
     std::lock_guard lock(mutex);
     current = value;
-    woken.swap(waiting);
     const auto end = calls.upper_bound(value);
     for (auto it = calls.begin(); it != end; ++it) reached.push_back(std::move(it->second));
     calls.erase(calls.begin(), end);
   }
   changed.notify_all();
   for (const auto& call : reached) call();
-  for (const auto& queue : woken) {
-    if (auto alive = queue.lock()) alive->Drain();
-  }
 }
 
 void FenceImpl::CallAt(uint64_t value, std::function<void()> reached) {
@@ -61,19 +56,21 @@ void FenceImpl::DeviceRemoved() {
   for (const auto& [value, call] : all) call();
 }
 
-bool FenceImpl::ReachedOrWake(uint64_t value, const std::weak_ptr<CommandQueueImpl>& queue) {
-  std::lock_guard lock(mutex);
-  if (current >= value) return true;
-  waiting.push_back(queue);
-  return false;
-}
-
 void CommandQueueImpl::Submit(Operation operation) {
   {
     std::lock_guard lock(mutex_);
     pending_.push_back(std::move(operation));
   }
   Drain();
+}
+
+void CommandQueueImpl::WaitFor(FenceImpl& fence, uint64_t value) {
+  const auto reached = std::make_shared<std::atomic<bool>>(false);
+  Submit(WaitFence{reached});
+  fence.CallAt(value, [reached, queue = weak_from_this()] {
+    *reached = true;
+    if (const auto alive = queue.lock()) alive->Drain();
+  });
 }
 
 void CommandQueueImpl::Drain() {
@@ -87,7 +84,7 @@ void CommandQueueImpl::Drain() {
     again_ = false;
     while (!pending_.empty()) {
       if (const auto* wait = std::get_if<WaitFence>(&pending_.front())) {
-        if (!wait->fence->ReachedOrWake(wait->value, weak_from_this())) break;
+        if (!wait->reached->load()) break;
       }
       const Operation operation = std::move(pending_.front());
       pending_.pop_front();
@@ -213,7 +210,7 @@ Status CommandQueue::Signal(const Fence& fence, uint64_t value) const {
 Status CommandQueue::Wait(const Fence& fence, uint64_t value) const {
   if (!impl_) return make_error(Id::kNullHandle, "Wait on an empty queue handle");
   if (Status s = CheckHandle(impl_->device, fence, "Wait: the fence"); !s.ok()) return s;
-  impl_->Submit(CommandQueueImpl::WaitFence{fence.impl(), value});
+  impl_->WaitFor(*fence.impl(), value);
   return impl_->device->removed();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -21,11 +22,8 @@ struct FenceImpl : std::enable_shared_from_this<FenceImpl> {
   std::shared_ptr<DeviceImpl> device;
 
   uint64_t value() const;
-  // Sets the value, makes the calls that wait for it, and resumes the queues that do.
+  // Sets the value and makes the calls that wait for it, those of queues among them.
   void Signal(uint64_t value);
-  // Returns true if the fence has reached `value`; else a later Signal wakes `queue`.
-  bool ReachedOrWake(uint64_t value, const std::weak_ptr<struct CommandQueueImpl>& queue);
-
   void CallAt(uint64_t value, std::function<void()> reached);
   // Makes all calls: the fence of a removed device is past every value.
   void DeviceRemoved();
@@ -34,7 +32,6 @@ struct FenceImpl : std::enable_shared_from_this<FenceImpl> {
   std::condition_variable changed;
   uint64_t current = 0;
   std::multimap<uint64_t, std::function<void()>> calls;  // by value, of CallAt
-  std::vector<std::weak_ptr<CommandQueueImpl>> waiting;
 
  private:
   std::once_flag told_of_removal_;
@@ -53,15 +50,17 @@ struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
     std::shared_ptr<FenceImpl> fence;
     uint64_t value;
   };
+  // Once reached, a wait is over even if the fence goes back before the queue comes to it.
   struct WaitFence {
-    std::shared_ptr<FenceImpl> fence;
-    uint64_t value;
+    std::shared_ptr<std::atomic<bool>> reached;
   };
   using Operation = std::variant<Execute, SignalFence, WaitFence>;
 
   std::shared_ptr<DeviceImpl> device;
 
   void Submit(Operation operation);
+  // Holds what is submitted from now on until the fence reaches `value`.
+  void WaitFor(FenceImpl& fence, uint64_t value);
   void Drain();
 
  private:

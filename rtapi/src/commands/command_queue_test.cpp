@@ -75,6 +75,24 @@ TEST_F(QueueTest, FencesCallBeforeTheirSignalReturns) {
   EXPECT_ERROR(Fence().CallAt(1, [] {}), "KA0904");
 }
 
+// Each wait counts from when it was submitted. [D3D12: ID3D12CommandQueue::Wait]
+TEST_F(QueueTest, AWaitThatWasReachedStaysSoWhenTheFenceGoesBack) {
+  Fence gate = device_.CreateFence(0).value();
+  EXPECT_OK(queue_.Wait(gate, 1));
+  EXPECT_OK(queue_.Wait(fence_, 5));
+  EXPECT_OK(queue_.ExecuteCommandLists({Marker("a")}));
+  EXPECT_OK(fence_.Signal(6));
+  EXPECT_OK(fence_.Signal(0));
+  EXPECT_EQ(Executed(), "");
+  EXPECT_OK(gate.Signal(1));
+  EXPECT_EQ(Executed(), "a");
+  EXPECT_OK(queue_.Wait(fence_, 5));  // submitted after the fence went back
+  EXPECT_OK(queue_.ExecuteCommandLists({Marker("b")}));
+  EXPECT_EQ(Executed(), "a");
+  EXPECT_OK(fence_.Signal(5));
+  EXPECT_EQ(Executed(), "ab");
+}
+
 TEST_F(QueueTest, OneQueueReleasesAnother) {
   CommandQueue other = device_.CreateCommandQueue().value();
   EXPECT_OK(other.Wait(fence_, 9));
