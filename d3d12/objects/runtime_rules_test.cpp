@@ -229,6 +229,41 @@ TEST_P(RuntimeRules, OnlyFeatureLevelsThatExistAreAskedFor) {
             E_INVALIDARG);
 }
 
+// Each channel takes the low bits of its value, those of NaNs too.
+// [D3D12: ClearUnorderedAccessViewUint]
+TEST_P(RuntimeRules, PackedFloatsAreClearedToTheirBits) {
+  const auto target = buffer(16, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_UNORDERED_ACCESS,
+                             D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS);
+  D3D12_DESCRIPTOR_HEAP_DESC heap_desc = {};
+  heap_desc.Type = D3D12_DESCRIPTOR_HEAP_TYPE_CBV_SRV_UAV;
+  heap_desc.NumDescriptors = 1;
+  ComPtr<ID3D12DescriptorHeap> host, visible;
+  ASSERT_EQ(device_->CreateDescriptorHeap(&heap_desc, IID_PPV_ARGS(host.GetAddressOf())), S_OK);
+  heap_desc.Flags = D3D12_DESCRIPTOR_HEAP_FLAG_SHADER_VISIBLE;
+  ASSERT_EQ(device_->CreateDescriptorHeap(&heap_desc, IID_PPV_ARGS(visible.GetAddressOf())), S_OK);
+  D3D12_UNORDERED_ACCESS_VIEW_DESC view = {};
+  view.ViewDimension = D3D12_UAV_DIMENSION_BUFFER;
+  view.Format = DXGI_FORMAT_R11G11B10_FLOAT;
+  view.Buffer.FirstElement = 1;
+  view.Buffer.NumElements = 2;
+  for (ID3D12DescriptorHeap* heap : {host.Get(), visible.Get()}) {
+    device_->CreateUnorderedAccessView(target.Get(), nullptr, &view,
+                                       heap->GetCPUDescriptorHandleForHeapStart());
+  }
+  ID3D12DescriptorHeap* heaps[] = {visible.Get()};
+  list_->SetDescriptorHeaps(1, heaps);
+  const UINT bits[4] = {0x7FF, 0x801, 0x3E5, 9};
+  list_->ClearUnorderedAccessViewUint(visible->GetGPUDescriptorHandleForHeapStart(),
+                                      host->GetCPUDescriptorHandleForHeapStart(), target.Get(),
+                                      bits, 0, nullptr);
+  D3D12_RESOURCE_BARRIER barrier = {};
+  barrier.Transition = {target.Get(), 0, D3D12_RESOURCE_STATE_UNORDERED_ACCESS,
+                        D3D12_RESOURCE_STATE_COPY_SOURCE};
+  list_->ResourceBarrier(1, &barrier);
+  const uint32_t packed = 0x7FF | 1 << 11 | 0x3E5u << 22;
+  EXPECT_EQ(read(target.Get(), 4), (std::vector<uint32_t>{0, packed, packed, 0}));
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, RuntimeRules, testing::Values("embree", "vulkan"),
                          [](const auto& of) { return std::string(of.param); });
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/shader/texture/texel_access.h"
@@ -21,6 +22,13 @@ void fill_channels(rtapi::Format format, uint32_t bits, uint32_t value, uint8_t 
   }
   const uint32_t bytes = bits / 8;
   for (uint32_t at = 0; at + bytes <= 16; at += bytes) std::memcpy(element + at, &value, bytes);
+}
+
+// Returns the bits of an element that has no room for every NaN's payload once it is decoded.
+std::optional<uint32_t> packed_floats(rtapi::Format format, const ClearUavCommand& command) {
+  if (command.is_float || format != rtapi::Format::kR11G11B10Float) return {};
+  const uint32_t* values = command.values;
+  return (values[0] & 0x7FF) | (values[1] & 0x7FF) << 11 | values[2] << 22;
 }
 
 }  // namespace
@@ -60,14 +68,15 @@ void clear_buffer_view(const shader::Descriptor& view, const ClearUavCommand& co
   const uint64_t bytes = typed ? codec.bytes : structured ? view.stride_bytes : 4;
   if (bytes == 0) return;
   const auto count = static_cast<uint32_t>(std::min<uint64_t>(view.size_bytes / bytes, INT32_MAX));
-  const shader::Texel value =
-      clear_texel(static_cast<rtapi::Format>(view.format), command.is_float, command.values);
+  const auto format = static_cast<rtapi::Format>(view.format);
+  const shader::Texel value = clear_texel(format, command.is_float, command.values);
+  const std::optional<uint32_t> packed = typed ? packed_floats(format, command) : std::nullopt;
   for (const rtapi::Rect& part : cleared_parts(command, count, 1)) {
     const auto first = static_cast<uint32_t>(part.left);
     const auto end = static_cast<uint32_t>(part.right);
-    if (!typed) {
+    if (!typed || packed) {
       std::fill_n(reinterpret_cast<uint32_t*>(view.address + first * bytes),
-                  (end - first) * bytes / 4, command.values[0]);
+                  (end - first) * bytes / 4, packed.value_or(command.values[0]));
       continue;
     }
     for (uint32_t i = first; i < end; ++i) shader::store_typed(view, i, value);
