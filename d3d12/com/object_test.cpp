@@ -194,5 +194,46 @@ TEST(Blob, ATextHasItsTerminatingZero) {
   EXPECT_STREQ(static_cast<const char*>(blob->GetBufferPointer()), "three");
 }
 
+// [D3D12: ID3DDestructionNotifier]
+TEST(DestructionNotifierTest, CallsAreMadeWhenTheObjectIsDestroyed) {
+  std::vector<int> made;
+  struct Call {
+    std::vector<int>* made;
+    int number;
+    static void make(void* data) {
+      const auto* call = static_cast<const Call*>(data);
+      call->made->push_back(call->number);
+    }
+  };
+  Call calls[] = {{&made, 0}, {&made, 1}, {&made, 2}};
+  ComPtr<ID3D12StateObject> object;
+  object.Attach(new Both);
+  ComPtr<ID3DDestructionNotifier> notifier;
+  ASSERT_EQ(object->QueryInterface(ID3DDestructionNotifierEntries::kInterfaces[0].guid,
+                                   reinterpret_cast<void**>(notifier.GetAddressOf())),
+            S_OK);
+  UINT ids[2] = {99, 99};
+  EXPECT_EQ(notifier->RegisterDestructionCallback(nullptr, nullptr, &ids[0]),
+            DXGI_ERROR_INVALID_CALL);
+  EXPECT_EQ(ids[0], 99u);
+  ASSERT_EQ(notifier->RegisterDestructionCallback(Call::make, &calls[0], &ids[0]), S_OK);
+  ASSERT_EQ(notifier->RegisterDestructionCallback(Call::make, &calls[1], nullptr), S_OK);
+  ASSERT_EQ(notifier->RegisterDestructionCallback(Call::make, &calls[2], &ids[1]), S_OK);
+  EXPECT_NE(ids[0], ids[1]);
+  EXPECT_EQ(notifier->UnregisterDestructionCallback(ids[0]), S_OK);
+  EXPECT_EQ(notifier->UnregisterDestructionCallback(ids[0]), DXGI_ERROR_NOT_FOUND);
+  ComPtr<IUnknown> one, other;
+  ASSERT_EQ(object.As(&one), S_OK);
+  ASSERT_EQ(notifier.As(&other), S_OK);
+  EXPECT_EQ(one, other);
+  one.Reset();
+  other.Reset();
+  EXPECT_EQ(references(object.Get()), 2u);
+  object.Reset();
+  EXPECT_TRUE(made.empty());
+  notifier.Reset();
+  EXPECT_EQ(made, (std::vector<int>{1, 2}));
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

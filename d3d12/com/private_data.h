@@ -11,6 +11,7 @@
 
 #include <wrl/client.h>
 
+#include "d3d12/com/destruction_notifier.h"
 #include "d3d12/com/object.h"
 #include "d3d12/com/text.h"
 
@@ -39,11 +40,21 @@ class PrivateData {
   std::map<GUID, Item, Less> items_;
 };
 
-/// An object with ID3D12Object's methods. `First` derives from ID3D12Object.
+/// An object with ID3D12Object's methods, and ID3DDestructionNotifier as a part of it. `First`
+/// derives from ID3D12Object.
 template <class First, class... Rest>
 class NamedObject : public ComObject<First, Rest...> {
  public:
   using ComObject<First, Rest...>::ComObject;
+
+  HRESULT STDMETHODCALLTYPE QueryInterface(REFIID riid, void** object) override {
+    if (object == nullptr || riid != ID3DDestructionNotifierEntries::kInterfaces[0].guid) {
+      return ComObject<First, Rest...>::QueryInterface(riid, object);
+    }
+    this->AddRef();
+    *object = static_cast<ID3DDestructionNotifier*>(&notifier_);
+    return S_OK;
+  }
 
   HRESULT STDMETHODCALLTYPE GetPrivateData(REFGUID guid, UINT* size, void* data) override {
     return private_data_.get(guid, size, data);
@@ -66,12 +77,14 @@ class NamedObject : public ComObject<First, Rest...> {
   }
 
  protected:
+  ~NamedObject() override { notifier_.destroyed(); }
   std::string name() const { return private_data_.name(); }
   /// Sets the name by which messages call the object from now on.
   virtual void rename(const std::string&) {}
 
  private:
   PrivateData private_data_;
+  DestructionNotifier notifier_{static_cast<First*>(this)};
 };
 
 }  // namespace kaamos::d3d12

@@ -254,12 +254,14 @@ HRESULT Device::CreatePlacedResource1(ID3D12Heap* heap, UINT64 offset,
   if (info.SizeInBytes == UINT64_MAX) {
     return fail(ErrorId::kResource, "CreatePlacedResource: the desc describes no resource.");
   }
-  if (offset % info.Alignment != 0 || offset > heap_desc.SizeInBytes ||
-      info.SizeInBytes > heap_desc.SizeInBytes - offset) {
+  // A heap's memory is whole multiples of its alignment. [D3D12: D3D12_HEAP_DESC]
+  const uint64_t heap_bytes =
+      (heap_desc.SizeInBytes + heap_desc.Alignment - 1) / heap_desc.Alignment * heap_desc.Alignment;
+  if (offset % info.Alignment != 0 || offset > heap_bytes ||
+      info.SizeInBytes > heap_bytes - offset) {
     return fail(ErrorId::kHeap, "CreatePlacedResource: bytes " + std::to_string(offset) + " to " +
                                     std::to_string(offset + info.SizeInBytes) + " of a heap of " +
-                                    std::to_string(heap_desc.SizeInBytes) +
-                                    "; the offset is a multiple of " +
+                                    std::to_string(heap_bytes) + "; the offset is a multiple of " +
                                     std::to_string(info.Alignment) + ".");
   }
   const bool is_target = (desc->Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |

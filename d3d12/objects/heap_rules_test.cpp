@@ -50,6 +50,23 @@ TEST_P(HeapRules, OnlyCustomHeapsChoosePagesAndPools) {
   EXPECT_EQ(make_heap(D3D12_HEAP_TYPE_UPLOAD, D3D12_CPU_PAGE_PROPERTY_UNKNOWN, unknown), S_OK);
 }
 
+// [D3D12: D3D12_HEAP_DESC]
+TEST_P(HeapRules, HeapsHaveWholeMultiplesOfTheirAlignment) {
+  D3D12_HEAP_DESC heap_desc = {};
+  heap_desc.SizeInBytes = 65537;
+  heap_desc.Properties.Type = D3D12_HEAP_TYPE_DEFAULT;
+  ComPtr<ID3D12Heap> heap;
+  ASSERT_EQ(device_->CreateHeap(&heap_desc, IID_PPV_ARGS(heap.GetAddressOf())), S_OK);
+  const D3D12_RESOURCE_DESC desc = buffer(64, D3D12_HEAP_TYPE_DEFAULT)->GetDesc();
+  const auto place = [&](UINT64 offset) {
+    ComPtr<ID3D12Resource> placed;
+    return device_->CreatePlacedResource(heap.Get(), offset, &desc, D3D12_RESOURCE_STATE_COMMON,
+                                         nullptr, IID_PPV_ARGS(placed.GetAddressOf()));
+  };
+  EXPECT_EQ(place(65536), S_OK);
+  EXPECT_EQ(place(131072), E_INVALIDARG);
+}
+
 // [D3D12: D3D12_RESOURCE_FLAGS; D3D12_HEAP_TYPE]
 TEST_P(HeapRules, BuffersHaveNoFlagsOfTexturesNorOfWritesOnHeapsOfTheCpu) {
   D3D12_RESOURCE_DESC desc = buffer(64, D3D12_HEAP_TYPE_DEFAULT)->GetDesc();
