@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+//
+// The extension module kaamos._kaamos. kaamos/__init__.py says what each thing is for.
+#include <pybind11/functional.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <rtapi/upload.h>
+#include <rtapi/version.h>
+
+#include "python/rays.h"
+
+namespace kaamos::python {
+namespace {
+
+Library compile(const Session& session, const std::string& source, const std::string& file,
+                const std::string& target, const std::vector<std::string>& include,
+                const std::map<std::string, std::string>& define) {
+  rtapi::ShaderCompileOptions options;
+  options.File = file;
+  if (!source.empty()) options.Source = source;
+  options.Target = target;
+  options.Experimental = target.ends_with("_10");
+  options.IncludeDirectories = include;
+  for (const auto& [name, value] : define) options.Defines.push_back({name, value});
+  return session.compile(std::move(options));
+}
+
+std::vector<py::ssize_t> shape_of(const py::array& array) {
+  return {array.shape(), array.shape() + array.ndim()};
+}
+
+ArrayBuffer make_buffer(Session& session, const py::object& object) {
+  const py::array array = contiguous(object);
+  if (array.nbytes() == 0) throw py::value_error("the array is empty");
+  return {rtapi::CreateDefaultBuffer(session.device(), session.queue(), bytes_of(array),
+                                     rtapi::ResourceFlags::kAllowUnorderedAccess, "buffer")
+              .value(),
+          array.dtype(), shape_of(array)};
+}
+
+py::array read_buffer(const Session& session, const ArrayBuffer& from, const py::object& type,
+                      const py::object& shape) {
+  std::vector<std::byte> bytes;
+  {
+    const py::gil_scoped_release released;
+    bytes = rtapi::ReadbackBuffer(session.device(), session.queue(), from.buffer).value();
+  }
+  const bool as_made = type.is_none() && shape.is_none();
+  const py::dtype chosen = type.is_none() ? from.type : py::dtype::from_args(type);
+  return array_of(bytes, chosen,
+                  !shape.is_none() ? shape.cast<std::vector<py::ssize_t>>()
+                  : as_made        ? from.shape
+                                   : std::vector<py::ssize_t>{-1});
+}
+
+ArrayTexture make_texture(Session& session, const py::object& object) {
+  const py::array array = contiguous(object);
+  if (array.ndim() != 2 && array.ndim() != 3) {
+    throw py::type_error("a texture has the shape (height, width) or (height, width, channels)");
+  }
+  rtapi::TextureDesc desc;
+  desc.Height = static_cast<uint32_t>(array.shape(0));
+  desc.Width = static_cast<uint32_t>(array.shape(1));
+  desc.Format = format_of(array.dtype(), array.ndim() == 3 ? array.shape(2) : 1);
+  desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+  desc.Name = "texture";
+  const rtapi::Texture texture = session.device().CreateTexture(desc).value();
+  rtapi::UploadTexture(session.device(), session.queue(), texture, 0, bytes_of(array)).value();
+  return {texture, array.dtype(), shape_of(array)};
+}
+
+py::array read_texture(const Session& session, const ArrayTexture& from) {
+  std::vector<std::byte> bytes;
+  {
+    const py::gil_scoped_release released;
+    bytes = rtapi::ReadbackTexture(session.device(), session.queue(), from.texture, 0).value();
+  }
+  return array_of(bytes, from.type, from.shape);
+}
+
+py::list entries(const Library& library) {
+  py::list out;
+  for (const rtapi::ShaderExportInfo& one : library.library.GetExports()) out.append(one.Name);
+  return out;
+}
+
+// kaamos.Error, with the number of rtapi/ERRORS.md as its attribute `id`.
+py::object g_error_type;
+
+void set_error(const rtapi::ResultError& error) {
+  py::object made = g_error_type(error.what());
+  made.attr("id") = error.error().id.text();
+  PyErr_SetObject(g_error_type.ptr(), made.ptr());
+}
+
+}  // namespace
+}  // namespace kaamos::python
+
+PYBIND11_MODULE(_kaamos, m) {
+  using namespace kaamos::python;
+  m.attr("__version__") = rtapi::GetVersion();
+  g_error_type = py::reinterpret_steal<py::object>(
+      PyErr_NewExceptionWithDoc("kaamos.Error",
+                                "What the API refuses. `id` is its number in rtapi/ERRORS.md, such "
+                                "as \"KA0712\".",
+                                PyExc_RuntimeError, nullptr));
+  m.attr("Error") = g_error_type;
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const rtapi::ResultError& error) {
+      set_error(error);
+    }
+  });
+
+  py::class_<ArrayBuffer>(m, "Buffer").def_property_readonly("nbytes", [](const ArrayBuffer& b) {
+    return b.buffer.size();
+  });
+  py::class_<ArrayTexture>(m, "Texture").def_property_readonly("shape", [](const ArrayTexture& t) {
+    return py::tuple(py::cast(t.shape));
+  });
+  py::class_<Structure>(m, "Structure");
+  py::class_<Library>(m, "Library")
+      .def_property_readonly("exports", entries)
+      .def_property_readonly("resources", [](const Library& library) {
+        py::list names;
+        for (const auto& one : library.reflection.Bindings) names.append(one.Name);
+        return names;
+      });
+
+  py::class_<Session>(m, "Session")
+      .def(py::init([](const std::string& backend, bool interpret, bool checked, uint32_t threads) {
+             return std::make_unique<Session>(DeviceOptions{backend, interpret, checked, threads});
+           }),
+           py::arg("backend"), py::arg("interpret"), py::arg("checked"), py::arg("threads"))
+      .def("compile", compile)
+      .def("buffer", make_buffer)
+      .def("read_buffer", read_buffer)
+      .def("texture", make_texture)
+      .def("read_texture", read_texture)
+      .def("bottom_level",
+           [](Session& session, py::object vertices, py::object indices, py::object boxes,
+              bool opaque) {
+             return build_bottom_level(
+                 session, {std::move(vertices), std::move(indices), std::move(boxes), opaque});
+           })
+      .def(
+          "top_level",
+          [](Session& session, const std::vector<std::tuple<Structure, py::object, uint32_t,
+                                                            uint32_t, uint32_t, uint32_t>>& given) {
+            std::vector<Instance> instances;
+            for (const auto& [level, transform, id, mask, hit_group, flags] : given) {
+              instances.push_back({level, transform, id, mask, hit_group, flags});
+            }
+            return build_top_level(session, instances);
+          })
+      .def("dispatch",
+           [](Session& session, const Library& library, const std::string& entry,
+              std::array<uint32_t, 3> groups, const Bindings& given) {
+             session.dispatch(library, entry, {groups[0], groups[1], groups[2]}, given);
+           })
+      .def("dispatch_rays",
+           [](Session& session, const Library& library, const std::string& ray_generation,
+              const std::vector<Record>& miss, const std::vector<Record>& hit_groups,
+              const std::vector<Record>& callable,
+              const std::vector<std::array<std::string, 4>>& groups,
+              const std::vector<std::string>& local, uint32_t payload_bytes,
+              uint32_t attribute_bytes, uint32_t recursion, std::array<uint32_t, 3> size,
+              const Bindings& given) {
+             dispatch_rays(session, library,
+                           {ray_generation,
+                            miss,
+                            hit_groups,
+                            callable,
+                            groups,
+                            local,
+                            payload_bytes,
+                            attribute_bytes,
+                            recursion,
+                            {size[0], size[1], size[2]}},
+                           given);
+           })
+      .def("take_messages", [](Session& session) {
+        py::list out;
+        for (const Message& one : session.take_messages()) {
+          out.append(py::make_tuple(static_cast<uint32_t>(one.severity), one.id, one.text));
+        }
+        return out;
+      });
+}

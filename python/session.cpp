@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "python/session.h"
+
+#include <rtapi/upload.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace kaamos::python {
+namespace {
+
+using rtapi::ShaderBindingInfo;
+using rtapi::ShaderResourceType;
+
+bool is_root_descriptor(const ShaderBindingInfo& binding) {
+  return binding.Type == ShaderResourceType::kConstantBuffer ||
+         binding.Type == ShaderResourceType::kByteAddressBuffer ||
+         binding.Type == ShaderResourceType::kStructuredBuffer ||
+         binding.Type == ShaderResourceType::kAccelerationStructure;
+}
+bool is_texture(const ShaderBindingInfo& binding) {
+  return binding.Type == ShaderResourceType::kTexture2D;
+}
+bool is_sampler(const ShaderBindingInfo& binding) {
+  return binding.Type == ShaderResourceType::kSampler;
+}
+
+std::string register_text(const ShaderBindingInfo& binding) {
+  return binding.RegisterClass + std::to_string(binding.Register) +
+         ", space = " + std::to_string(binding.Space);
+}
+
+const char* view_text(const ShaderBindingInfo& binding) {
+  return binding.RegisterClass == 'b' ? "CBV" : binding.RegisterClass == 'u' ? "UAV" : "SRV";
+}
+
+// The texture in a state that shaders of its binding can use it in. States decay between lists.
+rtapi::ResourceStates state_for(const ShaderBindingInfo& binding) {
+  return binding.IsWritable ? rtapi::ResourceStates::kUnorderedAccess
+                            : rtapi::ResourceStates::kNonPixelShaderResource;
+}
+
+std::string what_is(const Bound& bound) {
+  constexpr const char* kNames[] = {"a Buffer", "a Texture", "an acceleration structure",
+                                    "constants"};
+  return kNames[bound.index()];
+}
+
+[[noreturn]] void wrong_kind(const ShaderBindingInfo& binding, const Bound& bound,
+                             const char* wanted) {
+  throw py::type_error("'" + binding.Name + "' is " + what_is(bound) + ", and the shader has " +
+                       wanted);
+}
+
+}  // namespace
+
+Session::Session(const DeviceOptions& options) : options_(options) {
+  rtapi::DeviceDesc desc;
+  desc.Backend = options.backend;
+  desc.Checked = options.checked;
+  desc.Threads = options.threads;
+  desc.OnMessage = [mutex = mutex_, messages = messages_](const rtapi::Message& message) {
+    const std::lock_guard lock(*mutex);
+    messages->push_back({message.Severity, message.Id.text(), message.Text});
+  };
+  device_ = rtapi::CreateDevice(desc).value();
+  queue_ = device_.CreateCommandQueue().value();
+}
+
+Library Session::compile(rtapi::ShaderCompileOptions options) const {
+  options.Interpret = options_.interpret || options_.backend == "vulkan";
+  options.Spirv = options_.backend == "vulkan";
+  options.CheckAccess = options_.checked;
+  options.NoWarnings = true;
+  rtapi::ShaderCompilation compiled;
+  {
+    const py::gil_scoped_release released;
+    compiled = rtapi::CompileShaderLibrary(options);
+  }
+  if (!compiled.Status.ok()) throw rtapi::ResultError(compiled.Status.error());
+  return {compiled.Library, std::move(compiled.Reflection), options.File};
+}
+
+rtapi::RootSignature Session::root_signature(const Library& library) const {
+  std::string text;
+  for (const ShaderBindingInfo& binding : library.reflection.Bindings) {
+    const std::string place = register_text(binding);
+    std::string one;
+    if (binding.Count != 1) {
+    } else if (is_root_descriptor(binding)) {
+      one = std::string(view_text(binding)) + "(" + place + ")";
+    } else if (is_texture(binding)) {
+      one = std::string("DescriptorTable(") + view_text(binding) + "(" + place + "))";
+    } else if (is_sampler(binding)) {
+      one = "StaticSampler(" + place + ", filter = FILTER_MIN_MAG_MIP_LINEAR)";
+    }
+    if (one.empty()) {
+      throw py::type_error("'" + binding.Name +
+                           "' of the shader cannot be bound from Python: constant, raw and "
+                           "structured buffers, Texture2D, RWTexture2D, samplers (linear) and "
+                           "acceleration structures can");
+    }
+    text += (text.empty() ? "" : ", ") + one;
+  }
+  return device_.CreateRootSignature(text).value();
+}
+
+std::vector<rtapi::Resource> Session::bind(rtapi::CommandList& list, const Library& library,
+                                           const rtapi::RootSignature& signature,
+                                           const Bindings& given) {
+  const auto& bindings = library.reflection.Bindings;
+  for (const auto& [name, bound] : given) {
+    const bool known = std::any_of(bindings.begin(), bindings.end(),
+                                   [&](const ShaderBindingInfo& one) { return one.Name == name; });
+    if (!known) {
+      throw py::type_error("\"" + library.source_name + "\" has no resource '" + name +
+                           "' that an entry point reads or writes");
+    }
+  }
+  const auto textures =
+      static_cast<uint32_t>(std::count_if(bindings.begin(), bindings.end(), is_texture));
+  if (textures != 0) {
+    heap_ = device_
+                .CreateDescriptorHeap({.NumDescriptors = textures,
+                                       .Flags = rtapi::DescriptorHeapFlags::kShaderVisible})
+                .value();
+    list.SetDescriptorHeaps({*heap_});
+  }
+  list.SetComputeRootSignature(signature);
+  std::vector<rtapi::Resource> alive;
+  uint32_t parameter = 0;
+  uint32_t slot = 0;
+  for (const ShaderBindingInfo& binding : bindings) {
+    if (is_sampler(binding)) continue;
+    const auto found = given.find(binding.Name);
+    if (found == given.end()) {
+      throw py::type_error("the shader's '" + binding.Name + "' is not given");
+    }
+    const Bound& bound = found->second;
+    if (is_texture(binding)) {
+      const auto* texture = std::get_if<ArrayTexture>(&bound);
+      if (texture == nullptr) wrong_kind(binding, bound, "a texture");
+      const rtapi::CpuDescriptorHandle handle = heap_->GetCPUDescriptorHandle(slot);
+      if (binding.IsWritable) {
+        device_.CreateUnorderedAccessView(texture->texture, handle).value();
+      } else {
+        device_.CreateShaderResourceView(texture->texture, handle).value();
+      }
+      list.ResourceBarrier(rtapi::ResourceBarrier::Transition(
+          texture->texture, rtapi::ResourceStates::kCommon, state_for(binding)));
+      list.SetComputeRootDescriptorTable(parameter++, heap_->GetGPUDescriptorHandle(slot++));
+      alive.emplace_back(texture->texture);
+      continue;
+    }
+    rtapi::Buffer buffer;
+    if (binding.Type == ShaderResourceType::kAccelerationStructure) {
+      const auto* structure = std::get_if<Structure>(&bound);
+      if (structure == nullptr) wrong_kind(binding, bound, "an acceleration structure");
+      buffer = structure->buffer;
+    } else if (binding.RegisterClass == 'b') {
+      const auto* bytes = std::get_if<std::string>(&bound);
+      if (bytes == nullptr) wrong_kind(binding, bound, "a constant buffer: give bytes or numbers");
+      if (bytes->size() > binding.SizeInBytes) {
+        throw py::value_error("'" + binding.Name + "' gets " + std::to_string(bytes->size()) +
+                              " bytes, and has " + std::to_string(binding.SizeInBytes));
+      }
+      std::vector<std::byte> padded((binding.SizeInBytes + 255) / 256 * 256);
+      std::memcpy(padded.data(), bytes->data(), bytes->size());
+      buffer = rtapi::CreateUploadBuffer(device_, padded, binding.Name).value();
+    } else {
+      const auto* array = std::get_if<ArrayBuffer>(&bound);
+      if (array == nullptr) wrong_kind(binding, bound, "a buffer");
+      buffer = array->buffer;
+      if (binding.IsWritable) {
+        list.ResourceBarrier(rtapi::ResourceBarrier::Transition(
+            buffer, rtapi::ResourceStates::kCommon, rtapi::ResourceStates::kUnorderedAccess));
+      }
+    }
+    const rtapi::GpuVirtualAddress address = buffer.GetGPUVirtualAddress();
+    if (binding.RegisterClass == 'b') {
+      list.SetComputeRootConstantBufferView(parameter++, address);
+    } else if (binding.RegisterClass == 'u') {
+      list.SetComputeRootUnorderedAccessView(parameter++, address);
+    } else {
+      list.SetComputeRootShaderResourceView(parameter++, address);
+    }
+    alive.emplace_back(buffer);
+  }
+  return alive;
+}
+
+void Session::dispatch(const Library& library, const std::string& entry,
+                       const uint32_t (&groups)[3], const Bindings& given) {
+  const rtapi::RootSignature signature = root_signature(library);
+  const rtapi::PipelineState pipeline =
+      device_.CreateComputePipelineState({signature, library.library, entry, entry}).value();
+  rtapi::CommandList list = device_.CreateCommandList().value();
+  const auto alive = bind(list, library, signature, given);
+  list.SetPipelineState(pipeline);
+  list.Dispatch(groups[0], groups[1], groups[2]);
+  execute(list);
+}
+
+void Session::execute(const rtapi::CommandList& list) {
+  const py::gil_scoped_release released;
+  queue_.ExecuteAndWait(list).value();
+}
+
+std::vector<Message> Session::take_messages() {
+  const std::lock_guard lock(*mutex_);
+  return std::exchange(*messages_, {});
+}
+
+}  // namespace kaamos::python

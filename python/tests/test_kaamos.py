@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""The Python package against numpy."""
+
+import os
+import unittest
+
+import kaamos
+import numpy as np
+
+SCENE = """
+RaytracingAccelerationStructure scene;
+RWTexture2D<float4> image;
+struct Payload { float3 color; };
+[shader("raygeneration")] void Camera() {
+  const uint2 pixel = DispatchRaysIndex().xy;
+  const float2 at = (pixel + 0.5) / DispatchRaysDimensions().xy * 2 - 1;
+  RayDesc ray = {float3(at, 0), 0, float3(0, 0, 1), 100};
+  Payload payload = {float3(0, 0, 0)};
+  TraceRay(scene, 0, 0xFF, 0, 0, 0, ray, payload);
+  image[pixel] = float4(payload.color, 1);
+}
+[shader("miss")] void Sky(inout Payload payload) { payload.color = float3(0, 0, 1); }
+[shader("closesthit")] void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes a) {
+  payload.color = float3(RayTCurrent() / 10, InstanceID(), 0);
+}
+"""
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        self.device = kaamos.Device(interpret=True)
+
+    def test_compute_writes_buffers(self):
+        library = self.device.compile("""
+            RWStructuredBuffer<float> values; StructuredBuffer<uint> add; cbuffer C { float scale; int less; };
+            [shader("compute")] [numthreads(4, 1, 1)] void Main(uint i : SV_DispatchThreadID) {
+              values[i] = values[i] * scale + add[i] - less; }""")
+        self.assertEqual(library.exports, ["Main"])
+        self.assertEqual(sorted(library.resources), ["C", "add", "values"])
+        start = np.arange(8, dtype=np.float32)
+        values = self.device.buffer(start)
+        self.device.dispatch(library, "Main", 2, values=values, add=self.device.buffer(np.arange(8, dtype=np.uint32)),
+                             C=(2.5, -3))
+        np.testing.assert_array_equal(values.numpy(), start * 2.5 + np.arange(8) + 3)
+        self.assertEqual(values.numpy(np.uint8).shape, (32,))
+        self.assertEqual(values.numpy(np.float32, (-1, 2)).shape, (4, 2))
+        with self.assertRaisesRegex(ValueError, "64 bytes, and there are 32"):
+            values.numpy(np.float32, (16,))
+
+    def test_textures_keep_their_texels(self):
+        for dtype, channels in ((np.float32, 4), (np.float16, 2), (np.uint32, 1), (np.uint8, 4)):
+            array = (np.arange(3 * 5 * channels) % 250).astype(dtype).reshape(3, 5, channels)
+            np.testing.assert_array_equal(self.device.texture(array).numpy(), array)
+        with self.assertRaisesRegex(TypeError, "no texture has 3 channels"):
+            self.device.texture(np.zeros((2, 2, 3), np.float32))
+
+    def test_textures_are_sampled(self):
+        library = self.device.compile("""
+            Texture2D<float> from; SamplerState linear_sampler; RWTexture2D<float> to;
+            [shader("compute")] [numthreads(1, 1, 1)] void Main(uint2 i : SV_DispatchThreadID) {
+              to[i] = from.SampleLevel(linear_sampler, (i + 1) / 4.0, 0); }""")
+        image = np.array([[0, 1], [2, 3]], np.float32)
+        out = self.device.texture(np.zeros((3, 3), np.float32))
+        self.device.dispatch(library, "Main", (3, 3), **{"from": self.device.texture(image), "to": out})
+        np.testing.assert_allclose(out.numpy(), [[0, 0.5, 1], [1, 1.5, 2], [2, 2.5, 3]], atol=1e-2)
+
+    def picture(self, device):
+        triangle = device.bottom_level(np.array([[-1, -1, 5], [1, -1, 5], [-1, 1, 5]], np.float32),
+                                       np.array([[0, 1, 2]], np.uint32))
+        behind = np.eye(4)
+        behind[2, 3] = 3
+        scene = device.top_level([kaamos.Instance(triangle, id=1),
+                                  kaamos.Instance(triangle, behind * [-1, -1, 1, 1])])
+        image = device.texture(np.zeros((4, 4, 4), np.float32))
+        library = device.compile(SCENE)
+        device.dispatch_rays(library, "Camera", (4, 4), miss=["Sky"], hit_groups=["Triangle"],
+                             groups={"Triangle": ("Hit",)}, scene=scene, image=image)
+        return image
+
+    def test_rays_meet_triangles(self):
+        image = self.picture(self.device)
+        y, x = np.mgrid[0:4, 0:4]
+        near = x + y < 3
+        expected = np.where(near[:, :, None], [0.5, 1, 0, 1], [0.8, 0, 0, 1])
+        edge = x + y == 3  # on both
+        np.testing.assert_allclose(image.numpy()[~edge], expected[~edge], atol=1e-6)
+        self.assertTrue(image._repr_png_().startswith(b"\x89PNG"))
+
+    def test_vulkan_gives_the_same(self):
+        try:
+            device = kaamos.Device("vulkan")
+        except kaamos.Error as error:
+            if os.environ.get("KAAMOS_REQUIRE_VULKAN") == "1":
+                raise
+            self.skipTest(str(error))
+        y, x = np.mgrid[0:4, 0:4]
+        off_edge = x + y != 3
+        np.testing.assert_allclose(self.picture(device).numpy()[off_edge],
+                                   self.picture(self.device).numpy()[off_edge], atol=1e-6)
+
+    def test_boxes_and_records(self):
+        library = self.device.compile("""
+            RaytracingAccelerationStructure scene; RWStructuredBuffer<float2> out_values;
+            struct Payload { float2 value; }; struct Attributes { float x; };
+            cbuffer Record : register(b0, space7) { float of_record; };
+            LocalRootSignature local = {"RootConstants(num32BitConstants = 1, b0, space = 7)"};
+            SubobjectToExportsAssociation with_local = {"local", "Hit"};
+            [shader("raygeneration")] void Start() {
+              RayDesc ray = {float3(DispatchRaysIndex().x * 4.0, 0, 0), 0, float3(0, 0, 1), 100};
+              Payload payload = {float2(0, 0)};
+              TraceRay(scene, 0, 0xFF, 0, 0, 0, ray, payload);
+              out_values[DispatchRaysIndex().x] = payload.value; }
+            [shader("miss")] void Miss(inout Payload payload) { payload.value = -1; }
+            [shader("intersection")] void Box() { Attributes a = {7}; ReportHit(3 + PrimitiveIndex(), 0, a); }
+            [shader("closesthit")] void Hit(inout Payload payload, Attributes a) {
+              payload.value = float2(RayTCurrent(), a.x + of_record); }""")
+        level = self.device.bottom_level(boxes=np.array([[-1, -1, 2, 1, 1, 9], [3, -1, 2, 5, 1, 9]], np.float32))
+        scene = self.device.top_level([kaamos.Instance(level, hit_group=1)])
+        out = self.device.buffer(np.zeros((3, 2), np.float32))
+        self.device.dispatch_rays(library, "Start", 3, miss=["Miss"], hit_groups=[None, ("Boxes", 0.5)],
+                                  groups={"Boxes": ("Hit", "", "Box")}, local=["Record"], scene=scene,
+                                  out_values=out)
+        np.testing.assert_array_equal(out.numpy(), [[3, 7.5], [4, 7.5], [-1, -1]])
+
+    def test_call_broadcasts(self):
+        source = "float2 f(float x, float3 v, int k) { return float2(x * v.z, k); }"
+        x = np.linspace(0, 1, 5, dtype=np.float32)[:, None]
+        v = np.arange(6, dtype=np.float32).reshape(2, 3)
+        out = kaamos.call("f", source, x, v, 3, device=self.device)
+        self.assertEqual(out.shape, (5, 2, 2))
+        np.testing.assert_array_equal(out[..., 0], x * v[:, 2])
+        np.testing.assert_array_equal(out[..., 1], 3)
+        matrix = np.arange(12, dtype=np.float32).reshape(3, 4)
+        np.testing.assert_array_equal(
+            kaamos.call("g", "float3x4 g(float3x4 m) { return 2 * m; }", matrix, device=self.device), 2 * matrix)
+        self.assertEqual(kaamos.call("h", "uint h(uint a) { return a; }", np.zeros(0), device=self.device).shape, (0,))
+        many = np.arange(70000, dtype=np.uint32)
+        np.testing.assert_array_equal(
+            kaamos.call("s", "uint s(uint a) { return a * a; }", many, device=self.device), many * many)
+
+    def test_mistakes_are_explained(self):
+        with self.assertRaisesRegex(kaamos.Error, "undeclared") as caught:
+            self.device.compile("[shader(\"compute\")] [numthreads(1,1,1)] void f() { undeclared(); }")
+        self.assertEqual(caught.exception.id, "KA2752")
+        with self.assertRaises(kaamos.Error) as caught:
+            kaamos.Device("none")
+        self.assertEqual(caught.exception.id, "KA0901")
+        library = self.device.compile("""RWStructuredBuffer<uint> a;
+            [shader("compute")] [numthreads(1,1,1)] void f() { a[0] = 1; }""")
+        with self.assertRaisesRegex(TypeError, "'a' is not given"):
+            self.device.dispatch(library, "f", 1)
+        with self.assertRaisesRegex(TypeError, "no resource 'b'"):
+            self.device.dispatch(library, "f", 1, a=self.device.buffer([1]), b=1)
+        with self.assertRaisesRegex(TypeError, "'a' is a Texture, and the shader has a buffer"):
+            self.device.dispatch(library, "f", 1, a=self.device.texture(np.zeros((1, 1), np.float32)))
+        with self.assertRaisesRegex(TypeError, "takes 1 arguments, and 2 are given"):
+            kaamos.call("f", "float f(float x) { return x; }", 1, 2, device=self.device)
+
+    def test_checked_mode_raises(self):
+        device = kaamos.Device(interpret=True, checked=True)
+        library = device.compile("""RWStructuredBuffer<uint> a;
+            [shader("compute")] [numthreads(1,1,1)] void f() { a[1000] = 1; }""")
+        with self.assertRaises(kaamos.CheckError) as caught:
+            device.dispatch(library, "f", 1, a=device.buffer(np.zeros(4, np.uint32)))
+        self.assertEqual(caught.exception.id, "KA0417")
+
+    def test_printf_is_heard(self):
+        lines = []
+        device = kaamos.Device(interpret=True, on_print=lines.append)
+        library = device.compile("""[shader("compute")] [numthreads(2,1,1)]
+            void f(uint i : SV_GroupIndex) { printf("i is %u", i); }""")
+        device.dispatch(library, "f", 1)
+        self.assertEqual(lines, ["(0,0,0): i is 0", "(1,0,0): i is 1"])
+
+
+if __name__ == "__main__":
+    unittest.main()
