@@ -7,6 +7,7 @@
 #include <shaders/values.h>
 
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -359,6 +360,66 @@ void any_partitions(Context& outer) {
   own.noted("all of it", "");
 }
 
+// Instances that are written, updated and translated again and again, in place and from another
+// source, against a top level that is built of the same ones. More of them than a list holds.
+void changed_again_and_again(Context& outer) {
+  Partitioned own(outer);
+  Context& t = own.t;
+  constexpr uint32_t kCount = 40, kPartitions = 5;
+  const RtasPartitionedTlasInputsDesc inputs = {TlasFlags::kEnablePartitionTranslation, kCount,
+                                                kCount, kPartitions, kCount};
+  const Buffer bottoms[] = {t.bottom_level(meadow()), t.bottom_level({triangle(5)})};
+  std::mt19937 random(4);
+  const auto place = [&] { return static_cast<float>(random() % 1000) / 50 - 10; };
+  std::vector<WriteArgs> state;
+  float moved[kPartitions + 1] = {};
+  const auto partition_of = [](uint32_t i) { return i == kPartitions ? kGlobal : i; };
+  const auto rewrite = [&](uint32_t i) {
+    state[i] = write(bottoms[random() % 2], i, place(), partition_of(random() % (kPartitions + 1)));
+    state[i].Transform[2][3] = place() / 4;
+  };
+  Operations all;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    state.emplace_back();
+    rewrite(i);
+  }
+  all.writes = state;
+  Buffer top = build_new(t, inputs, all);
+  for (int round = 0; round < 8; ++round) {
+    Operations change;
+    for (uint32_t i = random() % 9; i < kCount; i += 1 + random() % 9) {
+      if (random() % 2 == 0) {
+        rewrite(i);
+        change.writes.push_back(state[i]);
+      } else {
+        state[i].AccelerationStructure = bottoms[random() % 2].GetGPUVirtualAddress();
+        change.updates.push_back({i, 0, state[i].AccelerationStructure});
+      }
+    }
+    const uint32_t partition = random() % (kPartitions + 1);
+    moved[partition] = place() / 2;
+    change.translations = {translate(partition_of(partition), moved[partition])};
+    if (round % 3 == 2) {
+      top = build_new(t, inputs, change, top);
+    } else {
+      t.accepted("a change", run(t, inputs, in_memory(t, change), top, top));
+    }
+    std::vector<RaytracingInstanceDesc> descs;
+    for (const WriteArgs& args : state) {
+      RaytracingInstanceDesc desc;
+      std::memcpy(desc.Transform, args.Transform, sizeof(desc.Transform));
+      desc.Transform[0][3] +=
+          moved[args.PartitionIndex == kGlobal ? kPartitions : args.PartitionIndex];
+      desc.InstanceID = args.InstanceID;
+      desc.AccelerationStructure = args.AccelerationStructure;
+      descs.push_back(desc);
+    }
+    same_picture(t, "round " + std::to_string(round), picture(t, top),
+                 picture(t, t.top_level(descs)));
+  }
+  own.noted("all of it", "");
+}
+
 void many(Context& outer) {
   Partitioned own(outer);
   Context& t = own.t;
@@ -390,6 +451,7 @@ std::vector<RuleTest> instance_tests() {
           {"PTL-04", overlapping_ranges},
           {"PTL-26", never_written_ones},
           {"PTL-27", any_partitions},
+          {"PTL-03, PTL-11, PTL-17, PTL-22", changed_again_and_again},
           {"PTL-30", empty_ones},
           {"PTL-32", many}};
 }
