@@ -142,13 +142,28 @@ struct RtasOperation {
   rtapi::RtasBatchedOperationData batch = {};                // all others
 };
 
-// What an operation on clusters placed.
+// An instance of a partitioned top level.
+struct RtasInstance {
+  uint64_t bottom_level = 0;  // 0: inactive
+  uint32_t contribution = 0;
+  uint32_t mask = 0;
+  uint32_t flags = 0;
+};
+
+// What an operation placed.
 struct RtasResult {
   uint64_t address = 0;
   uint64_t size_bytes = 0;
-  uint64_t moved_from = 0;              // moves: the address of the source
-  bool bottom_level = false;            // of clusters
-  std::vector<uint64_t> clusters = {};  // the addresses of a new bottom level's clusters
+  uint64_t source = 0;        // moves and partitioned top levels: its address
+  bool bottom_level = false;  // of clusters
+  rtapi::RaytracingAccelerationStructureBuildFlags flags = {};
+  std::vector<uint64_t> clusters = {};   // the addresses of a new bottom level's clusters
+  std::vector<uint64_t> micromaps = {};  // a cluster's or template's array
+  // A partitioned top level. In checked mode only: its instances by InstanceIndex, and the indices
+  // of those that were written or updated.
+  bool top_level = false;
+  std::vector<RtasInstance> instances = {};
+  std::vector<uint32_t> written = {};
 };
 
 // Memory that an operation of a call read or wrote; `what` has static storage.
@@ -162,7 +177,7 @@ struct RtasAccess {
 
 // What the last execution of a call did.
 struct RtasResults {
-  std::vector<RtasResult> placed;    // but partitioned top levels
+  std::vector<RtasResult> placed;
   std::vector<RtasAccess> accesses;  // only in checked mode
 };
 

@@ -147,11 +147,6 @@ void Layer::note(const runtime::RtasOperationsCommand& command) {
     hazards_.write_structure(write.address, write.size_bytes,
                              "operation " + std::to_string(write.operation) + "'s " + write.what);
   }
-  for (const runtime::RtasOperation& operation : command.operations) {
-    if (!std::holds_alternative<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)) continue;
-    structures_.operated(operation.partitioned.DestAccelerationStructureData,
-                         runtime::operation_sizes(operation.inputs).ResultDataMaxSizeInBytes);
-  }
   structures_.operated(command.results->placed);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/checks/structures.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -138,33 +139,74 @@ void Structures::copied(const runtime::CopyAccelerationStructureCommand& command
   place(std::move(structure));
 }
 
-void Structures::operated(uint64_t address, uint64_t size_bytes) {
+uint64_t Structures::version_at(uint64_t address) const {
+  StructureState state;
+  const TrackedStructure* structure = address == 0 ? nullptr : find(address, state);
+  return structure != nullptr && state == StructureState::kAlive ? structure->version : 0;
+}
+
+// What a move makes of its source; of other operations, what their result says.
+TrackedStructure Structures::moved(const runtime::RtasResult& result) const {
   TrackedStructure structure;
-  structure.address = address;
-  structure.size_bytes = size_bytes;
-  structure.top = true;
-  structure.known = false;
-  place(std::move(structure));
+  structure.address = result.address;
+  structure.size_bytes = result.size_bytes;
+  structure.of_clusters = result.bottom_level;
+  structure.top = structure.partitioned = result.top_level;
+  structure.flags = result.flags;
+  const auto source = structures_.find(result.source);
+  if (result.top_level || source == structures_.end()) return structure;
+  structure.clusters = source->second.clusters;
+  structure.linkages = source->second.linkages;
+  return structure;
+}
+
+// A bottom level has the micromaps that its clusters were linked to.
+void Structures::add_clusters(const runtime::RtasResult& result,
+                              TrackedStructure& structure) const {
+  for (const uint64_t cluster : result.clusters) {
+    const auto it = structures_.find(cluster);
+    if (it == structures_.end()) continue;
+    structure.clusters.push_back({cluster, it->second.version});
+    for (const TrackedLinkage& linkage : it->second.linkages) {
+      const bool is_new = std::none_of(structure.linkages.begin(), structure.linkages.end(),
+                                       [&](const auto& each) { return each == linkage; });
+      if (is_new) structure.linkages.push_back(linkage);
+    }
+  }
+  if (result.source != 0) return;
+  for (const uint64_t array : result.micromaps) {
+    structure.linkages.push_back({array, version_at(array)});
+  }
+}
+
+// Instances that the operation neither wrote nor updated are those of its source.
+void Structures::add_instances(const runtime::RtasResult& result,
+                               TrackedStructure& structure) const {
+  const auto source = structures_.find(result.source);
+  std::vector<uint8_t> is_written(result.instances.size(), 0);
+  for (const uint32_t i : result.written) is_written[i] = 1;
+  for (uint32_t i = 0; i < result.instances.size(); ++i) {
+    const runtime::RtasInstance& instance = result.instances[i];
+    TrackedInstance tracked = {instance.bottom_level, 0, instance.contribution, instance.mask,
+                               instance.flags};
+    const TrackedInstance* before = nullptr;
+    if (is_written[i] == 0 && source != structures_.end() && i < source->second.instances.size()) {
+      before = &source->second.instances[i];
+    }
+    tracked.version = before != nullptr && before->bottom_level == instance.bottom_level
+                          ? before->version
+                          : version_at(instance.bottom_level);
+    structure.instances.push_back(tracked);
+  }
 }
 
 void Structures::operated(const std::vector<runtime::RtasResult>& results) {
   // Moves read all sources before they write.
   std::vector<TrackedStructure> made;
-  for (const runtime::RtasResult& result : results) {
-    TrackedStructure structure;
-    structure.address = result.address;
-    structure.size_bytes = result.size_bytes;
-    structure.of_clusters = result.bottom_level;
-    if (const auto it = structures_.find(result.moved_from); it != structures_.end()) {
-      structure.clusters = it->second.clusters;
-    }
-    made.push_back(std::move(structure));
-  }
+  for (const runtime::RtasResult& result : results) made.push_back(moved(result));
   for (size_t i = 0; i < results.size(); ++i) {
-    for (const uint64_t cluster : results[i].clusters) {
-      const auto it = structures_.find(cluster);
-      if (it != structures_.end()) made[i].clusters.push_back({cluster, it->second.version});
-    }
+    add_clusters(results[i], made[i]);
+    add_instances(results[i], made[i]);
     place(std::move(made[i]));
   }
 }

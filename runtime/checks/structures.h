@@ -28,7 +28,9 @@ struct GeometryContents {
 // An instance record as the build read it.
 struct TrackedInstance {
   uint64_t bottom_level = 0;  // 0: inactive
-  uint64_t version = 0;       // of the bottom level when this was built; 0: there was none
+  // Of the bottom level when this was built, of a partitioned top level when the instance was
+  // written or updated; 0: there was none.
+  uint64_t version = 0;
   uint32_t contribution = 0;
   uint32_t mask = 0;
   uint32_t flags = 0;
@@ -38,6 +40,8 @@ struct TrackedInstance {
 struct TrackedLinkage {
   uint64_t array = 0;    // 0: none is needed
   uint64_t version = 0;  // of the array when it was linked; 0: there was none
+
+  bool operator==(const TrackedLinkage&) const = default;
 };
 
 // A cluster of a bottom level.
@@ -51,6 +55,7 @@ struct TrackedStructure {
   uint64_t size_bytes = 0;
   uint64_t version = 0;  // never used twice
   bool top = false;
+  bool partitioned = false;
   bool known = true;  // false: deserialized, so its contents are unknown
   runtime::BuildFlags flags = runtime::BuildFlags::kNone;
   std::vector<runtime::GeometryShape> geometries;
@@ -83,9 +88,7 @@ class Structures {
              std::vector<GeometryContents> contents,
              const std::vector<rtapi::RaytracingInstanceDesc>& instances);
   void copied(const runtime::CopyAccelerationStructureCommand& command, uint64_t size_bytes);
-  // A partitioned top level that an operation made, whose contents only the backend knows.
-  void operated(uint64_t address, uint64_t size_bytes);
-  // What an operation on clusters made.
+  // What the operations of a call made.
   void operated(const std::vector<runtime::RtasResult>& results);
   // A command of the list wrote something else there.
   void written(uint64_t address, uint64_t size_bytes) { end_in(address, size_bytes, 0); }
@@ -99,6 +102,10 @@ class Structures {
 
  private:
   void place(TrackedStructure structure);
+  uint64_t version_at(uint64_t address) const;  // 0: nothing is alive there
+  TrackedStructure moved(const runtime::RtasResult& result) const;
+  void add_clusters(const runtime::RtasResult& result, TrackedStructure& structure) const;
+  void add_instances(const runtime::RtasResult& result, TrackedStructure& structure) const;
   void link(const runtime::BuildCommand& command, TrackedStructure& structure) const;
   // Ends every structure that has bytes there; `by` is the structure that replaces it, 0: other
   // bytes.

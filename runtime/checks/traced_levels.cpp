@@ -80,9 +80,11 @@ static bool check_micromaps(const ProofInputs& inputs, const TrackedInstance& in
   if ((instance.flags & kDisabled) != 0 && !level.linkages.empty() &&
       !rtapi::HasAny(level.flags, runtime::BuildFlags::kAllowDisableOmms)) {
     good = false;
-    inputs.reporter.report(Id::kMicromapsDisabled,
-                           of + " with kDisableOmms, but it was built without kAllowDisableOmms. "
-                                "Its micromaps are ignored.");
+    inputs.reporter.report(
+        Id::kMicromapsDisabled,
+        of + " with kDisableOmms, but " +
+            (level.of_clusters ? "not all of its clusters with micromaps were" : "it was not") +
+            " built with kAllowDisableOmms. Its micromaps are ignored.");
   }
   for (const TrackedLinkage& linkage : level.linkages) {
     if (linkage.version == 0) continue;
@@ -98,7 +100,9 @@ static bool check_micromaps(const ProofInputs& inputs, const TrackedInstance& in
             (state == StructureState::kAlive
                  ? "another one has been built there"
                  : "an acceleration structure " + inputs.structures.history(linkage.array, state)) +
-            ". Rays see what was linked. Link the bottom level anew, by a build or an update.");
+            ". Rays see what was linked. " +
+            (level.of_clusters ? "Build the cluster and the bottom level anew."
+                               : "Link the bottom level anew, by a build or an update."));
     return false;
   }
   return good;
@@ -177,8 +181,12 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
                            " refers to the bottom level at " +
                            address_name(inputs.addresses, instance.bottom_level);
     if (level != nullptr && state == StructureState::kAlive) {
-      report(Id::kStructureStale, of + ", which was built or updated after the top level. Build or "
-                                       "update the top level after its bottom levels.");
+      report(Id::kStructureStale,
+             of + (top->partitioned
+                       ? ", which was built or updated after the instance was written. Write or "
+                         "update the instance after its bottom level."
+                       : ", which was built or updated after the top level. Build or update the "
+                         "top level after its bottom levels."));
     } else {
       report(id_of(state), of + ": an acceleration structure " +
                                all.history(instance.bottom_level, state) +

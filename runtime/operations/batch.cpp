@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/backend/dispatch_checks.h"
+#include "runtime/structures/cluster.h"
 
 namespace kaamos::runtime {
 
@@ -177,6 +178,14 @@ void Batch::write_tools_info(const std::vector<uint64_t>& sizes, const std::vect
   std::memcpy(addresses_.host(data_.ToolsInfo), words.data(), words.size() * 8);
 }
 
+// The micromap array of a cluster or template, if it has one.
+static std::vector<uint64_t> arrays_of(const AccelerationStructure& structure) {
+  const Cluster* cluster = structure.cluster.get();
+  if (structure.cluster_template != nullptr) cluster = &structure.cluster_template->cluster;
+  if (cluster == nullptr || cluster->linkage == nullptr) return {};
+  return {cluster->linkage->address};
+}
+
 void Batch::finish(std::vector<BatchObject> objects, std::vector<RtasResult>& results) {
   std::vector<uint64_t> sizes(count_);
   std::vector<uint64_t> at(count_);
@@ -190,8 +199,8 @@ void Batch::finish(std::vector<BatchObject> objects, std::vector<RtasResult>& re
       continue;
     }
     const bool is_level = objects[i].structure.of_clusters;
-    placed.push_back(
-        {at[i], sizes[i], objects[i].moved_from, is_level, std::move(objects[i].clusters)});
+    placed.push_back({at[i], sizes[i], objects[i].moved_from, is_level, objects[i].structure.flags,
+                      std::move(objects[i].clusters), arrays_of(objects[i].structure)});
     notes_.writes(at[i], sizes[i], "result");
     AccelerationStructure& structure = objects[i].structure;
     structure.address = at[i];

@@ -49,6 +49,7 @@ bool ClusterLevelBuilder::read(const Args& args, uint32_t index, Clusters& clust
     const auto address = load_element<uint64_t>(in, i);
     if (address == 0) continue;
     const auto structure = environment_.structures.find(address);
+    notes_.reads(address, structure == nullptr ? 1 : structure->size_bytes, "cluster");
     if (structure == nullptr || structure->cluster == nullptr) {
       note(index, "there is no cluster " + at_address(addresses, address) +
                       ", so the bottom level goes without it");
@@ -56,7 +57,6 @@ bool ClusterLevelBuilder::read(const Args& args, uint32_t index, Clusters& clust
       note(index,
            "the cluster " + at_address(addresses, address) + " is named twice; it counts once");
     } else {
-      notes_.reads(address, structure->size_bytes, "cluster");
       clusters.push_back(structure->cluster);
       at.push_back(address);
     }

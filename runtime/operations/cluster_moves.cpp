@@ -36,6 +36,7 @@ bool has_micromaps(const AccelerationStructure& structure) {
 std::shared_ptr<const AccelerationStructure> ClusterMover::find(const Args& args, uint32_t index) {
   const uint64_t address = args.SourceAccelerationStructure;
   auto source = environment_.structures.find(address);
+  notes_.reads(address, source == nullptr ? 1 : source->size_bytes, "source");
   if (source == nullptr || !is_of(*source, inputs_.Type)) {
     static constexpr const char* kNames[] = {"bottom level of clusters", "cluster",
                                              "cluster template"};
@@ -44,7 +45,6 @@ std::shared_ptr<const AccelerationStructure> ClusterMover::find(const Args& args
                    at_address(*environment_.context.addresses, address) + "; it is left out");
     return nullptr;
   }
-  notes_.reads(address, source->size_bytes, "source");
   if (has_micromaps(*source) && !HasAny(inputs_.Flags, Flags::kAllowOmm)) {
     notes_.add_about(index, "its source has opacity micromaps, but the operation lacks kAllowOmm");
   }

@@ -55,13 +55,13 @@ void TemplateInstantiator::note(uint32_t index, const std::string& what) {
 std::shared_ptr<const ClusterTemplate> TemplateInstantiator::find(const Args& args,
                                                                   uint32_t index) {
   const auto structure = environment_.structures.find(args.ClusterTemplate);
+  notes_.reads(args.ClusterTemplate, structure == nullptr ? 1 : structure->size_bytes, "template");
   if (structure == nullptr || structure->cluster_template == nullptr) {
     note(index, "there is no cluster template " +
                     at_address(*environment_.context.addresses, args.ClusterTemplate) +
                     "; it is left out");
     return nullptr;
   }
-  notes_.reads(args.ClusterTemplate, structure->size_bytes, "template");
   const auto& found = structure->cluster_template;
   rtapi::RtasBuildClasFromTrianglesArgs counts;
   counts.TriangleCount = static_cast<uint16_t>(found->cluster.triangles());

@@ -46,7 +46,10 @@ class OperationNotes {
 
  private:
   void access(uint64_t address, uint64_t bytes, bool written, const char* what) {
-    if (environment_.context.reporter == nullptr || bytes == 0 || address == 0) return;
+    if (environment_.context.reporter == nullptr || bytes == 0 ||
+        environment_.context.addresses->bytes_from(address) == 0) {
+      return;
+    }
     results_.accesses.push_back({address, bytes, operation_, written, what});
   }
 

@@ -14,8 +14,9 @@
 
 namespace kaamos::runtime {
 
-// The operations in order. All earlier commands are done, so that the host sees GPU memory as the
-// operations do. An error removes the device; what is wrong in GPU memory is a warning.
+// The operations in order, but in another one in checked mode. All earlier commands are done, so
+// that the host sees GPU memory as the operations do. An error removes the device; what is wrong in
+// GPU memory is a warning.
 rtapi::Status execute_operations(const StructureEnvironment& environment,
                                  const RtasOperationsCommand& command, const std::string& label,
                                  const RebuildLevel& build);

@@ -50,7 +50,7 @@ class Builder {
         inputs_(std::get<rtapi::RtasPartitionedTlasInputsDesc>(operation.inputs)),
         notes_(notes) {}
 
-  rtapi::Status run(const RebuildLevel& build);
+  rtapi::Status run(const RebuildLevel& build, std::vector<RtasResult>& results);
 
  private:
   // False: the operation is left out.
@@ -69,6 +69,7 @@ class Builder {
   void activate_changed();
   void activate(uint32_t index);
   void mark(uint32_t index);
+  RtasResult result() const;  // for checked mode
   bool in_place() const {
     return data_.SourceAccelerationStructureData == data_.DestAccelerationStructureData;
   }
@@ -96,12 +97,12 @@ bool Builder::start() {
     return true;
   }
   source_ = environment_.structures.find(source);
+  notes_.reads(source, source_ == nullptr ? 1 : source_->size_bytes, "source");
   if (source_ == nullptr || source_->partitioned == nullptr) {
     notes_.add("there is no partitioned top level " + at(source) +
                " to start from, so the operation is left out");
     return false;
   }
-  notes_.reads(source, source_->size_bytes, "source");
   const uint64_t bytes = partitioned_bytes(inputs_);
   const bool overlaps = source < dest ? dest - source < source_->size_bytes : source - dest < bytes;
   if (!in_place() && overlaps) {
@@ -395,9 +396,7 @@ void Builder::check_members() {
 void Builder::activate(uint32_t index) {
   const char* why = runtime::activate(environment_.structures, *level_, index);
   const Instance& instance = level_->instances[index];
-  if (instance.bottom_level != nullptr) {
-    notes_.reads(instance.desc.AccelerationStructure, 1, "bottom level");
-  }
+  notes_.reads(instance.desc.AccelerationStructure, 1, "bottom level");
   if (why != nullptr) {
     notes_.add("instance " + std::to_string(index) + ": " + why, Id::kInstanceInactive);
   }
@@ -449,7 +448,24 @@ void Builder::activate_changed() {
   }
 }
 
-rtapi::Status Builder::run(const RebuildLevel& build) {
+RtasResult Builder::result() const {
+  RtasResult out;
+  out.address = data_.DestAccelerationStructureData;
+  out.size_bytes = partitioned_bytes(inputs_);
+  out.source = data_.SourceAccelerationStructureData;
+  out.top_level = true;
+  if (environment_.context.reporter == nullptr) return out;
+  out.instances.reserve(level_->instances.size());
+  for (uint32_t i = 0; i < level_->instances.size(); ++i) {
+    const rtapi::RaytracingInstanceDesc& desc = level_->instances[i].desc;
+    out.instances.push_back({desc.AccelerationStructure, desc.InstanceContributionToHitGroupIndex,
+                             desc.InstanceMask, desc.Flags});
+    if (is_written_[i] != 0 || is_updated_[i] != 0) out.written.push_back(i);
+  }
+  return out;
+}
+
+rtapi::Status Builder::run(const RebuildLevel& build, std::vector<RtasResult>& results) {
   const uint64_t dest = data_.DestAccelerationStructureData;
   const uint64_t bytes = partitioned_bytes(inputs_);
   if (auto s = check_destination(addresses_, dest, bytes); !s) return s;
@@ -470,6 +486,7 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
   if (auto s = build_partitioned_level(build, *level_, changed_, result); !s) return s;
   environment_.structures.place(std::move(result));
   notes_.writes(dest, bytes, "result");
+  results.push_back(this->result());
   return {};
 }
 
@@ -477,8 +494,8 @@ rtapi::Status Builder::run(const RebuildLevel& build) {
 
 rtapi::Status build_partitioned(const StructureEnvironment& environment,
                                 const RtasOperation& operation, OperationNotes& notes,
-                                const RebuildLevel& build) {
-  return Builder(environment, operation, notes).run(build);
+                                const RebuildLevel& build, std::vector<RtasResult>& results) {
+  return Builder(environment, operation, notes).run(build, results);
 }
 
 }  // namespace kaamos::runtime

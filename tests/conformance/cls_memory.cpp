@@ -348,6 +348,46 @@ void not_copied(Context& outer) {
   }
 }
 
+// Operations of one call that do not depend on each other, in every order.
+void any_order(Context& outer) {
+  Own own(outer);
+  Context& t = own.t;
+  const TrianglesDesc desc = triangles_desc(2);
+  RtasClusterTemplateTrianglesInputsDesc template_desc;
+  template_desc.Limits = desc.Limits;
+  const RtasOperationInputs inputs[] = {inputs_of(desc), inputs_of(desc), inputs_of(template_desc)};
+  RtasBuildClusterTemplatesFromTrianglesArgs of_template;
+  of_template.TrianglesArgs = cluster(t, triangle(5), 9);
+  of_template.TrianglesArgs.VertexBuffer = 0;
+  const Buffer arguments[] = {
+      t.upload(row_of_clusters(t, 2)),
+      t.upload(std::vector<ClusterArgs>(2, cluster(t, triangle(9, 20)))),
+      t.upload(std::vector<RtasBuildClusterTemplatesFromTrianglesArgs>(2, of_template))};
+  std::vector<size_t> order = {0, 1, 2};
+  do {
+    std::vector<Batch> batches;
+    std::vector<RtasOperationDesc> descs(3);
+    for (size_t i = 0; i < 3; ++i) batches.push_back(batch_of(t, inputs[i], arguments[i]));
+    for (size_t i = 0; i < 3; ++i) {
+      descs[i].pInputs = &inputs[order[i]];
+      descs[i].pBatchedOperationData = &batches[order[i]].data;
+    }
+    t.accepted("a call",
+               execute(t, [&](CommandList& list) { list.ExecuteIndirectRTASOperations(descs); }));
+    const Words first = addresses_in(t, batches[0]);
+    shows(t, "clusters of two operations", {first[0], first[1], addresses_in(t, batches[1])[0]},
+          {5, 6, 9});
+    RtasInstantiateClusterTemplateInputsDesc instantiate;
+    instantiate.Limits = desc.Limits;
+    RtasInstantiateClusterTemplatesArgs args;
+    args.ClusterTemplate = addresses_in(t, batches[2])[1];
+    args.VertexBuffer = {t.upload(triangle(7).vertices).GetGPUVirtualAddress(), 0};
+    shows(t, "a template",
+          build(t, instantiate, std::vector<RtasInstantiateClusterTemplatesArgs>{args}), {7});
+  } while (std::next_permutation(order.begin(), order.end()));
+  own.noted("all of it", "");
+}
+
 // Arguments that no application means; whatever happens, it ends and the device goes on.
 void nonsense(Context& outer) {
   Own own(outer);
@@ -434,7 +474,8 @@ void many(Context& outer) {
 }  // namespace
 
 std::vector<RuleTest> memory_tests() {
-  return {{"IND-07, IND-11", counts},
+  return {{"IND-02", any_order},
+          {"IND-07, IND-11", counts},
           {"IND-08, IND-09, IND-16", strides},
           {"IND-10, IND-12", implicit},
           {"IND-13", explicit_ones},
