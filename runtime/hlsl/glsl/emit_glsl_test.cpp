@@ -30,7 +30,8 @@ const std::string kRoot = KAAMOS_SOURCE_DIR;
 FrontendOptions options_of(const fs::path& path) {
   FrontendOptions options;
   options.path = path.string();
-  options.include_folders = {kRoot + "/tests/hlsl", kRoot + "/effects/shaders"};
+  options.include_folders = {kRoot + "/tests/hlsl", kRoot + "/effects/shaders",
+                             kRoot + "/tests/shaders/include"};
   std::ifstream file(path);
   for (std::string line; std::getline(file, line) && line.starts_with("//");) {
     std::istringstream words(line);
