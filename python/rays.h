@@ -3,6 +3,7 @@
 // Acceleration structures from arrays, and dispatches of rays.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <utility>

@@ -28,8 +28,8 @@ struct GeometryContents {
 // An instance record as the build read it.
 struct TrackedInstance {
   uint64_t bottom_level = 0;  // 0: inactive
-  // Of the bottom level when this was built, of a partitioned top level when the instance was
-  // written or updated; 0: there was none.
+  // The bottom level's version when this was built; in a partitioned top level, when the instance
+  // was written or updated. 0: there was none.
   uint64_t version = 0;
   uint32_t contribution = 0;
   uint32_t mask = 0;

@@ -31,7 +31,7 @@ struct SerializedFrame {
   std::optional<rtapi::SerializedBlockType> block;
   std::vector<uint64_t> pointers;
 
-  // Of header, addresses and what precedes the contents.
+  // The size of the header, the addresses and what precedes the contents.
   uint64_t bytes() const;
   // NumBottomLevelAccelerationStructurePointers of the postbuild info.
   uint64_t pointers_or_blocks() const { return block ? 1 : pointers.size(); }

@@ -52,7 +52,7 @@ Type type_of(const AccelerationStructure& structure) {
   return structure.of_clusters ? Type::kClusteredBottomLevel : Type::kPartitionedTopLevel;
 }
 
-// Of a cluster or template.
+// Returns the cluster itself, or the one that a template is made from.
 const Cluster& cluster_of(const AccelerationStructure& structure) {
   return structure.cluster != nullptr ? *structure.cluster : structure.cluster_template->cluster;
 }

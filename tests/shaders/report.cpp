@@ -9,7 +9,7 @@ namespace {
 
 using Outcome = TestResult::Outcome;
 
-// Of one test, as text: every thread of a group may fail.
+// The text shows this many failures of a test: every thread of a group may fail.
 constexpr size_t kMostFailures = 8;
 
 size_t count(const std::vector<TestResult>& results, Outcome outcome) {

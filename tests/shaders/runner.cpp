@@ -23,7 +23,7 @@ using rtapi::ShaderBindingInfo;
 using rtapi::ShaderResourceType;
 
 constexpr uint32_t kSceneSpace = 9999;
-// Of every buffer that a test declares.
+// The size of every buffer that a test declares.
 constexpr uint64_t kBufferBytes = 64 * 1024;
 constexpr char kOwnHeader[] = "kaamos/test.hlsli";
 

@@ -67,7 +67,7 @@ class Runner {
   std::string root_signature_text_;
   bool has_no_device_ = false;
 
-  // Of the device, which a fault ends.
+  // These live as long as the device, which a fault ends.
   rtapi::Device device_;
   rtapi::CommandQueue queue_;
   rtapi::RootSignature root_signature_;
