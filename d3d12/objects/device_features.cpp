@@ -151,6 +151,7 @@ HRESULT Device::CheckFeatureSupport(D3D12_FEATURE feature, void* data, UINT size
     case D3D12_FEATURE_D3D12_OPTIONS:
       return options<D3D12_FEATURE_DATA_D3D12_OPTIONS>(query, [](auto& out) {
         out.DoublePrecisionFloatShaderOps = TRUE;
+        out.OutputMergerLogicOp = TRUE;
         out.ResourceBindingTier = D3D12_RESOURCE_BINDING_TIER_3;
         out.TypedUAVLoadAdditionalFormats = TRUE;
         out.MaxGPUVirtualAddressBitsPerResource = kAddressBits;

@@ -74,6 +74,7 @@ rtapi::BlendDesc blend_desc(const D3D12_BLEND_DESC& desc) {
     to.SrcBlendAlpha = static_cast<rtapi::Blend>(from.SrcBlendAlpha);
     to.DestBlendAlpha = static_cast<rtapi::Blend>(from.DestBlendAlpha);
     to.BlendOpAlpha = static_cast<rtapi::BlendOp>(from.BlendOpAlpha);
+    to.LogicOp = static_cast<rtapi::LogicOp>(from.LogicOp);
     to.RenderTargetWriteMask = static_cast<rtapi::ColorWriteEnable>(from.RenderTargetWriteMask);
   }
   return out;

@@ -107,6 +107,9 @@ D3D12_FEATURE_DATA_FORMAT_SUPPORT format_support(const rtapi::Device& device, DX
     if (probe.render_target()) {
       one |= D3D12_FORMAT_SUPPORT1_RENDER_TARGET;
       if (!whole) one |= D3D12_FORMAT_SUPPORT1_BLENDABLE;
+      if (rtapi::GetFormatInfo(rtapi_format).type == rtapi::FormatClass::kUint) {
+        two |= D3D12_FORMAT_SUPPORT2_OUTPUT_MERGER_LOGIC_OP;
+      }
     }
     if (probe.depth_stencil()) one |= D3D12_FORMAT_SUPPORT1_DEPTH_STENCIL;
     if (probe.unordered_access()) {

@@ -128,6 +128,24 @@ SAME_VALUE(rtapi::BlendOp::kRevSubtract, D3D12_BLEND_OP_REV_SUBTRACT);
 SAME_VALUE(rtapi::BlendOp::kMin, D3D12_BLEND_OP_MIN);
 SAME_VALUE(rtapi::BlendOp::kMax, D3D12_BLEND_OP_MAX);
 
+// D3D12_LOGIC_OP
+SAME_VALUE(rtapi::LogicOp::kClear, D3D12_LOGIC_OP_CLEAR);
+SAME_VALUE(rtapi::LogicOp::kSet, D3D12_LOGIC_OP_SET);
+SAME_VALUE(rtapi::LogicOp::kCopy, D3D12_LOGIC_OP_COPY);
+SAME_VALUE(rtapi::LogicOp::kCopyInverted, D3D12_LOGIC_OP_COPY_INVERTED);
+SAME_VALUE(rtapi::LogicOp::kNoop, D3D12_LOGIC_OP_NOOP);
+SAME_VALUE(rtapi::LogicOp::kInvert, D3D12_LOGIC_OP_INVERT);
+SAME_VALUE(rtapi::LogicOp::kAnd, D3D12_LOGIC_OP_AND);
+SAME_VALUE(rtapi::LogicOp::kNand, D3D12_LOGIC_OP_NAND);
+SAME_VALUE(rtapi::LogicOp::kOr, D3D12_LOGIC_OP_OR);
+SAME_VALUE(rtapi::LogicOp::kNor, D3D12_LOGIC_OP_NOR);
+SAME_VALUE(rtapi::LogicOp::kXor, D3D12_LOGIC_OP_XOR);
+SAME_VALUE(rtapi::LogicOp::kEquiv, D3D12_LOGIC_OP_EQUIV);
+SAME_VALUE(rtapi::LogicOp::kAndReverse, D3D12_LOGIC_OP_AND_REVERSE);
+SAME_VALUE(rtapi::LogicOp::kAndInverted, D3D12_LOGIC_OP_AND_INVERTED);
+SAME_VALUE(rtapi::LogicOp::kOrReverse, D3D12_LOGIC_OP_OR_REVERSE);
+SAME_VALUE(rtapi::LogicOp::kOrInverted, D3D12_LOGIC_OP_OR_INVERTED);
+
 // D3D12_COLOR_WRITE_ENABLE
 SAME_VALUE(rtapi::ColorWriteEnable::kRed, D3D12_COLOR_WRITE_ENABLE_RED);
 SAME_VALUE(rtapi::ColorWriteEnable::kGreen, D3D12_COLOR_WRITE_ENABLE_GREEN);

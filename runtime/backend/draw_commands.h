@@ -19,6 +19,11 @@ class BackendPipeline;
 class BackendTexture;
 struct LinkedGraphics;
 
+inline bool is_strip(rtapi::PrimitiveTopology topology) {
+  return topology == rtapi::PrimitiveTopology::kLineStrip ||
+         topology == rtapi::PrimitiveTopology::kTriangleStrip;
+}
+
 // The view that a render target or depth-stencil descriptor stood for when a call read it.
 struct TargetView {
   std::shared_ptr<BackendTexture> texture;  // null: no target

@@ -81,6 +81,8 @@ struct LinkedGraphics {
   std::vector<LinkedVarying> varyings;
   // Fixed state, checked. One blend desc for each target, whatever IndependentBlendEnable was.
   rtapi::RenderTargetBlendDesc blend[rtapi::kSimultaneousRenderTargetCount];
+  bool blends_two_sources = false;  // SV_Target1 is the second source of target 0
+  rtapi::PrimitiveTopologyType topology = rtapi::PrimitiveTopologyType::kTriangle;
   rtapi::RasterizerDesc rasterizer;
   rtapi::DepthStencilDesc depth_stencil;
   uint32_t sample_mask = 0xFFFFFFFFu;

@@ -39,7 +39,7 @@ class InputCheck {
  private:
   void report(Id id, const std::string& text) { reporter_.report(id, who_ + ": " + text); }
   std::optional<uint32_t> cut() const {
-    if (state_.topology != rtapi::PrimitiveTopology::kTriangleStrip) return std::nullopt;
+    if (!runtime::is_strip(state_.topology)) return std::nullopt;
     switch (linked_.strip_cut) {
       case IndexBufferStripCutValue::k0xFFFF:
         return 0xFFFFu;
@@ -56,7 +56,7 @@ class InputCheck {
     const char* name = small_cut ? "k0xFFFF" : "k0xFFFFFFFF";
     if (!cut()) {
       return report(Id::kStripCut, std::string("IBStripCutValue is ") + name +
-                                       ", but the topology is a triangle list, which nothing cuts. "
+                                       ", but the topology is a list, which nothing cuts. "
                                        "Set it to kDisabled, or draw a strip.");
     }
     const bool small = state_.index_buffer.Format == rtapi::Format::kR16Uint;

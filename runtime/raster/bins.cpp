@@ -25,8 +25,8 @@ void Bins::add_large(const Triangle& triangle, uint32_t left, uint32_t right, ui
                      uint32_t bottom, uint32_t first, uint32_t number) {
   Edge edges[3];
   int64_t most[3];
+  edges_of(triangle, edges);
   for (int i = 0; i < 3; ++i) {
-    edges[i] = edge_of(triangle, i);
     most[i] = edges[i].most(kTileSize);
     // Samples are up to half a pixel from the middle.
     if (multisampled_) most[i] += (std::abs(edges[i].a) + std::abs(edges[i].b)) / 2 + 1;

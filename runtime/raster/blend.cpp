@@ -21,7 +21,7 @@ float clamped(float value, float low) {
 }
 
 struct Operands {
-  Colors source, destination;
+  Colors source, second, destination;
   float factor[4];
 };
 
@@ -70,6 +70,18 @@ Component factor_of(rtapi::Blend blend, const Operands& in, int c) {
         return c == 3 ? 1.0f : source_alpha.v[i] < left ? source_alpha.v[i] : left;
       });
       break;
+    case B::kSrc1Color:
+      each([&](int i) { return in.second.c[c].v[i]; });
+      break;
+    case B::kInvSrc1Color:
+      each([&](int i) { return 1.0f - in.second.c[c].v[i]; });
+      break;
+    case B::kSrc1Alpha:
+      each([&](int i) { return in.second.c[3].v[i]; });
+      break;
+    case B::kInvSrc1Alpha:
+      each([&](int i) { return 1.0f - in.second.c[3].v[i]; });
+      break;
     case B::kBlendFactor:
       each([&](int) { return in.factor[c]; });
       break;
@@ -115,15 +127,19 @@ Component combined(rtapi::BlendOp op, const Component& source, const Component& 
 
 void blend_colors(const rtapi::RenderTargetBlendDesc& desc, const TargetCodec& codec,
                   const float blend_factor[4], const shader::Column* source,
-                  const shader::Column* destination, shader::Column* result) {
+                  const shader::Column* second, const shader::Column* destination,
+                  shader::Column* result) {
   Operands in;
   std::memcpy(&in.source, source, sizeof(in.source));
+  std::memcpy(&in.second, second == nullptr ? source : second, sizeof(in.second));
   std::memcpy(&in.destination, destination, sizeof(in.destination));
   std::memcpy(in.factor, blend_factor, sizeof(in.factor));
   if (codec.clamped) {
     const float low = codec.clamped_signed ? -1.0f : 0.0f;
-    for (Component& component : in.source.c) {
-      for (float& value : component.v) value = clamped(value, low);
+    for (Colors* colors : {&in.source, &in.second}) {
+      for (Component& component : colors->c) {
+        for (float& value : component.v) value = clamped(value, low);
+      }
     }
     for (float& value : in.factor) value = clamped(value, low);
   }
@@ -134,6 +150,47 @@ void blend_colors(const rtapi::RenderTargetBlendDesc& desc, const TargetCodec& c
                  factor_of(alpha ? desc.SrcBlendAlpha : desc.SrcBlend, in, c), in.destination.c[c],
                  factor_of(alpha ? desc.DestBlendAlpha : desc.DestBlend, in, c));
     std::memcpy(result[c], &out, sizeof(out));
+  }
+}
+
+void apply_logic_op(rtapi::LogicOp op, const shader::Column& destination, shader::Column& words) {
+  using L = rtapi::LogicOp;
+  const auto each = [&](const auto& f) {
+    for (int i = 0; i < kLanes; ++i) words[i] = f(words[i], destination[i]);
+  };
+  switch (op) {
+    case L::kClear:
+      return each([](uint32_t, uint32_t) { return 0u; });
+    case L::kSet:
+      return each([](uint32_t, uint32_t) { return ~0u; });
+    case L::kCopy:
+      return;
+    case L::kCopyInverted:
+      return each([](uint32_t s, uint32_t) { return ~s; });
+    case L::kNoop:
+      return each([](uint32_t, uint32_t d) { return d; });
+    case L::kInvert:
+      return each([](uint32_t, uint32_t d) { return ~d; });
+    case L::kAnd:
+      return each([](uint32_t s, uint32_t d) { return s & d; });
+    case L::kNand:
+      return each([](uint32_t s, uint32_t d) { return ~(s & d); });
+    case L::kOr:
+      return each([](uint32_t s, uint32_t d) { return s | d; });
+    case L::kNor:
+      return each([](uint32_t s, uint32_t d) { return ~(s | d); });
+    case L::kXor:
+      return each([](uint32_t s, uint32_t d) { return s ^ d; });
+    case L::kEquiv:
+      return each([](uint32_t s, uint32_t d) { return ~(s ^ d); });
+    case L::kAndReverse:
+      return each([](uint32_t s, uint32_t d) { return s & ~d; });
+    case L::kAndInverted:
+      return each([](uint32_t s, uint32_t d) { return ~s & d; });
+    case L::kOrReverse:
+      return each([](uint32_t s, uint32_t d) { return s | ~d; });
+    case L::kOrInverted:
+      return each([](uint32_t s, uint32_t d) { return ~s | d; });
   }
 }
 

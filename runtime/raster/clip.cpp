@@ -9,7 +9,8 @@ namespace {
 
 struct Clipper {
   ClipVertex* polygon;
-  int count = 3;
+  int corners;  // 2: a line, which has no edge from its end to its start
+  int count;
   uint32_t distances;
 
   // `side(v)` is negative outside; `settle(v)` moves a new vertex exactly onto the plane.
@@ -28,7 +29,7 @@ struct Clipper {
     for (int i = 0; i < count; ++i) {
       const int next = i + 1 == count ? 0 : i + 1;
       if (sides[i] >= 0) result[kept++] = polygon[i];
-      if ((sides[i] < 0) == (sides[next] < 0)) continue;
+      if ((sides[i] < 0) == (sides[next] < 0) || (corners == 2 && next == 0)) continue;
       // From inside to outside, whichever comes first.
       const bool leaves = sides[i] >= 0;
       const int in = leaves ? i : next;
@@ -38,7 +39,7 @@ struct Clipper {
       result[kept] = between(polygon[in], polygon[out], sides[in] / (sides[in] - sides[out]));
       settle(result[kept++]);
     }
-    count = kept < 3 ? 0 : kept;
+    count = kept < corners ? 0 : kept;
     std::memcpy(polygon, result, sizeof(ClipVertex) * static_cast<size_t>(count));
   }
 
@@ -69,9 +70,9 @@ struct Clipper {
 
 }  // namespace
 
-int clip(const ClipPlanes& planes, const ViewportState& viewport,
+int clip(const ClipPlanes& planes, const ViewportState& viewport, int corners,
          ClipVertex polygon[kMaxClippedVertices]) {
-  Clipper clipper{polygon, 3, planes.distances};
+  Clipper clipper{polygon, corners, corners, planes.distances};
   const double least_w = static_cast<double>(kLeastW);
   clipper.cut([&](const ClipVertex& v) { return v.w - least_w; },
               [&](ClipVertex& v) { v.w = least_w; });

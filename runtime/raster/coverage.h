@@ -30,8 +30,13 @@ class Coverage {
       begin_small(triangle, x, y);
       return true;
     }
+    if ((triangle.flags & kLine) != 0) {
+      rect_ = {box.left - x, box.top - y, box.right - x, box.bottom - y};
+    }
+    Edge edges[3];
+    edges_of(triangle, edges);
     for (int i = 0; i < 3; ++i) {
-      const Edge edge = edge_of(triangle, i);
+      const Edge& edge = edges[i];
       const int64_t corner = edge.at(x, y);
       if (corner + edge.most(kTileSize) < 0) return false;
       if (corner + edge.least(kTileSize) >= 0) {

@@ -179,7 +179,7 @@ TEST(Raster, WindingCullModeAndFlagDecide) {  // RAS-52, RAS-53
         const auto texel = target.at<std::array<uint32_t, 4>>(12, 12);
         EXPECT_EQ(texel[1], culled ? 0u : 7u);
         if (!culled) {
-          EXPECT_EQ(texel[0], front ? 1u : 0u);
+          EXPECT_EQ(texel[0], front ? ~0u : 0u);
         }
       }
     }

@@ -81,6 +81,7 @@ void plan_targets(const runtime::LinkedGraphics& linked, const Targets& targets,
     const Surface& surface = targets.color[i];
     const auto& columns = linked.pixel_columns.targets[i];
     if (surface.texels == nullptr || columns.first_column == kNoColumn) continue;
+    if (linked.blends_two_sources && i > 0) continue;
     PlannedTarget target;
     target.codec = &target_codec(surface.format);
     if (target.codec->bytes == 0) continue;
@@ -101,6 +102,13 @@ void plan_targets(const runtime::LinkedGraphics& linked, const Targets& targets,
     }
     if (!writes) continue;
     target.blends = target.blend.BlendEnable && !target.codec->integer;
+    if (target.blend.LogicOpEnable) target.whole_texels = false;
+    if (linked.blends_two_sources) {
+      const auto& second = linked.pixel_columns.targets[1];
+      target.has_second = true;
+      target.second_column = second.first_column;
+      target.second_components = second.components;
+    }
     plan.targets.push_back(target);
   }
 }
@@ -151,6 +159,8 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
   }
 
   const rtapi::RasterizerDesc& raster = linked.rasterizer;
+  plan.wireframe = raster.FillMode == rtapi::FillMode::kWireframe;
+  plan.lines_are_rectangles = raster.MultisampleEnable;
   plan.cull_front = raster.CullMode == rtapi::CullMode::kFront;
   plan.cull_back = raster.CullMode == rtapi::CullMode::kBack;
   plan.front_is_clockwise = !raster.FrontCounterClockwise;

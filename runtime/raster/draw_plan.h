@@ -39,9 +39,13 @@ struct PlannedTarget {
   uint32_t slot = 0;
   uint32_t first_column = 0;
   uint32_t components = 0;
-  uint32_t mask[4] = {};  // bits of each word that are written
-  bool whole_texels = true;
+  uint32_t mask[4] = {};     // bits of each word that are written
+  bool whole_texels = true;  // all bits are written, whatever is there
   bool blends = false;
+  // Of SV_Target1, if blending reads it.
+  bool has_second = false;
+  uint32_t second_column = 0;
+  uint32_t second_components = 0;  // those that the shader writes
   rtapi::RenderTargetBlendDesc blend;
 };
 
@@ -70,7 +74,9 @@ struct DrawPlan {
   uint32_t slices = 1;
   std::array<ViewportState, rtapi::kViewportAndScissorRectCount> viewports;
 
-  // Triangles.
+  // Lines and triangles.
+  bool wireframe = false;             // of triangles only the edges are drawn
+  bool lines_are_rectangles = false;  // 1.4 pixels wide; else one pixel of each column or row
   bool cull_front = false;
   bool cull_back = false;
   bool front_is_clockwise = true;

@@ -5,9 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "runtime/raster/clip.h"
-#include "runtime/raster/triangle_setup.h"
-
 namespace kaamos::raster {
 namespace {
 
@@ -45,7 +42,7 @@ int fan_center(const ScreenVertex* polygon, int count) {
 
 }  // namespace
 
-void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan& plan,
+void FrontEnd::run(const PrimitiveRange& range, const Draw& draw, const DrawPlan& plan,
                    const TileGrid& grid, ShaderThread& thread, Batch& batch) {
   range_ = &range;
   draw_ = &draw;
@@ -66,7 +63,7 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
   triangles_.clear();
   triangles_.reserve(range.count);
   if (plan.has_shading) batch.shading.reserve(range.count);
-  add_triangles();
+  add_primitives();
   bins_.finish(triangles_.data(), plan.has_shading, batch);
 }
 
@@ -74,7 +71,8 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
 // Collecting vertices
 
 void FrontEnd::collect_vertices() {
-  const uint32_t corners = range_->strip ? range_->count + 2 : range_->count * 3;
+  const uint32_t corners =
+      range_->strip ? range_->count + range_->corners - 1 : range_->count * range_->corners;
   uint32_t* corner = corners_.resize(corners);
   if (!draw_->indexed) {
     uint32_t* ids = ids_.resize(corners);
@@ -204,64 +202,80 @@ void FrontEnd::count_vertices(uint32_t first, uint32_t count) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Triangles
+// Primitives
 
-void FrontEnd::add_triangles() {
+void FrontEnd::add_primitives() {
   const uint32_t* corner = corners_.data();
+  const uint32_t step = range_->strip ? 1 : range_->corners;
   for (uint32_t i = 0; i < range_->count; ++i) {
-    uint32_t vertex[3];
-    if (range_->strip) {
-      const bool odd = ((i & 1) != 0) != range_->odd;
-      vertex[0] = corner[i];
-      vertex[1] = corner[odd ? i + 2 : i + 1];
-      vertex[2] = corner[odd ? i + 1 : i + 2];
-    } else {
-      for (int c = 0; c < 3; ++c) vertex[c] = corner[3 * i + static_cast<uint32_t>(c)];
+    const uint32_t* first = corner + size_t{i} * step;
+    Primitive primitive;
+    primitive.id = range_->primitive_id + i;
+    if (range_->corners == 3) {
+      const bool odd = range_->strip && ((i & 1) != 0) != range_->odd;
+      primitive.vertex[0] = first[0];
+      primitive.vertex[1] = first[odd ? 2 : 1];
+      primitive.vertex[2] = first[odd ? 1 : 2];
+      if (!begin_primitive(primitive)) continue;
+      if (plan_->wireframe) {
+        add_edges(primitive);
+      } else {
+        add_triangle(primitive);
+      }
+      continue;
     }
-    add_triangle(vertex, range_->primitive_id + i);
+    primitive.vertex[0] = primitive.vertex[2] = first[0];
+    primitive.vertex[1] = first[range_->corners - 1];
+    if (!begin_primitive(primitive)) continue;
+    if (range_->corners == 2) {
+      add_line(primitive);
+    } else {
+      add_point(primitive);
+    }
   }
 }
 
-void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
+bool FrontEnd::begin_primitive(Primitive& primitive) {
   uint32_t all = ~0u;
   uint32_t any = 0;
-  for (int i = 0; i < 3; ++i) {
-    const uint32_t code = screen_[vertex[i] / kGroup].outcode[vertex[i] % kGroup];
+  for (const uint32_t vertex : primitive.vertex) {
+    const uint32_t code = screen_[vertex / kGroup].outcode[vertex % kGroup];
     all &= code;
     any |= code;
   }
   if ((all & kOutside) != 0 || (any & kNotFinite) != 0) {
     if (counts_ != nullptr)
       ++((any & kNotFinite) != 0 ? counts_->not_a_triangle : counts_->outside);
-    return;
+    return false;
   }
-  uint32_t number = plan_->picks_viewport ? viewports_[vertex[0]] : 0;
+  const uint32_t leading = primitive.vertex[0];
+  uint32_t number = plan_->picks_viewport ? viewports_[leading] : 0;
   if (number >= rtapi::kViewportAndScissorRectCount) number = 0;
   viewport_ = &plan_->viewports[number];
   if (viewport_->rect.empty()) {
-    if (counts_ != nullptr) ++counts_->no_pixel;
-    return;
+    note(SetUp::kNoPixel);
+    return false;
   }
   viewport_flags_ = number << kViewportShift;
-  slice_ = plan_->picks_slice ? slices_[vertex[0]] : 0;
+  slice_ = plan_->picks_slice ? slices_[leading] : 0;
   if (slice_ >= plan_->slices) slice_ = 0;
-
-  ScreenVertex screen[3];
-  gather(vertex, screen, any);
-  if ((any & kNeedsClip) != 0) {
-    add_clipped(primitive_id, vertex, screen, any);
-    return;
-  }
-  const Triangle* added = emit(screen);
-  if (added == nullptr || !plan_->has_shading) return;
-  TriangleShading& shading = add_shading(screen, primitive_id);
-  const bool swapped = (added->flags & kSwapped) != 0;
-  shading.vertex[0] = vertex[0];
-  shading.vertex[1] = vertex[swapped ? 2 : 1];
-  shading.vertex[2] = vertex[swapped ? 1 : 2];
+  gather(primitive.vertex, primitive.screen, any);
+  primitive.codes = any;
+  return true;
 }
 
-// If each triangle may choose its viewport, vertices are transformed here.
+void FrontEnd::add_triangle(const Primitive& primitive) {
+  if ((primitive.codes & kNeedsClip) != 0) return add_clipped(primitive);
+  const Triangle* added = emit(primitive.screen);
+  if (added == nullptr || !plan_->has_shading) return;
+  TriangleShading& shading = add_shading(primitive.screen, primitive.id);
+  const bool swapped = (added->flags & kSwapped) != 0;
+  shading.vertex[0] = primitive.vertex[0];
+  shading.vertex[1] = primitive.vertex[swapped ? 2 : 1];
+  shading.vertex[2] = primitive.vertex[swapped ? 1 : 2];
+}
+
+// If each primitive may choose its viewport, vertices are transformed here.
 void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const {
   if (!plan_->picks_viewport) {
     for (int i = 0; i < 3; ++i) {
@@ -289,17 +303,20 @@ void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t
   }
 }
 
-Triangle* FrontEnd::emit(const ScreenVertex screen[3]) {
+void FrontEnd::note(SetUp set_up) {
+  if (counts_ == nullptr) return;
+  ++(set_up == SetUp::kZeroArea ? counts_->zero_area
+     : set_up == SetUp::kCulled ? counts_->culled
+                                : counts_->no_pixel);
+}
+
+Triangle* FrontEnd::emit(const ScreenVertex screen[3], PartOf part_of) {
   const size_t number = triangles_.size();
   Triangle& triangle = triangles_.resize(number + 1)[number];
-  const SetUp set_up = set_up_triangle(*plan_, viewport_->rect, screen, triangle);
+  const SetUp set_up = set_up_triangle(*plan_, viewport_->rect, screen, triangle, part_of);
   if (set_up != SetUp::kDone) {
     triangles_.resize(number);
-    if (counts_ != nullptr) {
-      ++(set_up == SetUp::kZeroArea ? counts_->zero_area
-         : set_up == SetUp::kCulled ? counts_->culled
-                                    : counts_->no_pixel);
-    }
+    note(set_up);
     return nullptr;
   }
   triangle.flags |= viewport_flags_;
@@ -318,62 +335,69 @@ TriangleShading& FrontEnd::add_shading(const ScreenVertex screen[3], uint32_t pr
   return shading;
 }
 
-// The cut polygon as a fan.
-void FrontEnd::add_clipped(uint32_t primitive_id, const uint32_t vertex[3],
-                           const ScreenVertex corners[3], uint32_t codes) {
-  ClipVertex polygon[kMaxClippedVertices];
+void FrontEnd::add_part_shading(const ScreenVertex screen[3], const Primitive& primitive,
+                                const ClipWeights& weights) {
+  TriangleShading& shading = add_shading(screen, primitive.id);
+  shading.clip = static_cast<uint32_t>(batch_->clips.size());
+  for (int k = 0; k < 3; ++k) shading.vertex[k] = primitive.vertex[k];
+  batch_->clips.push_back(weights);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Clipping
+
+bool FrontEnd::clip_primitive(const Primitive& primitive, int corners, Polygon& polygon) {
   for (int i = 0; i < 3; ++i) {
-    const Vertices& group = clip_[vertex[i] / kGroup];
-    const uint32_t lane = vertex[i] % kGroup;
-    ClipVertex& v = polygon[i];
+    const uint32_t vertex = primitive.vertex[i];
+    const Vertices& group = clip_[vertex / kGroup];
+    const uint32_t lane = vertex % kGroup;
+    ClipVertex& v = polygon.vertex[i];
     v.x = static_cast<double>(group.x[lane]);
     v.y = static_cast<double>(group.y[lane]);
     v.z = static_cast<double>(group.z[lane]);
     v.w = static_cast<double>(group.w[lane]);
     for (int k = 0; k < 3; ++k) v.weight[k] = i == k ? 1 : 0;
     for (uint32_t k = 0; k < plan_->clip_count; ++k) {
-      v.distance[k] = static_cast<double>(distances_[vertex[i] * plan_->clip_count + k]);
+      v.distance[k] = static_cast<double>(distances_[vertex * plan_->clip_count + k]);
     }
+    polygon.original_w[i] = static_cast<float>(v.w);
   }
-  float original_w[3];
-  for (int i = 0; i < 3; ++i) original_w[i] = static_cast<float>(polygon[i].w);
-  const int count =
-      clip({plan_->depth_clip, plan_->clip_count, codes / kOutClip & 0xFF}, *viewport_, polygon);
-  if (count == 0) {
+  polygon.count = clip({plan_->depth_clip, plan_->clip_count, primitive.codes / kOutClip & 0xFF},
+                       *viewport_, corners, polygon.vertex);
+  if (polygon.count == 0) {
     if (counts_ != nullptr) ++counts_->outside;
-    return;
+    return false;
   }
-
-  ScreenVertex screen[kMaxClippedVertices];
-  for (int i = 0; i < count; ++i) {
-    const double* weight = polygon[i].weight;
-    // A corner that was not cut off stays where it is for triangles that are not cut.
+  for (int i = 0; i < polygon.count; ++i) {
+    const double* weight = polygon.vertex[i].weight;
+    // A corner that was not cut off stays where it is for primitives that are not cut.
     const int corner = weight[0] == 1 ? 0 : weight[1] == 1 ? 1 : weight[2] == 1 ? 2 : -1;
-    screen[i] = corner >= 0 ? corners[corner] : project(polygon[i], *viewport_);
+    polygon.screen[i] =
+        corner >= 0 ? primitive.screen[corner] : project(polygon.vertex[i], *viewport_);
   }
-  const int first = fan_center(screen, count);
+  return true;
+}
+
+// The cut polygon as a fan.
+void FrontEnd::add_clipped(const Primitive& primitive) {
+  Polygon polygon;
+  if (!clip_primitive(primitive, 3, polygon)) return;
+  const int count = polygon.count;
+  const int first = fan_center(polygon.screen, count);
   for (int i = 1; i + 1 < count; ++i) {
     const int part[3] = {first, (first + i) % count, (first + i + 1) % count};
-    const ScreenVertex part_corners[3] = {screen[part[0]], screen[part[1]], screen[part[2]]};
-    Triangle* added = emit(part_corners);
+    const ScreenVertex corners[3] = {polygon.screen[part[0]], polygon.screen[part[1]],
+                                     polygon.screen[part[2]]};
+    Triangle* added = emit(corners);
     if (added == nullptr) continue;
     added->flags |= kClipped;
     if (!plan_->has_shading) continue;
-    TriangleShading& shading = add_shading(part_corners, primitive_id);
-    shading.clip = static_cast<uint32_t>(batch_->clips.size());
-    for (int k = 0; k < 3; ++k) shading.vertex[k] = vertex[k];
     const bool swapped = (added->flags & kSwapped) != 0;
     const int order[3] = {part[0], part[swapped ? 2 : 1], part[swapped ? 1 : 2]};
     ClipWeights weights;
-    for (int v = 0; v < 3; ++v) {
-      const ClipVertex& from = polygon[order[v]];
-      for (int k = 0; k < 3; ++k) {
-        weights.perspective[v][k] = static_cast<float>(from.weight[k]);
-        weights.screen[v][k] =
-            static_cast<float>(from.weight[k] * static_cast<double>(original_w[k]) / from.w);
-      }
-    }
-    batch_->clips.push_back(weights);
+    for (int v = 0; v < 3; ++v)
+      polygon.weights_of(order[v], weights.perspective[v], weights.screen[v]);
+    add_part_shading(corners, primitive, weights);
   }
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// From a range of a draw's triangles to a batch: fetches and shades its vertices, cuts, snaps and
-// sets up its triangles, and sorts them into tiles. One for each thread.
+// From a range of a draw's primitives to a batch: fetches and shades its vertices, cuts, snaps and
+// sets up its triangles and lines, and sorts them into tiles. One for each thread.
 #pragma once
 
 #include "runtime/raster/bins.h"
+#include "runtime/raster/clip.h"
 #include "runtime/raster/draw_plan.h"
 #include "runtime/raster/primitives.h"
 #include "runtime/raster/screen.h"
+#include "runtime/raster/triangle_setup.h"
 #include "runtime/raster/vertex_fetch.h"
 #include "runtime/raster/workers.h"
 
@@ -15,8 +17,8 @@ namespace kaamos::raster {
 
 class FrontEnd {
  public:
-  void run(const TriangleRange& range, const Draw& draw, const DrawPlan& plan, const TileGrid& grid,
-           ShaderThread& thread, Batch& batch);
+  void run(const PrimitiveRange& range, const Draw& draw, const DrawPlan& plan,
+           const TileGrid& grid, ShaderThread& thread, Batch& batch);
 
  private:
   static constexpr uint32_t kGroup = shader::kGraphicsLanes;
@@ -28,31 +30,79 @@ class FrontEnd {
   void collect_by_hash();
   void shade_vertices(ShaderThread& thread);
   void take_outputs(uint32_t first, uint32_t count, const shader::Column* outputs);
-  void add_triangles();
-  void add_triangle(const uint32_t vertex[3], uint32_t primitive_id);
+  // A primitive that is being added. Points have one vertex three times, lines the first one twice.
+  struct Primitive {
+    uint32_t vertex[3];  // numbers in the batch
+    uint32_t id;         // SV_PrimitiveID
+    ScreenVertex screen[3];
+    uint32_t codes;  // outcodes of any of its vertices
+  };
+  // What is left of a primitive inside of all planes.
+  struct Polygon {
+    ClipVertex vertex[kMaxClippedVertices];
+    ScreenVertex screen[kMaxClippedVertices];
+    float original_w[3];
+    int count;
+
+    // The weights of the primitive's vertices that make up a vertex, as of ClipWeights.
+    void weights_of(int number, float perspective[3], float on_screen[3]) const {
+      const ClipVertex& from = vertex[number];
+      for (int k = 0; k < 3; ++k) {
+        perspective[k] = static_cast<float>(from.weight[k]);
+        on_screen[k] =
+            static_cast<float>(from.weight[k] * static_cast<double>(original_w[k]) / from.w);
+      }
+    }
+  };
+  void add_primitives();
+  // Fills in the rest; false if nothing can be seen of it.
+  bool begin_primitive(Primitive& primitive);
+  void add_triangle(const Primitive& primitive);
   // The vertices on the screen; adds to `codes`, the outcodes of any of them.
   void gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const;
-  void add_clipped(uint32_t primitive_id, const uint32_t vertex[3], const ScreenVertex corners[3],
-                   uint32_t codes);
+  // False if nothing is left. `corners`: 3, or 2 of a line.
+  bool clip_primitive(const Primitive& primitive, int corners, Polygon& polygon);
+  void add_clipped(const Primitive& primitive);
   // Adds a triangle; null if it need not be drawn.
-  Triangle* emit(const ScreenVertex screen[3]);
+  Triangle* emit(const ScreenVertex screen[3], PartOf part_of = PartOf::kTriangle);
+  // Counts what is not drawn.
+  void note(SetUp set_up);
   // Adds the shading of the triangle that was added last; leaves `vertex` and `clip` to the caller.
   TriangleShading& add_shading(const ScreenVertex screen[3], uint32_t primitive_id);
+  // The same of a part of a primitive.
+  void add_part_shading(const ScreenVertex screen[3], const Primitive& primitive,
+                        const ClipWeights& weights);
+
+  // front_end_lines.cpp
+  struct LineEnd {
+    ScreenVertex screen;
+    float perspective[3];  // weights of the primitive's vertices, as of ClipWeights
+    float on_screen[3];
+  };
+  static LineEnd end_at_corner(const Primitive& primitive, int corner);
+  static LineEnd end_at_vertex(const Polygon& polygon, int vertex);
+  void add_point(const Primitive& primitive);
+  void add_line(const Primitive& primitive);
+  void add_edges(const Primitive& primitive);
+  void add_edges(const Primitive& primitive, const LineEnd* corners, int count);
+  void emit_line(const LineEnd ends[2], const Primitive& primitive, bool front);
+  void emit_rectangle(const LineEnd ends[2], const Primitive& primitive, bool front);
+
   void count_vertices(uint32_t first, uint32_t count);
 
-  const TriangleRange* range_ = nullptr;
+  const PrimitiveRange* range_ = nullptr;
   const Draw* draw_ = nullptr;
   const DrawPlan* plan_ = nullptr;
   Batch* batch_ = nullptr;
   runtime::DrawCounts* counts_ = nullptr;  // null: nothing is counted
-  // The viewport that the triangle being added is drawn to.
+  // The viewport that the primitive being added is drawn to.
   const ViewportState* viewport_ = nullptr;
   uint32_t viewport_flags_ = 0;
   uint32_t slice_ = 0;
 
   VertexFetch fetch_;
   Bins bins_;
-  // By corner of a triangle: the number of its vertex in the batch.
+  // By corner of a primitive: the number of its vertex in the batch.
   Storage<uint32_t> corners_;
   Storage<uint32_t> table_;  // from an index to its vertex
   Storage<Triangle> triangles_;

@@ -172,8 +172,11 @@ class MultisampleDrawing {
       for (uint32_t s = 0; s < plan.samples; ++s) {
         if ((plan.sample_mask >> s & 1) == 0) continue;
         Triangle moved = triangle;
-        for (int32_t& vertex : moved.x) vertex -= positions[s].x - kPixelCenter;
-        for (int32_t& vertex : moved.y) vertex -= positions[s].y - kPixelCenter;
+        // A line has all samples of its pixels.
+        if ((triangle.flags & kLine) == 0) {
+          for (int32_t& vertex : moved.x) vertex -= positions[s].x - kPixelCenter;
+          for (int32_t& vertex : moved.y) vertex -= positions[s].y - kPixelCenter;
+        }
         Coverage coverage;
         if (!coverage.begin(moved, viewport.rect, x, y)) continue;
         Blocks<kKind, kStencil> blocks{all_, s, plan, test, moved, untouched_, {}, {}};

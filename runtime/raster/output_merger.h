@@ -55,6 +55,15 @@ struct TileTexels {
   }
 };
 
+// The second source of blending, with 0 in components that the shader does not write.
+inline void second_source(const PlannedTarget& target, const shader::Column* outputs,
+                          shader::Column out[4]) {
+  for (uint32_t c = 0; c < 4; ++c) {
+    const bool written = c < target.second_components;
+    store(out[c], written ? load<int32_t>(outputs[target.second_column + c]) : Ints8{});
+  }
+}
+
 inline void write_target(const DrawPlan& plan, const PlannedTarget& target,
                          const TileTexels& texels, const shader::Column* outputs,
                          const LivePixels& live) {
@@ -76,11 +85,21 @@ inline void write_target(const DrawPlan& plan, const PlannedTarget& target,
   if (target.blends) {
     alignas(32) shader::Column destination[4];
     codec.decode(old, destination);
-    blend_colors(target.blend, codec, plan.blend_factor, colors, destination, blended);
+    alignas(32) shader::Column second[4];
+    if (target.has_second) second_source(target, outputs, second);
+    blend_colors(target.blend, codec, plan.blend_factor, colors,
+                 target.has_second ? second : nullptr, destination, blended);
     colors = blended;
   }
-  encode_colors(codec, colors, [&](uint32_t word, const Ints8& value) KAAMOS_INLINE_LAMBDA {
+  encode_colors(codec, colors, [&](uint32_t word, const Ints8& encoded) KAAMOS_INLINE_LAMBDA {
     const auto mask = static_cast<int32_t>(target.mask[word]);
+    Ints8 value = encoded;
+    if (target.blend.LogicOpEnable) {
+      alignas(32) shader::Column words;
+      store(words, encoded);
+      apply_logic_op(target.blend.LogicOp, old[word], words);
+      value = load<int32_t>(words);
+    }
     write(word, (value & splat(mask)) | (load<int32_t>(old[word]) & splat(~mask)));
   });
 }

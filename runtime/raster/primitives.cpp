@@ -4,6 +4,27 @@
 #include <algorithm>
 
 namespace kaamos::raster {
+namespace {
+
+using rtapi::PrimitiveTopology;
+
+// 0: nothing is drawn.
+uint32_t corners_of(PrimitiveTopology topology) {
+  switch (topology) {
+    case PrimitiveTopology::kPointList:
+      return 1;
+    case PrimitiveTopology::kLineList:
+    case PrimitiveTopology::kLineStrip:
+      return 2;
+    case PrimitiveTopology::kTriangleList:
+    case PrimitiveTopology::kTriangleStrip:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
 
 Indices::Indices(const Draw& draw) {
   if (!draw.indexed) return;
@@ -16,13 +37,12 @@ Indices::Indices(const Draw& draw) {
 RangeCursor::RangeCursor(const Draw& draw, uint32_t number, uint32_t limit)
     : draw_(number),
       limit_(limit),
-      strip_(draw.state->topology == rtapi::PrimitiveTopology::kTriangleStrip),
+      corners_(corners_of(draw.state->topology)),
+      strip_(runtime::is_strip(draw.state->topology)),
       instances_(draw.arguments.InstanceCount) {
   const uint32_t count = draw.arguments.IndexCountPerInstance;
   if (!strip_) {
-    if (draw.state->topology == rtapi::PrimitiveTopology::kTriangleList && count >= 3) {
-      segments_.push_back({0, 0, count / 3});
-    }
+    if (corners_ != 0 && count >= corners_) segments_.push_back({0, 0, count / corners_});
   } else if (draw.indexed && draw.linked->strip_cut != rtapi::IndexBufferStripCutValue::kDisabled) {
     cut_strip(draw);
   } else {
@@ -31,8 +51,8 @@ RangeCursor::RangeCursor(const Draw& draw, uint32_t number, uint32_t limit)
 }
 
 void RangeCursor::add_strip(uint64_t first, uint64_t vertices) {
-  if (vertices < 3) return;
-  const auto count = static_cast<uint32_t>(vertices - 2);
+  if (vertices < corners_) return;
+  const auto count = static_cast<uint32_t>(vertices - corners_ + 1);
   segments_.push_back({first, primitives_, count});
   primitives_ += count;
 }
@@ -52,14 +72,15 @@ void RangeCursor::cut_strip(const Draw& draw) {
   add_strip(first, count - first);
 }
 
-bool RangeCursor::next(TriangleRange& range) {
+bool RangeCursor::next(PrimitiveRange& range) {
   if (segments_.empty() || instance_ == instances_) return false;
   const Segment& segment = segments_[segment_];
   range.draw = draw_;
   range.instance = instance_;
   range.count = std::min(limit_, segment.count - done_);
   range.primitive_id = segment.primitive_id + done_;
-  range.first = segment.first + (strip_ ? uint64_t{done_} : uint64_t{done_} * 3);
+  range.first = segment.first + (strip_ ? uint64_t{done_} : uint64_t{done_} * corners_);
+  range.corners = corners_;
   range.strip = strip_;
   range.odd = (done_ & 1) != 0;
   done_ += range.count;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The input assembler's first half: which vertices of a draw form its triangles. [D3D11.3: 8]
+// The input assembler's first half: which vertices of a draw form its points, lines or triangles.
+// [D3D11.3: 8]
 #pragma once
 
 #include <cstdint>
@@ -37,25 +38,26 @@ class Indices {
   uint32_t bytes_each_ = 0;  // 0: no index buffer
 };
 
-// Triangles of one instance that follow each other: triangle i has the vertices at positions
+// Primitives of one instance that follow each other: triangle i has the vertices at positions
 // first + 3 i, + 1, + 2 of a list, and first + i, + 1, + 2 of a strip, the last two swapped where
-// i + odd is odd.
-struct TriangleRange {
+// i + odd is odd. Lines and points have as many as they have corners.
+struct PrimitiveRange {
   uint32_t draw = 0;
   uint32_t instance = 0;
   uint64_t first = 0;
   uint32_t primitive_id = 0;  // of the first
   uint32_t count = 0;
+  uint32_t corners = 3;  // of a primitive: 1 to 3
   bool strip = false;
   bool odd = false;
 };
 
-// Cuts a draw into ranges of at most `limit` triangles, in the order of drawing.
+// Cuts a draw into ranges of at most `limit` primitives, in the order of drawing.
 class RangeCursor {
  public:
   RangeCursor(const Draw& draw, uint32_t number, uint32_t limit);
   // False at the end.
-  bool next(TriangleRange& range);
+  bool next(PrimitiveRange& range);
 
  private:
   // A list, or a strip between cuts.
@@ -70,13 +72,14 @@ class RangeCursor {
 
   uint32_t draw_;
   uint32_t limit_;
+  uint32_t corners_;
   bool strip_;
   uint32_t instances_;
   std::vector<Segment> segments_;
   uint32_t primitives_ = 0;
   uint32_t instance_ = 0;
   size_t segment_ = 0;
-  uint32_t done_ = 0;  // triangles of the segment
+  uint32_t done_ = 0;  // primitives of the segment
 };
 
 }  // namespace kaamos::raster

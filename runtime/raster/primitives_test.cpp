@@ -82,8 +82,8 @@ TEST(RasterPrimitives, StripTurnsEverySecondTriangle) {  // RAS-03
   scene.vertex_px(0, 100, 0.5f, {colors[2]});
   scene.vertex_px(100, 100, 0.5f, {colors[3]});
   scene.run();
-  EXPECT_EQ(scene.at(10, 10), (std::array<uint32_t, 4>{1, 10, 1, 1}));
-  EXPECT_EQ(scene.at(90, 90), (std::array<uint32_t, 4>{2, 11, 1, 1}));
+  EXPECT_EQ(scene.at(10, 10), (std::array<uint32_t, 4>{1, 10, ~0u, 1}));
+  EXPECT_EQ(scene.at(90, 90), (std::array<uint32_t, 4>{2, 11, ~0u, 1}));
   EXPECT_EQ(scene.target.count(0u), 256u * 256 - 10000);
 }
 
@@ -100,7 +100,7 @@ TEST(RasterPrimitives, CutEndsAStrip) {  // RAS-04
   scene.run();
   EXPECT_EQ(scene.at(10, 10)[0], 1u);
   EXPECT_EQ(scene.at(90, 90)[0], 2u);
-  EXPECT_EQ(scene.at(90, 90)[2], 1u);
+  EXPECT_EQ(scene.at(90, 90)[2], ~0u);
   EXPECT_EQ(scene.target.count(0u), 256u * 256 - 10000);
 }
 
@@ -256,7 +256,7 @@ TEST(RasterPrimitives, CursorCutsEveryTriangleOnce) {
   const Draw draw = scene.draw();
   RangeCursor cursor(draw, 9, 2);
   std::vector<std::array<uint64_t, 4>> found;
-  TriangleRange range;
+  PrimitiveRange range;
   while (cursor.next(range)) {
     EXPECT_EQ(range.draw, 9u);
     EXPECT_EQ(range.odd, false);

@@ -159,7 +159,7 @@ inline void QuadShader::set_up_attributes() {
     store(inputs_[columns.primitive_id], splat(static_cast<int32_t>(shading_->primitive_id)));
   }
   if (columns.is_front_face != runtime::kNoColumn) {
-    store(inputs_[columns.is_front_face], splat((t.flags & kFrontFacing) != 0 ? 1 : 0));
+    store(inputs_[columns.is_front_face], splat((t.flags & kFrontFacing) != 0 ? -1 : 0));
   }
 }
 

@@ -94,7 +94,7 @@ struct Rasterizer::Pass {
   Observation* observation;
   std::vector<DrawPlan> plans = {};
   std::vector<uint32_t> plan_of_draw = {};
-  std::vector<TriangleRange> ranges = {};  // a batch each
+  std::vector<PrimitiveRange> ranges = {};  // a batch each
   std::vector<TileJob::Run> runs = {};
   std::vector<TileJob> jobs = {};
   bool clears = false;  // the tiles that are drawn next
@@ -118,7 +118,7 @@ struct Rasterizer::Pass {
       const DrawPlan& plan = plans[plan_of_draw[number]];
       if (plan.draws_nothing) continue;
       RangeCursor cursor(draws[number], number, memory.options.batch_triangles);
-      TriangleRange range;
+      PrimitiveRange range;
       while (cursor.next(range)) {
         constexpr uint64_t kBytesOfTriangle =
             sizeof(Triangle) + sizeof(TriangleShading) + 3 * sizeof(TileRun);

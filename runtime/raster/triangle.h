@@ -26,6 +26,7 @@ enum TriangleFlags : uint32_t {
   kSmall = 16,   // edges fit in 32 bits without regard to tiles
   kMasked = 32,  // blocks that it reaches hold pixels that may not be drawn
   kCulled = 64,  // by facing; only where DrawPlan::keeps_culled
+  kLine = 128,   // covers the pixels along the line from vertex 0 to vertex 1
   kViewportShift = 8,
 };
 
@@ -35,7 +36,8 @@ struct PixelBox {
 };
 
 // The part of a triangle that its coverage and depth need, in one line of the cache. Its vertices
-// are clockwise, y down. Vertex 0 is the leading one unless it is clipped.
+// are clockwise, y down. Vertex 0 is the leading one unless it is clipped. Of a line (kLine),
+// vertex 2 makes the plane in which depth and attributes change along the line alone.
 struct alignas(64) Triangle {
   int32_t x[3];
   int32_t y[3];
@@ -68,7 +70,7 @@ struct TileRun {
   uint32_t count;
 };
 
-// Triangles of one instance of a draw that are set up together.
+// Triangles and lines of one instance of a draw that are set up together.
 struct Batch {
   uint32_t draw = 0;
   uint32_t plan = 0;

@@ -34,7 +34,12 @@ void topologies_are_triangles_and_set(Context& t) {
   CommandList list = t.device().CreateCommandList().value();
   screen.begin(list);
   list.IASetPrimitiveTopology(PrimitiveTopology::kLineList);
-  t.refused("lines", list.Close(), "KA0721");
+  screen.cover(list, pipeline);
+  t.refused("lines", list.Close(), "KA0740");
+  list.Reset().value();
+  screen.begin(list);
+  list.IASetPrimitiveTopology(static_cast<PrimitiveTopology>(10));
+  t.refused("lines with adjacent vertices", list.Close(), "KA0721");
   list.Reset().value();
   screen.begin(list);
   list.IASetPrimitiveTopology(PrimitiveTopology::kUndefined);

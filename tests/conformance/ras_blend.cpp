@@ -219,6 +219,8 @@ void integers_do_not_blend(Context& t) {
     t.accepted("without blending", t.device().CreateGraphicsPipelineState(desc));
     desc.BlendState.RenderTarget[0].BlendEnable = true;
     t.refused("with blending", t.device().CreateGraphicsPipelineState(desc), "KA0726");
+    desc.PS = {};
+    t.accepted("without a shader that writes it", t.device().CreateGraphicsPipelineState(desc));
   }
 }
 

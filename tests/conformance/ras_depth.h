@@ -15,5 +15,6 @@ std::vector<Corner> slope_over(const Screen& screen, float left, float right);
 std::vector<RuleTest> ras_depth_bias_tests();
 RuleTest ras_stencil_test();
 RuleTest ras_multisample_test();
+RuleTest ras_multisample_lines_test();
 
 }  // namespace kaamos::conformance

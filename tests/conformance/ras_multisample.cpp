@@ -119,7 +119,44 @@ void four_samples(Context& t) {
   }
 }
 
+// Of a line that is no rectangle a pixel has all samples or none; rectangles 1.4 pixels wide have
+// the samples that they cover. A line at y = 4 has 3 of 4 samples of the pixels above it, 1.3 to
+// 0.7 pixels, hence of those at 2, 6, 10 and 14 sixteenths all but the first, and below all but the
+// last.
+void lines_of_samples(Context& t) {
+  for (const bool rectangles : {false, true}) {
+    Screen screen(t, {Format::kR32Float}, Format::kUnknown, kSide);
+    Multisampled target(t, Format::kR32Float);
+    GraphicsPipelineStateDesc desc = screen.desc("Pass", "Tint");
+    desc.SampleDesc = {kSamples, 0};
+    desc.PrimitiveTopologyType = PrimitiveTopologyType::kLine;
+    desc.RasterizerState.MultisampleEnable = rectangles;
+    const PipelineState pipeline = screen.make(desc);
+    screen.run([&](CommandList& list) {
+      target.begin(list);
+      list.IASetPrimitiveTopology(PrimitiveTopology::kLineList);
+      const float y = rectangles ? 4.0f : 3.7f;
+      screen.draw(list, pipeline, {screen.at(1, y), screen.at(6, y)});
+      target.resolve(list);
+    });
+    const std::vector<std::byte> bytes = target.read();
+    for (uint32_t y = 0; y < kSide; ++y) {
+      float found;
+      std::memcpy(&found, bytes.data() + (size_t{y} * kSide + 3) * sizeof found, sizeof found);
+      const bool inside = y == 3 || (rectangles && y == 4);
+      t.equal((rectangles ? "rectangle: row " : "row ") + std::to_string(y), found,
+              !inside      ? 0.0f
+              : rectangles ? 0.75f
+                           : 1.0f);
+    }
+  }
+}
+
 }  // namespace
+
+RuleTest ras_multisample_lines_test() {
+  return {"RAS-57", lines_of_samples, "*"};
+}
 
 RuleTest ras_multisample_test() {
   return {"RAS-153", four_samples, "*"};

@@ -515,20 +515,42 @@ float4 main(In i) : SV_Target {
          EXPECT_EQ(run.floats("SV_Target", 0, 2), all(0.25f));
          EXPECT_EQ(run.floats("SV_Target", 0, 3), all(43));
        }},
+      // What is linear on the screen is the input over w, and 1 / w.
       {"EvaluateAttributes", "ps_6_6", R"(
-float4 main(float2 a : A, centroid float3x2 m : M) : SV_Target {
-  return float4(EvaluateAttributeCentroid(a), EvaluateAttributeAtSample(a, 0).y,
-                EvaluateAttributeCentroid(m)[2].x);
+float4 main(float2 a : A, noperspective float b : B, centroid float3x2 m : M) : SV_Target {
+  return float4(EvaluateAttributeSnapped(a, int2(8, 0)).y, EvaluateAttributeSnapped(b, int2(0, -4)),
+                EvaluateAttributeCentroid(m)[2].x, EvaluateAttributeAtSample(a.y, 0));
 })",
        [](GraphicsRunner& run) {
-         run.set("A", 0, 0, all(2));
-         run.set("A", 0, 1, {0, 1, 2, 3, 4, 5, 6, 7});
+         const shader::GraphicsDesc& g = run.graphics();
+         Floats a, b, w;
+         for (uint32_t i = 0; i < 8; ++i) {
+           const auto x = static_cast<float>((i & 1) + (i / 4) * 2);
+           const auto y = static_cast<float>(i >> 1 & 1);
+           w[i] = 1 / (1 + x / 2);
+           a[i] = (2 + 3 * x + y) * w[i];
+           b[i] = 10 + 4 * y;
+         }
+         run.set("A", 0, 1, a);
+         run.set("B", 0, 0, b);
          run.set("M", 0, 2, all(9));
+         for (uint32_t i = 0; i < g.input_count; ++i) {
+           if (g.inputs[i].system_value != shader::SystemValue::kPosition) continue;
+           for (uint32_t k = 0; k < 8; ++k) {
+             run.inputs[g.inputs[i].first_column + 3][k] = std::bit_cast<uint32_t>(w[k]);
+           }
+         }
          run.run();
-         EXPECT_EQ(run.floats("SV_Target", 0, 0), all(2));
-         EXPECT_EQ(run.floats("SV_Target", 0, 1), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
-         EXPECT_EQ(run.floats("SV_Target", 0, 2), (Floats{0, 1, 2, 3, 4, 5, 6, 7}));
-         EXPECT_EQ(run.floats("SV_Target", 0, 3), all(9));
+         const Floats moved = run.floats("SV_Target", 0, 0),
+                      straight = run.floats("SV_Target", 0, 1);
+         for (uint32_t i = 0; i < 8; ++i) {
+           const auto x = static_cast<float>((i & 1) + (i / 4) * 2) + 0.5f;
+           const auto y = static_cast<float>(i >> 1 & 1);
+           EXPECT_NEAR(moved[i], (2 + 3 * x + y) / (1 + x / 2), 1e-5f) << i;
+           EXPECT_NEAR(straight[i], b[i] - 1, 1e-5f) << i;
+         }
+         EXPECT_EQ(run.floats("SV_Target", 0, 2), all(9));
+         EXPECT_EQ(run.floats("SV_Target", 0, 3), a) << "the only sample is in the middle";
        }},
       {"ImplicitLevels", "ps_6_6", R"(
 Texture2D<float> t;

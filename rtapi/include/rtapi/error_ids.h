@@ -679,7 +679,7 @@ inline constexpr ErrorId kVkIgnored{2666};  ///< '{0}' is ignored: {1}
 inline constexpr ErrorId kRootSignatureAttribute{2667};  ///< [RootSignature] takes one string, not {0}
 inline constexpr ErrorId kSampledPairs{2668};  ///< '{0}' has no {1}: components of 64 bits cannot be filtered or compared
 inline constexpr ErrorId kCounterBothWays{2669};  ///< the counter of '{0}' goes up and down; a buffer's counter may do only one of the two
-inline constexpr ErrorId kVertexAttribute{2684};  ///< GetAttributeAtVertex takes {0} here
+inline constexpr ErrorId kVertexAttribute{2684};  ///< {0} takes {1} here
 inline constexpr ErrorId kWaveShaderModel{2685};  ///< '{0}' needs Shader Model {1}, and the target is {2}
 inline constexpr ErrorId kWaveSize{2686};  ///< a wave cannot have {0} lanes; [WaveSize] takes 4, 8, 16, 32, 64 or 128
 inline constexpr ErrorId kWaveSizeRange{2687};  ///< [WaveSize] has {0}; it takes a number of lanes or, from Shader Model 6.8 on, the least, the most and the preferred one, in range

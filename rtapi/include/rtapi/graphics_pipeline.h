@@ -42,25 +42,26 @@ struct InputElementDesc {
   uint32_t InstanceDataStepRate = 0;
 };
 
-/// The index that ends a triangle strip, whatever the format of the index buffer.
+/// The index that ends a strip of lines or triangles, whatever the format of the index buffer.
 /// [D3D12: D3D12_INDEX_BUFFER_STRIP_CUT_VALUE]
 enum class IndexBufferStripCutValue : uint32_t { kDisabled = 0, k0xFFFF = 1, k0xFFFFFFFF = 2 };
 
 /// The kind of primitives that a pipeline draws. [D3D12: D3D12_PRIMITIVE_TOPOLOGY_TYPE]
 enum class PrimitiveTopologyType : uint32_t {
   kUndefined = 0,  ///< refused (KA0720)
-  kPoint = 1,      ///< refused (KA0721)
-  kLine = 2,       ///< refused (KA0721)
+  kPoint = 1,      ///< squares of one pixel, the vertex in their middle
+  kLine = 2,
   kTriangle = 3,
   kPatch = 4,  ///< refused (KA0721)
 };
 
-/// The way in which a draw's vertices form triangles. [D3D12: D3D12_PRIMITIVE_TOPOLOGY]
+/// The way in which a draw's vertices form primitives: those of the pipeline's
+/// PrimitiveTopologyType, or the draw is refused (KA0740). [D3D12: D3D12_PRIMITIVE_TOPOLOGY]
 enum class PrimitiveTopology : uint32_t {
   kUndefined = 0,
-  kPointList = 1,  ///< refused by draws (KA0822)
-  kLineList = 2,   ///< refused by draws (KA0822)
-  kLineStrip = 3,  ///< refused by draws (KA0822)
+  kPointList = 1,
+  kLineList = 2,
+  kLineStrip = 3,
   kTriangleList = 4,
   kTriangleStrip = 5,
 };
@@ -92,7 +93,7 @@ struct IndexBufferView {
 
 /// The way in which triangles are filled. [D3D12: D3D12_FILL_MODE]
 enum class FillMode : uint32_t {
-  kWireframe = 2,  ///< refused (KA0721)
+  kWireframe = 2,  ///< the edges of each triangle that is not culled, as lines
   kSolid = 3,
 };
 
@@ -101,11 +102,11 @@ enum class CullMode : uint32_t { kNone = 1, kFront = 2, kBack = 3 };
 
 /// Describes the rasterizer. [D3D12: D3D12_RASTERIZER_DESC]
 struct RasterizerDesc {
-  rtapi::FillMode FillMode = rtapi::FillMode::kSolid;  ///< kSolid
+  rtapi::FillMode FillMode = rtapi::FillMode::kSolid;  ///< of triangles
   rtapi::CullMode CullMode = rtapi::CullMode::kBack;   ///< seen from the viewer
   bool FrontCounterClockwise = false;                  ///< on the screen, y down
-  /// Added to the depth of a triangle, in steps of the depth format; of D32_FLOAT in units of
-  /// 2^(exponent of its largest depth - 23). [D3D11.3: 15.10]
+  /// Added to the depth of a triangle and of its edges, in steps of the depth format; of D32_FLOAT
+  /// in units of 2^(exponent of its largest depth - 23). [D3D11.3: 15.10]
   int32_t DepthBias = 0;
   float DepthBiasClamp = 0;  ///< the largest bias, or if negative the least; 0: no limit
   /// Times the larger of |dz/dx| and |dz/dy|, per pixel.
@@ -113,8 +114,9 @@ struct RasterizerDesc {
   /// True if triangles are cut at depth 0 and 1; else only their depth is limited to the viewport's
   /// range, as it always is.
   bool DepthClipEnable = true;
-  /// For lines alone, which are not drawn: triangles are multisampled where targets are.
-  /// [D3D12: D3D12_RASTERIZER_DESC]
+  /// For lines alone: triangles are multisampled where targets are. True: lines are rectangles 1.4
+  /// pixels wide. False: one pixel in each column or row that a line crosses, with all of its
+  /// samples. [D3D11.3: 3.4.3, 15.14]
   bool MultisampleEnable = false;
 };
 
@@ -175,15 +177,38 @@ enum class Blend : uint32_t {
   kSrcAlphaSat = 11,
   kBlendFactor = 14,
   kInvBlendFactor = 15,
-  kSrc1Color = 16,     ///< refused (KA0721)
-  kInvSrc1Color = 17,  ///< refused (KA0721)
-  kSrc1Alpha = 18,     ///< refused (KA0721)
-  kInvSrc1Alpha = 19,  ///< refused (KA0721)
+  /// Of SV_Target1, the second source of render target 0; there may be no other target (KA0720).
+  ///@{
+  kSrc1Color = 16,
+  kInvSrc1Color = 17,
+  kSrc1Alpha = 18,
+  kInvSrc1Alpha = 19,
+  ///@}
 };
 
 /// The operation that joins source and destination; kMin and kMax ignore the factors.
 /// [D3D12: D3D12_BLEND_OP]
 enum class BlendOp : uint32_t { kAdd = 1, kSubtract = 2, kRevSubtract = 3, kMin = 4, kMax = 5 };
+
+/// What becomes of the bits s of a source and d of a destination. [D3D12: D3D12_LOGIC_OP]
+enum class LogicOp : uint32_t {
+  kClear = 0,         ///< 0
+  kSet = 1,           ///< 1
+  kCopy = 2,          ///< s
+  kCopyInverted = 3,  ///< ~s
+  kNoop = 4,          ///< d
+  kInvert = 5,        ///< ~d
+  kAnd = 6,           ///< s & d
+  kNand = 7,          ///< ~(s & d)
+  kOr = 8,            ///< s | d
+  kNor = 9,           ///< ~(s | d)
+  kXor = 10,          ///< s ^ d
+  kEquiv = 11,        ///< ~(s ^ d)
+  kAndReverse = 12,   ///< s & ~d
+  kAndInverted = 13,  ///< ~s & d
+  kOrReverse = 14,    ///< s | ~d
+  kOrInverted = 15,   ///< ~s | d
+};
 
 /// Components that are written. [D3D12: D3D12_COLOR_WRITE_ENABLE]
 enum class ColorWriteEnable : uint8_t {
@@ -199,14 +224,17 @@ inline constexpr bool kIsFlags<ColorWriteEnable> = true;
 
 /// Describes how a render target takes colours. [D3D12: D3D12_RENDER_TARGET_BLEND_DESC]
 struct RenderTargetBlendDesc {
-  bool BlendEnable = false;                       ///< false: the source replaces the destination
-  bool LogicOpEnable = false;                     ///< true is refused (KA0721)
+  bool BlendEnable = false;  ///< false: the source replaces the destination
+  /// True: LogicOp joins the bits of source and destination. Of UINT formats (KA0726), without
+  /// BlendEnable and IndependentBlendEnable (KA0720). [D3D12: D3D12_BLEND_DESC]
+  bool LogicOpEnable = false;
   Blend SrcBlend = Blend::kOne;                   ///< of red, green and blue
   Blend DestBlend = Blend::kZero;                 ///< of red, green and blue
   rtapi::BlendOp BlendOp = rtapi::BlendOp::kAdd;  ///< of red, green and blue
   Blend SrcBlendAlpha = Blend::kOne;              ///< of alpha; no factor with Color in its name
   Blend DestBlendAlpha = Blend::kZero;            ///< of alpha; no factor with Color in its name
   rtapi::BlendOp BlendOpAlpha = rtapi::BlendOp::kAdd;               ///< of alpha
+  rtapi::LogicOp LogicOp = rtapi::LogicOp::kNoop;                   ///< if LogicOpEnable
   ColorWriteEnable RenderTargetWriteMask = ColorWriteEnable::kAll;  ///< also without blending
 };
 
@@ -243,7 +271,7 @@ struct GraphicsPipelineStateDesc {
   std::vector<InputElementDesc> InputLayout = {};  ///< at most 32; spare ones are allowed
   IndexBufferStripCutValue IBStripCutValue = IndexBufferStripCutValue::kDisabled;  ///< for strips
   rtapi::PrimitiveTopologyType PrimitiveTopologyType =
-      rtapi::PrimitiveTopologyType::kTriangle;  ///< kTriangle
+      rtapi::PrimitiveTopologyType::kTriangle;  ///< what draws with it draw
   std::vector<Format> RTVFormats = {};          ///< at most 8; kUnknown: no target in that slot
   Format DSVFormat = Format::kUnknown;          ///< a depth format, or kUnknown
   rtapi::SampleDesc SampleDesc = {};            ///< that of every target which draws use

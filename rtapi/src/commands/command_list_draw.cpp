@@ -112,6 +112,29 @@ Status check_samples(const char* call, const runtime::DrawTargets& targets,
   return check(targets.depth, "the depth-stencil view");
 }
 
+PrimitiveTopologyType type_of(PrimitiveTopology topology) {
+  switch (topology) {
+    case PrimitiveTopology::kPointList:
+      return PrimitiveTopologyType::kPoint;
+    case PrimitiveTopology::kLineList:
+    case PrimitiveTopology::kLineStrip:
+      return PrimitiveTopologyType::kLine;
+    default:
+      return PrimitiveTopologyType::kTriangle;
+  }
+}
+
+// [RAS-01]
+Status check_topology(const char* call, PrimitiveTopology topology,
+                      const runtime::LinkedGraphics& pipeline) {
+  if (type_of(topology) == pipeline.topology) return {};
+  constexpr const char* kNames[] = {"", "kPoint", "kLine", "kTriangle"};
+  return make_error(Id::kDrawState, call, ": topology ", static_cast<uint32_t>(topology),
+                    " was set, but ", named("graphics pipeline", pipeline.name),
+                    " was made for PrimitiveTopologyType ",
+                    kNames[static_cast<uint32_t>(pipeline.topology)]);
+}
+
 void record_draw(CommandListImpl& list, const char* call, bool indexed,
                  const DrawIndexedArguments& arguments) {
   if (!list.check_open(call)) return;
@@ -136,6 +159,10 @@ const PipelineStateImpl* CommandListImpl::draw_pipeline(const char* call, bool i
   if (draw_state->topology == PrimitiveTopology::kUndefined) {
     fail(
         make_error(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
+    return nullptr;
+  }
+  if (Status s = check_topology(call, draw_state->topology, *set->graphics); !s.ok()) {
+    fail(s.error());
     return nullptr;
   }
   if (Status s = check_samples(call, draw_state->targets, *set->graphics); !s.ok()) {
@@ -163,18 +190,16 @@ using namespace detail;
 void CommandList::IASetPrimitiveTopology(PrimitiveTopology topology) {
   if (!impl_ || !impl_->check_open("IASetPrimitiveTopology")) return;
   const auto number = static_cast<uint32_t>(topology);
-  const bool lines_or_points = (number >= 1 && number <= 3) || (number >= 10 && number <= 13) ||
-                               (number >= 33 && number <= 64);
-  if (lines_or_points) {
+  const bool adjacency = number >= 10 && number <= 13;
+  const bool patches = number >= 33 && number <= 64;
+  if (adjacency || patches) {
     return impl_->fail(make_error(Id::kGraphicsUnsupported, "IASetPrimitiveTopology: topology ",
-                                  number,
-                                  " is not triangles; only kTriangleList (4) and "
-                                  "kTriangleStrip (5) are drawn"));
+                                  number, adjacency ? " has adjacent vertices" : " is of patches",
+                                  ", and there are no geometry and hull shaders to read them"));
   }
-  if (topology != PrimitiveTopology::kUndefined && topology != PrimitiveTopology::kTriangleList &&
-      topology != PrimitiveTopology::kTriangleStrip) {
+  if (topology > PrimitiveTopology::kTriangleStrip) {
     return impl_->fail(make_error(Id::kDrawState, "IASetPrimitiveTopology: ", number,
-                                  " is no topology; use kTriangleList (4) or kTriangleStrip (5)"));
+                                  " is no topology; use 1 to 5"));
   }
   impl_->writable_draw_state().topology = topology;
 }
@@ -186,6 +211,7 @@ void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const Vertex
     return impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slots ", start_slot, "..",
                                   start_slot + views.size(), "; there are 32"));
   }
+  std::vector<VertexBufferView> taken(views.begin(), views.end());
   for (size_t i = 0; i < views.size(); ++i) {
     const VertexBufferView& view = views[i];
     if (view.StrideInBytes > kMaxVertexStride) {
@@ -193,16 +219,18 @@ void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const Vertex
                                     " has a stride of ", view.StrideInBytes,
                                     " bytes; it may be 0 to 2048"));
     }
-    if (view.BufferLocation != 0 &&
-        !impl_->device->addresses.contains(view.BufferLocation,
-                                           std::max<uint64_t>(view.SizeInBytes, 1))) {
-      return impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i,
-                                    ": ", view.SizeInBytes, " bytes at ",
-                                    impl_->device->describe_address(view.BufferLocation),
-                                    " are not inside one live buffer"));
-    }
+    if (view.BufferLocation == 0) continue;
+    const uint64_t there = impl_->device->addresses.bytes_from(view.BufferLocation);
+    if (there >= std::max<uint64_t>(view.SizeInBytes, 1)) continue;
+    impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slot ", start_slot + i, ": ",
+                           view.SizeInBytes, " bytes at ",
+                           impl_->device->describe_address(view.BufferLocation),
+                           " are not inside one live buffer"));
+    // Native runtimes take the view; what is beyond the buffer reads zeros here.
+    if (there == 0 || impl_->device->desc.InvalidCalls != InvalidCalls::kDropCall) return;
+    taken[i].SizeInBytes = static_cast<uint32_t>(there);
   }
-  std::copy(views.begin(), views.end(),
+  std::copy(taken.begin(), taken.end(),
             impl_->writable_draw_state().vertex_buffers.begin() + start_slot);
   for (size_t i = 0; i < views.size(); ++i) {
     const auto slot = static_cast<uint32_t>(start_slot + i);

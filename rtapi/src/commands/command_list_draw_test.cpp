@@ -274,9 +274,12 @@ TEST_F(DrawTest, WhatIsSetIsChecked) {
                "KA0742", "17");
   EXPECT_ERROR(Record([](CommandList& list) { list.RSSetScissorRects(std::vector<Rect>(17)); }),
                "KA0742", "17");
-  EXPECT_ERROR(
-      Record([](CommandList& list) { list.IASetPrimitiveTopology(PrimitiveTopology::kLineList); }),
-      "KA0721", "topology 2");
+  EXPECT_OK(
+      Record([](CommandList& list) { list.IASetPrimitiveTopology(PrimitiveTopology::kLineList); }));
+  EXPECT_ERROR(Record([](CommandList& list) {
+                 list.IASetPrimitiveTopology(static_cast<PrimitiveTopology>(11));
+               }),
+               "KA0721", "topology 11");
   EXPECT_ERROR(Record([](CommandList& list) {
                  list.IASetPrimitiveTopology(static_cast<PrimitiveTopology>(6));
                }),

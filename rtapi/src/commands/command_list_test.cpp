@@ -3,6 +3,7 @@
 
 #include <rtapi/shader_table.h>
 
+#include "rtapi/src/commands/command_list_impl.h"
 #include "rtapi/testing/command_list_fixture.h"
 
 namespace rtapi::testing {
@@ -372,6 +373,14 @@ TEST(InvalidCallsTest, DroppedCallsAreToldAndTheRestOfTheListRuns) {
   EXPECT_EQ(messages[2].Id.text(), "KA0802");
   EXPECT_OK(queue.ExecuteCommandLists({list}));
   EXPECT_EQ(null_log().executed.size() - before, 2u);
+  // A view that reaches past its buffer is cut.
+  messages.clear();
+  EXPECT_OK(list.Reset());
+  list.IASetVertexBuffers(3, VertexBufferView{upload.GetGPUVirtualAddress() + 48, 64, 4});
+  EXPECT_OK(list.Close());
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0].Id.text(), "KA0741");
+  EXPECT_EQ(list.impl()->draw_state->vertex_buffers[3].SizeInBytes, 16u);
   // Arguments of copies fail the list there too.
   EXPECT_OK(list.Reset());
   list.CopyBufferRegion(upload, 65, upload, 0, 1);

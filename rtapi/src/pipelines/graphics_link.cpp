@@ -326,6 +326,29 @@ Status link_stages(const DeviceImpl& device, LinkedGraphics& linked) {
   return {};
 }
 
+namespace {
+
+// What is joined with a target that the pixel shader writes: blending of floats and normalized
+// formats, logic operations of UINT. [RAS-123, RAS-161]
+Status check_joined(const DeviceImpl& device, const LinkedGraphics& linked, uint32_t slot) {
+  const RenderTargetBlendDesc& blend = linked.blend[slot];
+  const Format format = linked.target_formats[slot];
+  const FormatClass type = GetFormatInfo(format).type;
+  const char* fault = nullptr;
+  if (blend.BlendEnable && (type == FormatClass::kUint || type == FormatClass::kSint)) {
+    fault = ", whose integers cannot be blended";
+  } else if (blend.BlendEnable && !device.backend->supports_target(format, true)) {
+    fault = ", which this backend cannot blend";
+  } else if (blend.LogicOpEnable && type != FormatClass::kUint) {
+    fault = ", which has no logic operations; UINT formats have them";
+  }
+  if (fault == nullptr) return {};
+  return make_error(Id::kTargetFormat, "RTVFormats[", slot, "] is DXGI format ",
+                    static_cast<uint32_t>(format), fault);
+}
+
+}  // namespace
+
 Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
   if (!linked.has_pixel()) return {};
   for (const SignatureElement& e : outputs_of(linked.pixel)) {
@@ -346,6 +369,7 @@ Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
                      ", but RTVFormats has no target in that slot: the output is dropped"));
       continue;
     }
+    if (Status s = check_joined(device, linked, slot); !s.ok()) return s;
     if (column_type_of(format) != e.type) {
       device.report(
           MessageSeverity::kWarning,

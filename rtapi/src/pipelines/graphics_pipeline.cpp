@@ -26,15 +26,10 @@ using runtime::LinkedGraphics;
 
 constexpr const char* kZeroed = "; was the description zeroed? Begin with a default one";
 
-Status unsupported(const std::string& what) {
-  return make_error(Id::kGraphicsUnsupported, what);
-}
-
 Status check_rasterizer(const RasterizerDesc& desc) {
-  if (desc.FillMode == FillMode::kWireframe) return unsupported("FillMode is kWireframe");
-  if (desc.FillMode != FillMode::kSolid) {
+  if (desc.FillMode != FillMode::kSolid && desc.FillMode != FillMode::kWireframe) {
     return make_error(Id::kGraphicsDesc, "FillMode is ", static_cast<uint32_t>(desc.FillMode),
-                      "; it must be kSolid (3)", kZeroed);
+                      "; it must be kWireframe (2) or kSolid (3)", kZeroed);
   }
   if (desc.CullMode < CullMode::kNone || desc.CullMode > CullMode::kBack) {
     return make_error(Id::kGraphicsDesc, "CullMode is ", static_cast<uint32_t>(desc.CullMode),
@@ -87,17 +82,51 @@ bool reads_second_source(Blend blend) {
   return blend >= Blend::kSrc1Color && blend <= Blend::kInvSrc1Alpha;
 }
 bool is_blend(Blend blend) {
-  return (blend >= Blend::kZero && blend <= Blend::kSrcAlphaSat) || blend == Blend::kBlendFactor ||
-         blend == Blend::kInvBlendFactor;
+  return (blend >= Blend::kZero && blend <= Blend::kSrcAlphaSat) ||
+         (blend >= Blend::kBlendFactor && blend <= Blend::kInvSrc1Alpha);
 }
 bool is_color_blend(Blend blend) {
   return blend == Blend::kSrcColor || blend == Blend::kInvSrcColor || blend == Blend::kDestColor ||
-         blend == Blend::kInvDestColor;
+         blend == Blend::kInvDestColor || blend == Blend::kSrc1Color ||
+         blend == Blend::kInvSrc1Color;
+}
+bool reads_second_source(const RenderTargetBlendDesc& desc) {
+  return desc.BlendEnable &&
+         (reads_second_source(desc.SrcBlend) || reads_second_source(desc.DestBlend) ||
+          reads_second_source(desc.SrcBlendAlpha) || reads_second_source(desc.DestBlendAlpha));
 }
 
-Status check_blend(const RenderTargetBlendDesc& desc, uint32_t slot) {
-  const std::string where = concat("RenderTarget[", slot, "]");
-  if (desc.LogicOpEnable) return unsupported(where + " has LogicOpEnable");
+// [D3D12: D3D12_BLEND_DESC]
+Status check_logic_op(const GraphicsPipelineStateDesc& desc, const RenderTargetBlendDesc& target,
+                      const std::string& where) {
+  if (!target.LogicOpEnable) return {};
+  if (target.BlendEnable || desc.BlendState.IndependentBlendEnable) {
+    return make_error(Id::kGraphicsDesc, where, " has LogicOpEnable with ",
+                      target.BlendEnable ? "BlendEnable" : "IndependentBlendEnable",
+                      "; set that to false");
+  }
+  if (target.LogicOp <= LogicOp::kOrInverted) return {};
+  return make_error(Id::kGraphicsDesc, where, ".LogicOp is ", static_cast<uint32_t>(target.LogicOp),
+                    "; it must be 0 to 15");
+}
+
+// The second source is in the place of another target's colour. [D3D11.3: 17.6]
+Status check_second_source(const GraphicsPipelineStateDesc& desc, LinkedGraphics& linked) {
+  for (uint32_t i = 0; i < linked.target_count; ++i) {
+    if (!reads_second_source(linked.blend[i])) continue;
+    for (uint32_t slot = 1; slot < linked.target_count; ++slot) {
+      if (desc.RTVFormats[slot] == Format::kUnknown) continue;
+      return make_error(Id::kGraphicsDesc, "RenderTarget[", i,
+                        "] blends with SV_Target1, and RTVFormats[", slot, "] is DXGI format ",
+                        static_cast<uint32_t>(desc.RTVFormats[slot]),
+                        "; there may be no target but RTVFormats[0]");
+    }
+    linked.blends_two_sources = true;
+  }
+  return {};
+}
+
+Status check_blend(const RenderTargetBlendDesc& desc, const std::string& where) {
   if (static_cast<uint32_t>(desc.RenderTargetWriteMask) > 15) {
     return make_error(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
                       static_cast<uint32_t>(desc.RenderTargetWriteMask), "; it must be 0 to 15");
@@ -108,12 +137,9 @@ Status check_blend(const RenderTargetBlendDesc& desc, uint32_t slot) {
                                                    {"SrcBlendAlpha", desc.SrcBlendAlpha},
                                                    {"DestBlendAlpha", desc.DestBlendAlpha}};
   for (const auto& [name, factor] : factors) {
-    if (reads_second_source(factor)) {
-      return unsupported(concat(where, ".", name, " reads a second source of colours"));
-    }
     if (!is_blend(factor)) {
       return make_error(Id::kGraphicsDesc, where, ".", name, " is ", static_cast<uint32_t>(factor),
-                        "; it must be 1 to 11, 14 or 15", kZeroed);
+                        "; it must be 1 to 11 or 14 to 19", kZeroed);
     }
     const bool of_alpha = std::string_view(name).ends_with("Alpha");
     if (of_alpha && is_color_blend(factor)) {
@@ -132,11 +158,12 @@ Status check_topology(const GraphicsPipelineStateDesc& desc) {
   const auto type = desc.PrimitiveTopologyType;
   if (type == PrimitiveTopologyType::kUndefined || type > PrimitiveTopologyType::kPatch) {
     return make_error(Id::kGraphicsDesc, "PrimitiveTopologyType is ", static_cast<uint32_t>(type),
-                      "; it must be kTriangle (3)");
+                      "; it must be 1 to 3");
   }
-  if (type != PrimitiveTopologyType::kTriangle) {
-    return unsupported(concat("PrimitiveTopologyType is ", static_cast<uint32_t>(type),
-                              "; only kTriangle (3) is drawn"));
+  if (type == PrimitiveTopologyType::kPatch) {
+    return make_error(Id::kGraphicsUnsupported,
+                      "PrimitiveTopologyType is kPatch (4); kPoint (1), kLine (2) and kTriangle "
+                      "(3) are drawn");
   }
   if (desc.IBStripCutValue > IndexBufferStripCutValue::k0xFFFFFFFF) {
     return make_error(Id::kGraphicsDesc, "IBStripCutValue is ",
@@ -156,23 +183,18 @@ Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
   for (uint32_t i = 0; i < kSimultaneousRenderTargetCount; ++i) {
     linked.blend[i] = desc.BlendState.RenderTarget[desc.BlendState.IndependentBlendEnable ? i : 0];
     if (i >= linked.target_count) continue;
-    if (Status s = check_blend(linked.blend[i], i); !s.ok()) return s;
+    const std::string where = concat("RenderTarget[", i, "]");
+    if (Status s = check_logic_op(desc, linked.blend[i], where); !s.ok()) return s;
+    if (Status s = check_blend(linked.blend[i], where); !s.ok()) return s;
     const Format format = desc.RTVFormats[i];
     linked.target_formats[i] = format;
     if (format == Format::kUnknown) continue;
-    const FormatInfo info = GetFormatInfo(format);
-    const bool blend = linked.blend[i].BlendEnable;
-    if (blend && (info.type == FormatClass::kUint || info.type == FormatClass::kSint)) {
+    if (!device.backend->supports_target(format, false)) {
       return make_error(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
-                        static_cast<uint32_t>(format), ", whose integers cannot be blended");
-    }
-    if (!device.backend->supports_target(format, blend)) {
-      const bool only_blend = blend && device.backend->supports_target(format, false);
-      return make_error(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
-                        static_cast<uint32_t>(format), ", which this backend cannot ",
-                        only_blend ? "blend" : "draw to");
+                        static_cast<uint32_t>(format), ", which this backend cannot draw to");
     }
   }
+  if (Status s = check_second_source(desc, linked); !s.ok()) return s;
   linked.depth_format = desc.DSVFormat;
   if (desc.DSVFormat != Format::kUnknown &&
       (!IsDepthFormat(desc.DSVFormat) || !device.backend->supports_target(desc.DSVFormat, false))) {
@@ -310,6 +332,7 @@ Result<PipelineState> Device::CreateGraphicsPipelineState(
   linked->samples = desc.SampleDesc.Count;
   linked->alpha_to_coverage = desc.BlendState.AlphaToCoverageEnable;
   linked->strip_cut = desc.IBStripCutValue;
+  linked->topology = desc.PrimitiveTopologyType;
   if (Status s = take_targets(*impl_, desc, *linked); !s.ok()) return s.error();
   if (Status s = check_samples(*impl_, desc); !s.ok()) return s.error();
   if (Status s = link_shaders(*impl_, desc, *linked); !s.ok()) return s.error();

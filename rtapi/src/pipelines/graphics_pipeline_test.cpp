@@ -317,15 +317,24 @@ TEST_F(GraphicsTest, WhatIsNotOfferedIsNamed) {
     change(desc);
     EXPECT_ERROR(Make(desc), "KA0721", what);
   };
-  without([](auto& d) { d.RasterizerState.FillMode = FillMode::kWireframe; }, "kWireframe");
-  without([](auto& d) { d.PrimitiveTopologyType = PrimitiveTopologyType::kLine; }, "kTriangle");
-  without([](auto& d) { d.BlendState.RenderTarget[0].LogicOpEnable = true; }, "LogicOpEnable");
-  without(
-      [](auto& d) {
-        d.BlendState.RenderTarget[0].BlendEnable = true;
-        d.BlendState.RenderTarget[0].SrcBlend = Blend::kSrc1Color;
-      },
-      "second source");
+  without([](auto& d) { d.PrimitiveTopologyType = PrimitiveTopologyType::kPatch; }, "kPatch");
+}
+
+TEST_F(GraphicsTest, SecondSourcesAndLogicOperations) {
+  GraphicsPipelineStateDesc desc = Desc();
+  RenderTargetBlendDesc& target = desc.BlendState.RenderTarget[0];
+  target.BlendEnable = true;
+  target.SrcBlend = Blend::kSrc1Color;
+  EXPECT_OK(Make(desc));
+  desc.RTVFormats.push_back(Format::kR8Unorm);
+  EXPECT_ERROR(Make(desc), "KA0720", "RTVFormats[1]");
+  desc = Desc();
+  target.LogicOpEnable = true;
+  EXPECT_ERROR(Make(desc), "KA0726", "logic operations");
+  target.LogicOp = static_cast<LogicOp>(16);
+  EXPECT_ERROR(Make(desc), "KA0720", "LogicOp is 16");
+  target.BlendEnable = true;
+  EXPECT_ERROR(Make(desc), "KA0720", "BlendEnable");
 }
 
 TEST_F(GraphicsTest, ShadersAreFoundByStageAndName) {

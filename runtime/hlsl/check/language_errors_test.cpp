@@ -143,8 +143,17 @@ const std::vector<LanguageCase>& language_cases() {
       {"VertexCullsPrimitive", Id::kSemanticNotThere,
        "bool main(out float4 p : SV_Position) : @SV_CullPrimitive { p = 0; return true; }",
        "vs_6_6"},
-      {"EvaluateSnapped", Id::kUnsupported, pixel("p = @EvaluateAttributeSnapped(p, int2(1, 2));"),
+      {"EvaluateLocal", Id::kVertexAttribute,
+       "float4 main(float4 p : P) : SV_Target {\n"
+       "  float4 q = p; return EvaluateAttributeSnapped(@q, int2(1, 2)); }",
        "ps_6_6"},
+      {"EvaluatePosition", Id::kVertexAttribute,
+       "float4 main(float4 p : SV_Position) : SV_Target {\n"
+       "  return EvaluateAttributeAtSample(@p, 0); }",
+       "ps_6_6"},
+      {"SampleCountInVertex", Id::kStage,
+       "float4 main(float4 p : P) : SV_Position { return p * @GetRenderTargetSampleCount(); }",
+       "vs_6_6"},
       {"VertexOfInterpolated", Id::kVertexAttribute,
        "float4 main(float4 p : P) : SV_Target { return GetAttributeAtVertex(@p, 1); }", "ps_6_6"},
       {"VertexOfLocal", Id::kVertexAttribute,

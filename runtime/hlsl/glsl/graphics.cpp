@@ -39,7 +39,8 @@ std::string GlslEmitter::graphics_input(size_t index) {
     case shader::SystemValue::kPrimitiveId:
       return type + "(gl_PrimitiveID)";
     case shader::SystemValue::kIsFrontFace:
-      return type + "(gl_FrontFacing)";
+      // As a number, all bits. [D3D11.3: 15.12]
+      return type + "(gl_FrontFacing ? -1 : 0)";
     case shader::SystemValue::kPosition:
       // Where the shader runs for each sample, gl_FragCoord is that of the sample.
       if ((entry_.graphics_flags & shader::kGraphicsRunsPerSample) != 0 &&
@@ -174,6 +175,8 @@ void GlslEmitter::graphics_main() {
   for (size_t i = 0; i < entry_.outputs.size(); ++i) {
     graphics_output(i, "g_result_" + std::to_string(entry_.inputs.size() + i));
   }
+  // Points have one pixel.
+  if (entry_.stage == kStageVertex) line("gl_PointSize = 1.0;");
 }
 
 std::string GlslEmitter::graphics_head() const {
@@ -208,7 +211,7 @@ std::string GlslEmitter::graphics_layout() const {
     if (element.system_value == shader::SystemValue::kCullDistance) sizes[1] += element.components;
   }
   // Without the members that are not written, which count where outputs are limited.
-  out += "out gl_PerVertex {\n  vec4 gl_Position;\n";
+  out += "out gl_PerVertex {\n  vec4 gl_Position;\n  float gl_PointSize;\n";
   if (sizes[0] != 0) out += "  float gl_ClipDistance[" + std::to_string(sizes[0]) + "];\n";
   if (sizes[1] != 0) out += "  float gl_CullDistance[" + std::to_string(sizes[1]) + "];\n";
   out += "};\n";

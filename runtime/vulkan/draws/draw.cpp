@@ -29,8 +29,10 @@ rtapi::Format bound_format(const runtime::TargetView& view) {
 }
 
 VkPrimitiveTopology topology_of(rtapi::PrimitiveTopology topology) {
-  return topology == rtapi::PrimitiveTopology::kTriangleStrip ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP
-                                                              : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  // Both count them in the same order, D3D from 1 and Vulkan from 0.
+  static_assert(VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP ==
+                static_cast<int>(rtapi::PrimitiveTopology::kTriangleStrip) - 1);
+  return static_cast<VkPrimitiveTopology>(static_cast<uint32_t>(topology) - 1);
 }
 
 bool writes_depth(const runtime::DrawCommand& command) {

@@ -28,6 +28,14 @@ VkBlendFactor factor_of(Blend blend) {
       return VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR;
     case Blend::kSrcAlphaSat:
       return VK_BLEND_FACTOR_SRC_ALPHA_SATURATE;
+    case Blend::kSrc1Color:
+      return VK_BLEND_FACTOR_SRC1_COLOR;
+    case Blend::kInvSrc1Color:
+      return VK_BLEND_FACTOR_ONE_MINUS_SRC1_COLOR;
+    case Blend::kSrc1Alpha:
+      return VK_BLEND_FACTOR_SRC1_ALPHA;
+    case Blend::kInvSrc1Alpha:
+      return VK_BLEND_FACTOR_ONE_MINUS_SRC1_ALPHA;
     case Blend::kBlendFactor:
       return VK_BLEND_FACTOR_CONSTANT_COLOR;
     case Blend::kInvBlendFactor:
@@ -54,6 +62,16 @@ VkBlendFactor factor_at(Blend blend, rtapi::Format format) {
 // Both count the same operations, D3D from 1 and Vulkan from 0.
 VkBlendOp op_of(rtapi::BlendOp op) {
   return static_cast<VkBlendOp>(static_cast<uint32_t>(op) - 1);
+}
+VkLogicOp logic_op(rtapi::LogicOp op) {
+  constexpr VkLogicOp kOps[] = {
+      VK_LOGIC_OP_CLEAR,         VK_LOGIC_OP_SET,          VK_LOGIC_OP_COPY,
+      VK_LOGIC_OP_COPY_INVERTED, VK_LOGIC_OP_NO_OP,        VK_LOGIC_OP_INVERT,
+      VK_LOGIC_OP_AND,           VK_LOGIC_OP_NAND,         VK_LOGIC_OP_OR,
+      VK_LOGIC_OP_NOR,           VK_LOGIC_OP_XOR,          VK_LOGIC_OP_EQUIVALENT,
+      VK_LOGIC_OP_AND_REVERSE,   VK_LOGIC_OP_AND_INVERTED, VK_LOGIC_OP_OR_REVERSE,
+      VK_LOGIC_OP_OR_INVERTED};
+  return kOps[static_cast<uint32_t>(op)];
 }
 VkCompareOp compare_op(rtapi::ComparisonFunc func) {
   return static_cast<VkCompareOp>(static_cast<uint32_t>(func) - 1);
@@ -92,6 +110,18 @@ VkStencilOpState stencil_state(const rtapi::DepthStencilOpDesc& desc) {
   return state;
 }
 
+// Of which the topology that lists set is one.
+VkPrimitiveTopology topology_class(rtapi::PrimitiveTopologyType type) {
+  switch (type) {
+    case rtapi::PrimitiveTopologyType::kPoint:
+      return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+    case rtapi::PrimitiveTopologyType::kLine:
+      return VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+    default:
+      return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  }
+}
+
 VkCullModeFlags cull_mode(rtapi::CullMode mode) {
   switch (mode) {
     case rtapi::CullMode::kFront:
@@ -108,17 +138,23 @@ VkCullModeFlags cull_mode(rtapi::CullMode mode) {
 FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
                        const GraphicsVariant& wanted)
     : sample_mask(linked.sample_mask) {
-  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // the class; lists say which
+  assembly.topology = topology_class(linked.topology);
 
   // Depth is limited to the viewport's range in any case. [RAS-42]
   depth_clip.depthClipEnable = linked.rasterizer.DepthClipEnable;
-  rasterizer.pNext = &depth_clip;
+  lines.lineRasterizationMode = linked.rasterizer.MultisampleEnable
+                                    ? VK_LINE_RASTERIZATION_MODE_RECTANGULAR_EXT
+                                    : VK_LINE_RASTERIZATION_MODE_BRESENHAM_EXT;
+  lines.pNext = &depth_clip;
+  rasterizer.pNext = &lines;
   rasterizer.depthClampEnable = VK_TRUE;
-  rasterizer.polygonMode = VK_POLYGON_MODE_FILL;
+  rasterizer.polygonMode = linked.rasterizer.FillMode == rtapi::FillMode::kWireframe
+                               ? VK_POLYGON_MODE_LINE
+                               : VK_POLYGON_MODE_FILL;
   rasterizer.cullMode = cull_mode(linked.rasterizer.CullMode);
   rasterizer.frontFace = linked.rasterizer.FrontCounterClockwise ? VK_FRONT_FACE_COUNTER_CLOCKWISE
                                                                  : VK_FRONT_FACE_CLOCKWISE;
-  rasterizer.lineWidth = 1;
+  rasterizer.lineWidth = linked.rasterizer.MultisampleEnable ? 1.4f : 1.0f;
   const float bias = static_cast<float>(linked.rasterizer.DepthBias);
   const bool unorm =
       wanted.depth == rtapi::Format::kD16Unorm || wanted.depth == rtapi::Format::kD24UnormS8Uint;
@@ -149,6 +185,8 @@ FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
       targets[i] = blend_state(linked.blend[i], wanted.colors[i]);
     }
   }
+  blend.logicOpEnable = linked.blend[0].LogicOpEnable;
+  blend.logicOp = logic_op(linked.blend[0].LogicOp);
   blend.attachmentCount = wanted.color_count;
   blend.pAttachments = targets.data();
 }

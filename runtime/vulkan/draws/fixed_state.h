@@ -22,6 +22,8 @@ struct FixedState {
       VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   VkPipelineRasterizationDepthClipStateCreateInfoEXT depth_clip = {
       VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT};
+  VkPipelineRasterizationLineStateCreateInfoEXT lines = {
+      VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_LINE_STATE_CREATE_INFO_EXT};
   VkPipelineRasterizationStateCreateInfo rasterizer = {
       VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
   VkSampleMask sample_mask = 0;

@@ -27,7 +27,7 @@ uint64_t indices_in_view(const runtime::DrawCommand& command) {
 // 0xFFFFFFFF never does with indices of 16 bits. [RAS-05, RAS-06]
 bool cuts(const runtime::DrawCommand& command) {
   const Cut cut = command.linked->strip_cut;
-  if (command.state->topology != rtapi::PrimitiveTopology::kTriangleStrip) return false;
+  if (!runtime::is_strip(command.state->topology)) return false;
   return cut == Cut::k0xFFFF || (cut == Cut::k0xFFFFFFFF && !is_small(command));
 }
 

@@ -101,6 +101,7 @@ std::vector<uint32_t> linked_pixel_code(const LinkedGraphics& linked) {
                             : output_at(linked, varying->vertex_column));
   }
   shader::spirv::relocate_inputs(words, locations);
+  if (linked.blends_two_sources) shader::spirv::make_second_source(words);
   return words;
 }
 
@@ -110,8 +111,12 @@ std::vector<StageConstant> target_constants(const Gpu& gpu, const LinkedGraphics
   if (linked.samples > 1) {
     constants.push_back({shader::spirv::kSampleCountConstant, linked.samples});
   }
-  for (uint32_t i = 0; i < wanted.color_count; ++i) {
-    const uint32_t conversion = conversion_of(gpu, wanted.colors[i], linked.blend[i].BlendEnable);
+  // The second source is converted as the first one.
+  const uint32_t outputs = linked.blends_two_sources ? 2 : wanted.color_count;
+  for (uint32_t i = 0; i < outputs; ++i) {
+    const uint32_t target = linked.blends_two_sources ? 0 : i;
+    const uint32_t conversion =
+        conversion_of(gpu, wanted.colors[target], linked.blend[target].BlendEnable);
     if (conversion != 0) constants.push_back({shader::spirv::kTargetConstant + i, conversion});
   }
   return constants;

@@ -91,6 +91,8 @@ void FeatureChain::query(VkPhysicalDevice device) {
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT);
   optional(VK_EXT_VERTEX_ATTRIBUTE_DIVISOR_EXTENSION_NAME, divisor_,
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VERTEX_ATTRIBUTE_DIVISOR_FEATURES_EXT);
+  optional(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME, lines_,
+           VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT);
   optional(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME, atomic_float_,
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_FLOAT_FEATURES_EXT);
   features_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
@@ -174,6 +176,11 @@ void FeatureChain::query_graphics() {
   need(robustness2_.nullDescriptor, "nullDescriptor");
   need(core.fullDrawIndexUint32, "fullDrawIndexUint32");
   need(core.independentBlend, "independentBlend");
+  need(core.dualSrcBlend, "dualSrcBlend");
+  need(core.logicOp, "logicOp");
+  need(core.fillModeNonSolid, "fillModeNonSolid");
+  need(core.wideLines, "wideLines");
+  need(lines_.bresenhamLines && lines_.rectangularLines, VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
   need(core.depthClamp, "depthClamp");
   need(core.depthBiasClamp, "depthBiasClamp");
   need(core.multiViewport, "multiViewport");

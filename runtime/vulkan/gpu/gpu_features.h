@@ -53,6 +53,7 @@ class FeatureChain {
   VkPhysicalDeviceRobustness2FeaturesEXT robustness2_ = {};
   VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip_ = {};
   VkPhysicalDeviceVertexAttributeDivisorFeaturesEXT divisor_ = {};
+  VkPhysicalDeviceLineRasterizationFeaturesEXT lines_ = {};
   VkPhysicalDeviceShaderAtomicFloatFeaturesEXT atomic_float_ = {};  // exchanges of texels
 };
 

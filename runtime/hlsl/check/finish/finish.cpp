@@ -112,16 +112,18 @@ void Finish::run() {
   Reports reports(messages_);
   check_resources();
   finish_module(bench_.module, build_, program_.facts, reports);
-  check_vertex_reads();
+  check_input_reads();
   check_unreached();
 }
 
 // Parameters of functions that a pixel shader calls are no inputs.
-void Finish::check_vertex_reads() {
+void Finish::check_input_reads() {
   for (const FunctionInfo& function : program_.functions) {
     if (function.is_pixel_entry || (function.stages & ir::kStagePixel) == 0) continue;
-    for (const VertexRead& read : function.vertex_reads) {
-      report(CheckId::kVertexAttribute, read.location, {"an input of the pixel shader itself"});
+    for (const InputRead& read : function.input_reads) {
+      report(CheckId::kVertexAttribute, read.location,
+             {read.of_vertices ? "GetAttributeAtVertex" : "EvaluateAttribute",
+              "an input of the pixel shader itself"});
     }
   }
 }

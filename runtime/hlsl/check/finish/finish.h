@@ -18,7 +18,7 @@ class Finish : StagePart {
 
  private:
   void check_resources();
-  void check_vertex_reads();
+  void check_input_reads();
   void check_unreached();
 };
 

@@ -44,6 +44,9 @@ Value PixelIntrinsics::call_pixel_function(std::string_view name, std::vector<Va
                                            SourceLocation location) {
   if (name == "IsHelperLane") return is_helper_lane(arguments, location);
   if (name == "GetAttributeAtVertex") return attribute_at_vertex(arguments, location);
+  if (name.starts_with("GetRenderTargetSample")) {
+    return render_target_sample(name, arguments, location);
+  }
   if (name.starts_with("EvaluateAttribute")) return evaluate_attribute(name, arguments, location);
   if (!lower_.intrinsics.check_count(name, arguments.size(), 1, 1, location)) return error_value();
   if (name == "clip") {
@@ -113,10 +116,154 @@ Value PixelIntrinsics::is_helper_lane(std::vector<Value>& arguments, SourceLocat
   return rvalue(build_.read(body_.temporary(build_.read(variable))), types_.boolean());
 }
 
-// Targets have one sample, at the centre of the pixel, which is where an input has its value.
+// A static global that the pixel shader fills.
+const ir::Expr* PixelIntrinsics::sample_count() {
+  VariableInfo*& info = bench_.sample_count;
+  if (!info) {
+    info = names_.make_variable();
+    info->kind = VariableKind::kGlobal;
+    info->variable = build_.variable("sample_count", build_.scalar_type(Scalar::kUint32),
+                                     ir::Storage::kStaticGlobal);
+  }
+  if (body_.function) body_.function->globals.push_back(info);
+  return body_.repeatable(build_.read(info->variable));
+}
+
+// Direct3D's standard patterns. Samples that the targets do not have are in the middle.
+// [D3D11.3: 19.2.4]
+const ir::Expr* PixelIntrinsics::sample_position(const ir::Expr* number) {
+  using Op = ir::BinaryOp;
+  // A byte for each sample, the lowest first: x and y in sixteenths of a pixel, and 8.
+  constexpr uint32_t kMiddle = 0x88888888u, kTwo = 0x888844CCu, kFour = 0xEAA26E26u,
+                     kEight[2] = {0x359DB759u, 0x1FFB71D3u};
+  const ir::Expr* count = sample_count();
+  number = body_.repeatable(number);
+  const auto operation = [&](Op op, const ir::Expr* value, uint32_t constant) {
+    return build_.binary(op, value, build_.uint32(constant));
+  };
+  const auto pattern = [&](uint32_t two, uint32_t four, uint32_t eight) {
+    const ir::Expr* out = build_.uint32(kMiddle);
+    for (const auto& [samples, word] : {std::pair{2u, two}, {4u, four}, {8u, eight}}) {
+      out = build_.conditional(operation(Op::kEqual, count, samples), build_.uint32(word), out);
+    }
+    return out;
+  };
+  const ir::Expr* high =
+      build_.conditional(operation(Op::kLess, number, 8), pattern(kMiddle, kMiddle, kEight[1]),
+                         build_.uint32(kMiddle));
+  const ir::Expr* word =
+      build_.conditional(operation(Op::kLess, number, 4), pattern(kTwo, kFour, kEight[0]), high);
+  const ir::Expr* shift = operation(Op::kMultiply, operation(Op::kBitAnd, number, 3), 8);
+  const ir::Expr* both = body_.repeatable(build_.binary(Op::kShiftRight, word, shift));
+  const auto coordinate = [&](uint32_t first_bit) {
+    const ir::Expr* bits = operation(Op::kBitAnd, operation(Op::kShiftRight, both, first_bit), 15);
+    const ir::Expr* whole = build_.binary(Op::kSubtract, build_.convert(bits, Scalar::kFloat32),
+                                          build_.convert(build_.uint32(8), Scalar::kFloat32));
+    return build_.binary(Op::kDivide, whole, build_.convert(build_.uint32(16), Scalar::kFloat32));
+  };
+  return build_.construct(build_.vector_type(Scalar::kFloat32, 2), {coordinate(0), coordinate(4)});
+}
+
+Value PixelIntrinsics::render_target_sample(std::string_view name, std::vector<Value>& arguments,
+                                            SourceLocation location) {
+  const bool position = name.ends_with("Position");
+  const size_t count = position ? 1 : 0;
+  if (!lower_.intrinsics.check_count(name, arguments.size(), count, count, location)) {
+    return error_value();
+  }
+  lower_.intrinsics.use_in_stages(name, ir::kStagePixel, location);
+  if (!position) return rvalue(sample_count(), types_.scalar(Scalar::kUint32));
+  const ir::Expr* number = lower_.conversions.convert(arguments[0], types_.scalar(Scalar::kUint32),
+                                                      arguments[0].location);
+  if (!number) return error_value();
+  at(location);
+  return rvalue(sample_position(number), types_.vector(Scalar::kFloat32, 2));
+}
+
+PixelIntrinsics::InputPlace PixelIntrinsics::input_place(const Value& argument) {
+  InputPlace out;
+  if (argument.kind != ValueKind::kExpr) return out;
+  const ir::Expr* place = argument.expr;
+  out.swizzle = place->kind == ir::ExprKind::kSwizzle ? place : nullptr;
+  if (out.swizzle) place = out.swizzle->operands[0];
+  const ir::Expr* of = place;
+  for (;; of = of->operands[0]) {
+    if (of->kind == ir::ExprKind::kField) {
+      out.read.path.push_back(of->index);
+    } else if (of->kind == ir::ExprKind::kElement &&
+               of->operands[0]->type->kind == ir::TypeKind::kArray &&
+               of->operands[1]->kind == ir::ExprKind::kLiteral) {
+      out.read.path.push_back(static_cast<uint32_t>(of->operands[1]->literal[0]));
+    } else {
+      break;
+    }
+  }
+  const bool is_input = of->kind == ir::ExprKind::kVariable && body_.function &&
+                        of->variable->storage == ir::Storage::kParameter &&
+                        of->variable->mode == ir::ParameterMode::kIn;
+  if (!is_input) return out;
+  std::reverse(out.read.path.begin(), out.read.path.end());
+  out.read.parameter = of->variable;
+  out.read.location = argument.location;
+  out.value = place;
+  return out;
+}
+
+InputRead& PixelIntrinsics::known_read(const InputRead& read) {
+  auto& reads = body_.function->input_reads;
+  const auto found = std::find_if(reads.begin(), reads.end(), [&](const InputRead& other) {
+    return other.parameter == read.parameter && other.path == read.path &&
+           other.of_vertices == read.of_vertices;
+  });
+  return found == reads.end() ? reads.emplace_back(read) : *found;
+}
+
+const ir::Expr* PixelIntrinsics::fact_of(InputRead& read, InputFact fact, const ir::Type* type) {
+  VariableInfo*& info = read.facts[static_cast<size_t>(fact)];
+  if (!info) {
+    info = names_.make_variable();
+    info->kind = VariableKind::kGlobal;
+    info->variable = build_.variable("of_input", type, ir::Storage::kStaticGlobal);
+    body_.function->globals.push_back(info);
+  }
+  return build_.read(info->variable);
+}
+
+const ir::Expr* PixelIntrinsics::evaluated(const InputRead& place, const ir::Type* type,
+                                           const ir::Expr* offset) {
+  using Op = ir::BinaryOp;
+  InputRead& read = known_read(place);
+  if (!offset) return fact_of(read, InputFact::kCentroid, type);
+  const auto spread = [&](const ir::Expr* value) {
+    return type->kind == ir::TypeKind::kScalar ? value : build_.splat(value, type);
+  };
+  // Both the input over w and 1 / w are linear on the screen.
+  const ir::Expr* w = fact_of(read, InputFact::kInverseW, build_.vector_type(Scalar::kFloat32, 3));
+  const ir::Expr* x = build_.swizzle(offset, {0});
+  const ir::Expr* y = build_.swizzle(offset, {1});
+  const auto moved = [&](const ir::Expr* middle, const ir::Expr* slope_x, const ir::Expr* slope_y,
+                         const auto& as_type) {
+    return build_.binary(Op::kAdd, middle,
+                         build_.binary(Op::kAdd, build_.binary(Op::kMultiply, slope_x, as_type(x)),
+                                       build_.binary(Op::kMultiply, slope_y, as_type(y))));
+  };
+  const ir::Expr* middle = fact_of(read, InputFact::kMiddle, type);
+  const ir::Expr* over_w = moved(
+      build_.binary(Op::kMultiply, middle, spread(build_.swizzle(w, {0}))),
+      fact_of(read, InputFact::kSlopeX, type), fact_of(read, InputFact::kSlopeY, type), spread);
+  const ir::Expr* inverse_w = moved(build_.swizzle(w, {0}), build_.swizzle(w, {1}),
+                                    build_.swizzle(w, {2}), [](const ir::Expr* v) { return v; });
+  const ir::Expr* zero = build_.zero(x->type);
+  const ir::Expr* in_middle = build_.binary(Op::kBitAnd, build_.binary(Op::kEqual, x, zero),
+                                            build_.binary(Op::kEqual, y, zero));
+  return build_.conditional(in_middle, middle,
+                            build_.binary(Op::kDivide, over_w, spread(inverse_w)));
+}
+
 Value PixelIntrinsics::evaluate_attribute(std::string_view name, std::vector<Value>& arguments,
                                           SourceLocation location) {
-  const size_t count = name.ends_with("Sample") ? 2 : 1;
+  const bool centroid = name.ends_with("Centroid");
+  const size_t count = centroid ? 1 : 2;
   if (!lower_.intrinsics.check_count(name, arguments.size(), count, count, location)) {
     return error_value();
   }
@@ -124,11 +271,56 @@ Value PixelIntrinsics::evaluate_attribute(std::string_view name, std::vector<Val
   if (!lower_.intrinsics.is_short_argument(name, 0, arguments[0])) return error_value();
   const Type* type = type_of_numbers(name, arguments[0]);
   if (!type) return error_value();
-  if (count == 2 && !lower_.conversions.convert(arguments[1], types_.scalar(Scalar::kUint32),
-                                                arguments[1].location)) {
+  const ir::Expr* offset = nullptr;
+  if (!centroid) {
+    const bool snapped = name.ends_with("Snapped");
+    const Type* wanted =
+        snapped ? types_.vector(Scalar::kInt32, 2) : types_.scalar(Scalar::kUint32);
+    const ir::Expr* where = lower_.conversions.convert(arguments[1], wanted, arguments[1].location);
+    if (!where) return error_value();
+    at(location);
+    if (snapped) {
+      const ir::Type* pair = build_.vector_type(Scalar::kFloat32, 2);
+      const ir::Expr* sixteen = build_.convert(build_.uint32(16), Scalar::kFloat32);
+      offset = build_.binary(ir::BinaryOp::kDivide, build_.convert(where, Scalar::kFloat32),
+                             build_.splat(sixteen, pair));
+    } else {
+      offset = sample_position(where);
+    }
+    offset = body_.repeatable(offset);
+  }
+  const InputPlace place = input_place(arguments[0]);
+  if (!place.value) {
+    report(CheckId::kVertexAttribute, arguments[0].location,
+           {std::string(name), "an input of the pixel shader itself"});
     return error_value();
   }
-  return rvalue(lower_.conversions.convert(arguments[0], type, arguments[0].location), type);
+  // Integers are the same everywhere.
+  if (!is_floating(type->scalar)) {
+    return rvalue(lower_.conversions.convert(arguments[0], type, arguments[0].location), type);
+  }
+  if (!type->is_matrix()) {
+    const ir::Expr* value = evaluated(place.read, place.value->type, offset);
+    if (place.swizzle) value = build_.swizzle(value, place.swizzle->components);
+    return rvalue(value, type);
+  }
+  // Row by row, or column by column, as it is passed.
+  const uint8_t lines = type->row_major ? type->rows : type->columns;
+  const uint8_t size = type->row_major ? type->columns : type->rows;
+  const ir::Type* line_type =
+      size == 1 ? build_.scalar_type(type->scalar) : build_.vector_type(type->scalar, size);
+  std::vector<const ir::Expr*> components(size_t{type->rows} * type->columns);
+  for (uint8_t line = 0; line < lines; ++line) {
+    InputRead read = place.read;
+    read.path.push_back(line);
+    const ir::Expr* value = body_.repeatable(evaluated(read, line_type, offset));
+    for (uint8_t i = 0; i < size; ++i) {
+      const size_t at =
+          type->row_major ? size_t{line} * type->columns + i : size_t{i} * type->columns + line;
+      components[at] = size == 1 ? value : build_.swizzle(value, {i});
+    }
+  }
+  return rvalue(build_.construct(type->ir, std::move(components)), type);
 }
 
 // The values of the other two vertices are inputs of their own, which the entry point's wrapper
@@ -142,56 +334,26 @@ Value PixelIntrinsics::attribute_at_vertex(std::vector<Value>& arguments, Source
                                                       arguments[1].location);
   if (!type || !number) return error_value();
   const auto refuse = [&](const Value& argument, const char* wanted) {
-    report(CheckId::kVertexAttribute, argument.location, {wanted});
+    report(CheckId::kVertexAttribute, argument.location, {std::string(name), wanted});
     return error_value();
   };
   if (number->kind != ir::ExprKind::kLiteral || number->literal[0] > 2) {
     return refuse(arguments[1], "a constant 0, 1 or 2");
   }
-  constexpr const char* kInput =
-      "an input of the pixel shader itself, or a scalar or vector of one";
-  if (arguments[0].kind != ValueKind::kExpr || type->is_matrix())
-    return refuse(arguments[0], kInput);
-  const ir::Expr* place = arguments[0].expr;
-  const ir::Expr* swizzle = place->kind == ir::ExprKind::kSwizzle ? place : nullptr;
-  if (swizzle) place = swizzle->operands[0];
-  VertexRead read;
-  const ir::Expr* of = place;
-  for (;; of = of->operands[0]) {
-    if (of->kind == ir::ExprKind::kField) {
-      read.path.push_back(of->index);
-    } else if (of->kind == ir::ExprKind::kElement &&
-               of->operands[0]->type->kind == ir::TypeKind::kArray &&
-               of->operands[1]->kind == ir::ExprKind::kLiteral) {
-      read.path.push_back(static_cast<uint32_t>(of->operands[1]->literal[0]));
-    } else {
-      break;
-    }
+  const InputPlace place = input_place(arguments[0]);
+  if (!place.value || type->is_matrix()) {
+    return refuse(arguments[0],
+                  "an input of the pixel shader itself, or a scalar or vector of one");
   }
-  const bool is_input = of->kind == ir::ExprKind::kVariable && body_.function &&
-                        of->variable->storage == ir::Storage::kParameter &&
-                        of->variable->mode == ir::ParameterMode::kIn;
-  if (!is_input) return refuse(arguments[0], kInput);
-  std::reverse(read.path.begin(), read.path.end());
-  read.parameter = of->variable;
-  read.location = arguments[0].location;
-  auto& reads = body_.function->vertex_reads;
-  auto found = std::find_if(reads.begin(), reads.end(), [&](const VertexRead& other) {
-    return other.parameter == read.parameter && other.path == read.path;
-  });
-  if (found == reads.end()) found = reads.insert(found, std::move(read));
-  const ir::Expr* value = place;
+  const ir::Expr* value = place.value;
+  InputRead wanted = place.read;
+  wanted.of_vertices = true;
+  InputRead& read = known_read(wanted);
   if (number->literal[0] != 0) {
-    VariableInfo*& info = found->values[number->literal[0] - 1];
-    if (!info) {
-      info = names_.make_variable();
-      info->kind = VariableKind::kGlobal;
-      info->variable = build_.variable("at_vertex", place->type, ir::Storage::kStaticGlobal);
-      body_.function->globals.push_back(info);
-    }
-    value = build_.read(info->variable);
+    const bool second = number->literal[0] == 1;
+    value = fact_of(read, second ? InputFact::kSecondVertex : InputFact::kThirdVertex, value->type);
   }
-  if (swizzle) value = build_.swizzle(value, swizzle->components);
+  if (place.swizzle) value = build_.swizzle(value, place.swizzle->components);
   return rvalue(value, type);
 }
 

@@ -80,12 +80,28 @@ struct TemplateValue {
 };
 using TemplateValues = std::vector<TemplateValue>;
 
-// GetAttributeAtVertex of a parameter, or of the part of it that the indices lead to.
-struct VertexRead {
+// What is read of an input besides its value. All are of the input's type but kInverseW: 1 / w in
+// the middle of the pixel and its slopes to the right and down, or 1, 0 and 0 of an input without
+// perspective. Slopes are those of the input times 1 / w.
+enum class InputFact : size_t {
+  kSecondVertex,
+  kThirdVertex,
+  kMiddle,
+  kCentroid,
+  kSlopeX,
+  kSlopeY,
+  kInverseW
+};
+inline constexpr size_t kInputFacts = 7;
+
+// GetAttributeAtVertex or EvaluateAttribute* of a parameter, or of the part of it that the indices
+// lead to; of a matrix, the last one is that of a row, or a column if it is not row_major.
+struct InputRead {
   const ir::Variable* parameter = nullptr;
   std::vector<uint32_t> path;
-  VariableInfo* values[2] = {};  // of the second and the third vertex, if they are read
+  VariableInfo* facts[kInputFacts] = {};  // static variables that the entry point fills
   SourceLocation location;
+  bool of_vertices = false;  // GetAttributeAtVertex
 };
 
 struct FunctionInfo : FunctionFacts {
@@ -120,7 +136,7 @@ struct FunctionInfo : FunctionFacts {
   enum class State : uint8_t { kPending, kLowering, kDone } state = State::kPending;
   FunctionInfo* linked = nullptr;  // without a body: its definition in another library
 
-  std::vector<VertexRead> vertex_reads;
+  std::vector<InputRead> input_reads;
   bool is_pixel_entry = false;
 };
 

@@ -34,6 +34,7 @@ struct Workbench {
   PayloadFacts payloads;
   ir::Variable* is_helper = nullptr;     // ModuleFacts::is_helper
   VariableInfo* print_thread = nullptr;  // Printing::thread()
+  VariableInfo* sample_count = nullptr;  // of the targets; pixel shaders fill it
   int depth = 0;                         // of nested declarations, statements and expressions
 };
 

@@ -106,29 +106,80 @@ class GraphicsSignature : StagePart {
     walk(type, name, source, value);
   }
 
-  // Fills the static variables of GetAttributeAtVertex.
-  void read_vertices(const FunctionInfo& function) {
-    for (const VertexRead& read : function.vertex_reads) {
+  // Fills the static variables of GetAttributeAtVertex and EvaluateAttribute*.
+  void read_inputs(const FunctionInfo& function) {
+    for (const InputRead& read : function.input_reads) {
       const auto leaf = std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& one) {
         return function.ir->parameters[one.parameter] == read.parameter && one.path == read.path;
       });
+      const bool of_vertices = read.of_vertices;
       if (leaf == leaves.end() || leaf->element >= elements.size() ||
-          elements[leaf->element].interpolation != Interpolation::kNoInterpolation ||
+          (of_vertices &&
+           elements[leaf->element].interpolation != Interpolation::kNoInterpolation) ||
           elements[leaf->element].system_value != SystemValue::kNone) {
-        fail(CheckId::kVertexAttribute, read.location, {"an input that is nointerpolation"});
+        fail(CheckId::kVertexAttribute, read.location,
+             {of_vertices ? "GetAttributeAtVertex" : "EvaluateAttribute",
+              of_vertices ? "an input that is nointerpolation"
+                          : "an input that the vertex shader writes"});
         return;
       }
-      for (size_t i = 0; i < 2; ++i) {
-        if (!read.values[i]) continue;
-        at(read.location);
-        ir::SignatureElement element = elements[leaf->element];
-        element.interpolation = i == 0 ? Interpolation::kSecondVertex : Interpolation::kThirdVertex;
-        const ir::Variable* variable =
-            imply(std::move(element), "vertex", wrapper_.parameters[leaf->element]->type);
-        lower_.body.assign(read.values[i]->variable,
-                           build_.convert(build_.read(variable), plain_scalar(leaf->type->scalar)));
-      }
+      at(read.location);
+      const auto fill = [&](InputFact fact, const auto& value) {
+        const VariableInfo* info = read.facts[static_cast<size_t>(fact)];
+        if (info) lower_.body.assign(info->variable, value());
+      };
+      using I = Interpolation;
+      fill(InputFact::kSecondVertex, [&] { return place_of(*leaf, I::kSecondVertex); });
+      fill(InputFact::kThirdVertex, [&] { return place_of(*leaf, I::kThirdVertex); });
+      if (of_vertices) continue;
+      const Interpolation own = elements[leaf->element].interpolation;
+      const bool flat = own == I::kNoInterpolation;
+      const bool straight = flat || shader::is_no_perspective(own);
+      fill(InputFact::kCentroid, [&] {
+        return place_of(*leaf, flat ? own : straight ? I::kCentroidNoPerspective : I::kCentroid);
+      });
+      const auto middle = [&] {
+        return place_of(*leaf, flat ? own : straight ? I::kNoPerspective : I::kLinear);
+      };
+      fill(InputFact::kMiddle, middle);
+      const ir::Type* real = build_.scalar_type(Scalar::kFloat32);
+      const auto inverse_w = [&] {
+        const ir::Expr* one = build_.convert(build_.uint32(1), Scalar::kFloat32);
+        return straight
+                   ? one
+                   : build_.binary(ir::BinaryOp::kDivide, one, build_.swizzle(position(4), {3}));
+      };
+      const auto slope = [&](shader::WaveOp op, const ir::Expr* of) -> const ir::Expr* {
+        ir::Expr* node = build_.expr(ir::ExprKind::kQuad, of->type, {of});
+        node->wave = op;
+        return node;
+      };
+      const auto product = [&] {
+        const ir::Expr* value = middle();
+        const ir::Expr* w = inverse_w();
+        return build_.binary(ir::BinaryOp::kMultiply, value,
+                             value->type == real ? w : build_.splat(w, value->type));
+      };
+      fill(InputFact::kSlopeX, [&] { return slope(shader::WaveOp::kDdxFine, product()); });
+      fill(InputFact::kSlopeY, [&] { return slope(shader::WaveOp::kDdyFine, product()); });
+      fill(InputFact::kInverseW, [&] {
+        const ir::Expr* w = inverse_w();
+        return build_.construct(
+            build_.vector_type(Scalar::kFloat32, 3),
+            {w, slope(shader::WaveOp::kDdxFine, w), slope(shader::WaveOp::kDdyFine, w)});
+      });
     }
+  }
+
+  // The input at another place: itself, or one that is added.
+  const ir::Expr* place_of(const Leaf& leaf, Interpolation interpolation) {
+    const ir::Variable* variable = wrapper_.parameters[leaf.element];
+    if (elements[leaf.element].interpolation != interpolation) {
+      ir::SignatureElement element = elements[leaf.element];
+      element.interpolation = interpolation;
+      variable = imply(std::move(element), "at_place", variable->type);
+    }
+    return build_.convert(build_.read(variable), plain_scalar(leaf.type->scalar));
   }
 
   void check_limits(SourceLocation location) {
@@ -154,6 +205,8 @@ class GraphicsSignature : StagePart {
             std::to_string(kMostVectors)});
     }
   }
+
+  const ir::Expr* sample_count() { return number("SV_SampleCount", SystemValue::kSampleCount); }
 
   // The thread that printf names.
   const ir::Expr* thread(const ir::Type* type) {
@@ -265,6 +318,9 @@ class GraphicsSignature : StagePart {
       for (uint8_t i = 0; i < size; ++i) {
         places.push_back(static_cast<uint8_t>(type->row_major ? line * 4 + i : i * 4 + line));
       }
+      path_.push_back(line);
+      leaves.push_back({parameter_, path_, elements.size(), line_type});
+      path_.pop_back();
       const ir::Expr* part = walk_vector(line_type, name, source,
                                          value ? build_.matrix_swizzle(value, places) : nullptr);
       for (uint8_t i = 0; i < size && part; ++i) {
@@ -525,7 +581,11 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
     call->arguments.push_back(value);
   }
   if (!inputs.failed) inputs.check_limits(location);
-  if (is_pixel && !inputs.failed) inputs.read_vertices(*function);
+  if (is_pixel && !inputs.failed) inputs.read_inputs(*function);
+  if (is_pixel && bench_.sample_count && !inputs.failed) {
+    function->globals.push_back(bench_.sample_count);
+    lower_.body.assign(bench_.sample_count->variable, inputs.sample_count());
+  }
   if (const ir::Variable* thread = lower_.printing.thread(); thread && !inputs.failed) {
     lower_.printing.use_thread(*function);
     lower_.body.assign(thread, inputs.thread(thread->type));

@@ -12,30 +12,58 @@
 
 namespace kaamos::shader::spirv {
 
-// Gives each input at a location n the location `locations[n]`; inputs past the end of the list
-// keep theirs. The module must be one of the compiler's.
-inline void relocate_inputs(std::span<uint32_t> words, std::span<const uint32_t> locations) {
-  constexpr uint32_t kVariable = 59, kDecorate = 71, kInputClass = 1, kLocation = 30;
+// The modules below must be the compiler's.
+
+// Calls visit(decoration) for the words of each decoration that gives a variable of a storage class
+// its location.
+template <typename Visit>
+void each_location(std::span<uint32_t> words, uint32_t storage_class, const Visit& visit) {
+  constexpr uint32_t kVariable = 59, kDecorate = 71, kLocation = 30;
   constexpr size_t kHeader = 5;
-  const auto each = [&](const auto& visit) {
+  const auto each = [&](const auto& look) {
     for (size_t at = kHeader; at < words.size();) {
       const uint32_t length = words[at] >> 16;
       if (length == 0 || at + length > words.size()) return;
-      visit(words[at] & 0xFFFFu, words.subspan(at, length));
+      look(words[at] & 0xFFFFu, words.subspan(at, length));
       at += length;
     }
   };
-  std::unordered_set<uint32_t> inputs;
+  std::unordered_set<uint32_t> variables;
   each([&](uint32_t op, std::span<uint32_t> instruction) {
-    if (op == kVariable && instruction.size() >= 4 && instruction[3] == kInputClass) {
-      inputs.insert(instruction[2]);
+    if (op == kVariable && instruction.size() >= 4 && instruction[3] == storage_class) {
+      variables.insert(instruction[2]);
     }
   });
   each([&](uint32_t op, std::span<uint32_t> instruction) {
-    const bool places = op == kDecorate && instruction.size() == 4 && instruction[2] == kLocation &&
-                        inputs.count(instruction[1]) != 0;
-    if (places && instruction[3] < locations.size()) instruction[3] = locations[instruction[3]];
+    if (op == kDecorate && instruction.size() == 4 && instruction[2] == kLocation &&
+        variables.count(instruction[1]) != 0) {
+      visit(instruction);
+    }
   });
+}
+
+// Gives each input at a location n the location `locations[n]`; inputs past the end of the list
+// keep theirs.
+inline void relocate_inputs(std::span<uint32_t> words, std::span<const uint32_t> locations) {
+  constexpr uint32_t kInputClass = 1;
+  each_location(words, kInputClass, [&](std::span<uint32_t> decoration) {
+    uint32_t& location = decoration[3];
+    if (location < locations.size()) location = locations[location];
+  });
+}
+
+// Makes the output at location 1 the second source of blending at location 0: in Vulkan, index 1.
+inline void make_second_source(std::vector<uint32_t>& words) {
+  constexpr uint32_t kOutputClass = 3, kIndex = 32;
+  std::vector<uint32_t> index;
+  size_t behind = 0;
+  each_location(words, kOutputClass, [&](std::span<uint32_t> decoration) {
+    if (decoration[3] != 1) return;
+    decoration[3] = 0;
+    index = {decoration[0], decoration[1], kIndex, 1};
+    behind = static_cast<size_t>(decoration.data() - words.data()) + decoration.size();
+  });
+  words.insert(words.begin() + static_cast<std::ptrdiff_t>(behind), index.begin(), index.end());
 }
 
 }  // namespace kaamos::shader::spirv
