@@ -146,7 +146,7 @@ function(kaamos_install_package)
   kaamos_collect_dependencies(KAAMOS_DEPENDENCIES ${libraries})
 
   set(programs)
-  foreach(program IN ITEMS kaamos-hlsl kaamos-dxc kaamos-import-vcxproj northlight kaamos-conformance kaamos-test)
+  foreach(program IN ITEMS kaamos-hlsl kaamos-dxc kaamos-import-vcxproj northlight kaamos-conformance kaamos-test kaamos-verify)
     if(TARGET ${program})
       list(APPEND programs ${program})
       kaamos_add_alias(${program} ${program})

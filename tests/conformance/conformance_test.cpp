@@ -132,6 +132,18 @@ TEST(ConformanceList, ProgressNamesTheTestThatRuns) {
   for (const RuleResult& result : results) EXPECT_GE(result.seconds, 0);
 }
 
+TEST(ConformanceList, FiltersAreBeginningsOfNumbers) {
+  const Rule rule = {"SBT-12", 'R', "a rule"};
+  for (const char* filter : {"", "S", "SBT-1", "SBT-12", "TRV-,SBT-12", "SBT-12,TRV-"}) {
+    EXPECT_TRUE(is_chosen(rule, filter)) << filter;
+  }
+  for (const char* filter : {"SBT-2", "SBT-123", "BT", "TRV-,SBT-13"}) {
+    EXPECT_FALSE(is_chosen(rule, filter)) << filter;
+  }
+  EXPECT_EQ(first_unknown("SBT-,TRV-2"), std::nullopt);
+  EXPECT_EQ(first_unknown("SBT-,XYZ,ABC"), "XYZ");
+}
+
 TEST(ConformanceList, NumbersAreUnique) {
   std::set<std::string> seen;
   for (const Rule& rule : all_rules()) EXPECT_TRUE(seen.insert(rule.id).second) << rule.id;

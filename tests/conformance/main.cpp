@@ -36,7 +36,7 @@ void print(const RuleResult& result) {
 void list_rules(const std::string& filter) {
   const auto tests = all_tests();
   for (const Rule& rule : all_rules()) {
-    if (std::string_view(rule.id).substr(0, filter.size()) != filter) continue;
+    if (!is_chosen(rule, filter)) continue;
     const bool tested = std::any_of(tests.begin(), tests.end(), [&](const RuleTest& test) {
       return test_covers(test, rule.id);
     });
@@ -86,12 +86,9 @@ std::string misuse(const std::string& backend, const std::string& precision,
     return "--precision applies to embree only, because Vulkan drivers have triangle tests of "
            "their own: leave out one of --backend vulkan and --precision";
   }
-  const auto& rules = all_rules();
-  const bool any = std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
-    return std::string_view(rule.id).substr(0, filter.size()) == filter;
-  });
-  if (any) return {};
-  return "no rule's number begins with \"" + filter +
+  const auto unknown = first_unknown(filter);
+  if (!unknown) return {};
+  return "no rule's number begins with \"" + *unknown +
          "\"; --list prints all of them, such as SBT-01";
 }
 
@@ -112,7 +109,8 @@ int main(int argc, char** argv) {
                  "tier of the devices; what it refuses of a higher one does not fail")
       ->check(CLI::IsMember(tier_names()))
       ->capture_default_str();
-  app.add_option("--filter", filter, "only rules whose number begins with this, such as SBT-");
+  app.add_option("--filter", filter,
+                 "only rules whose number begins with this, such as SBT-; several: SBT-,TRV-2");
   app.add_option("--json", json, "write the results into this file");
   app.add_flag("--checked", checked,
                "run in checked mode; a message about a test without a violation fails the rule");

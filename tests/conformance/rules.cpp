@@ -26,10 +26,46 @@ constexpr Rule kRules[] = {
 static_assert(std::count_if(std::begin(kRules), std::end(kRules),
                             [](const Rule& rule) { return rule.tag == 'R'; }) == 598);
 
+// Calls `take` with each beginning of a filter until it returns false.
+template <class Take>
+void for_each_beginning(std::string_view filter, Take take) {
+  for (bool last = false; !last;) {
+    const size_t comma = filter.find(',');
+    last = comma == std::string_view::npos;
+    if (!take(filter.substr(0, comma))) return;
+    if (!last) filter.remove_prefix(comma + 1);
+  }
+}
+
+bool begins(const Rule& rule, std::string_view beginning) {
+  return std::string_view(rule.id).substr(0, beginning.size()) == beginning;
+}
+
 }  // namespace
 
 std::span<const Rule> all_rules() {
   return kRules;
+}
+
+bool is_chosen(const Rule& rule, std::string_view filter) {
+  bool chosen = false;
+  for_each_beginning(filter, [&](std::string_view beginning) {
+    chosen = begins(rule, beginning);
+    return !chosen;
+  });
+  return chosen;
+}
+
+std::optional<std::string> first_unknown(std::string_view filter) {
+  std::optional<std::string> unknown;
+  for_each_beginning(filter, [&](std::string_view beginning) {
+    if (std::none_of(std::begin(kRules), std::end(kRules),
+                     [&](const Rule& rule) { return begins(rule, beginning); })) {
+      unknown = beginning;
+    }
+    return !unknown;
+  });
+  return unknown;
 }
 
 const Rule* find_rule(std::string_view id) {

@@ -26,6 +26,11 @@ struct Rule {
 std::span<const Rule> all_rules();
 const Rule* find_rule(std::string_view id);
 
+// A filter is beginnings of numbers, "SBT-0,TRV-22"; an empty one chooses every rule.
+bool is_chosen(const Rule& rule, std::string_view filter);
+// The first of the filter's beginnings that no rule has; none if each has one.
+std::optional<std::string> first_unknown(std::string_view filter);
+
 // A rule that a target is known to break, and the reason.
 struct Deviation {
   const char* rule;

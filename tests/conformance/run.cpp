@@ -2,82 +2,17 @@
 #include "tests/conformance/run.h"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <cstring>
 #include <functional>
 #include <utility>
+
+#include "tests/conformance/forked.h"
 
 namespace kaamos::conformance {
 
 namespace {
-
-constexpr unsigned kLimitSeconds = 120;
-
-bool write_all(int to, const void* data, size_t bytes) {
-  for (const char* at = static_cast<const char*>(data); bytes > 0;) {
-    const ssize_t count = write(to, at, bytes);
-    if (count <= 0) return false;
-    at += count;
-    bytes -= static_cast<size_t>(count);
-  }
-  return true;
-}
-
-bool read_all(int from, void* data, size_t bytes) {
-  for (char* at = static_cast<char*>(data); bytes > 0;) {
-    const ssize_t count = read(from, at, bytes);
-    if (count <= 0) return false;
-    at += count;
-    bytes -= static_cast<size_t>(count);
-  }
-  return true;
-}
-
-// Runs works `first` to `count` - 1 in a forked process. Their texts come back through a pipe, each
-// preceded by its size. Returns the number of texts that arrived and waitpid's status.
-struct End {
-  size_t done = 0;
-  int status = 0;
-};
-End fork_and_run(size_t count, const std::function<std::string(size_t)>& work,
-                 const std::function<void(size_t, const std::string&)>& on_text) {
-  int ends[2];
-  if (pipe(ends) != 0) return {};
-  const pid_t child = fork();
-  if (child == 0) {
-    close(ends[0]);
-    for (size_t i = 0; i < count; ++i) {
-      alarm(kLimitSeconds);
-      const std::string text = work(i);
-      const uint64_t size = text.size();
-      if (!write_all(ends[1], &size, sizeof size) || !write_all(ends[1], text.data(), size)) break;
-    }
-    _exit(0);
-  }
-  close(ends[1]);
-  End out;
-  uint64_t size = 0;
-  while (child > 0 && out.done < count && read_all(ends[0], &size, sizeof size)) {
-    std::string text(size, '\0');
-    if (!read_all(ends[0], text.data(), size)) break;
-    on_text(out.done++, text);
-  }
-  close(ends[0]);
-  if (child > 0) waitpid(child, &out.status, 0);
-  return out;
-}
-
-std::string describe_end(int status) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
-    return "did not end within " + std::to_string(kLimitSeconds) + " s\n";
-  }
-  if (WIFSIGNALED(status)) return std::string("ended by ") + strsignal(WTERMSIG(status)) + "\n";
-  return "its process ended without a result\n";
-}
 
 RuleResult result_without_run(const Rule& rule) {
   if (rule.not_offered != nullptr) return {&rule, Outcome::kNotOffered, rule.not_offered};
@@ -233,16 +168,12 @@ DeviceCheck check_device(const Target& target) {
 
 namespace {
 
-bool chosen(const Rule& rule, const std::string& filter) {
-  return std::string_view(rule.id).substr(0, filter.size()) == filter;
-}
-
 // All tests of the chosen rules, in the rules' order; each appears once, even if it covers several.
 std::vector<RuleTest> tests_of(const std::string& filter) {
   std::vector<RuleTest> out;
   const std::vector<RuleTest> tests = all_tests();
   for (const Rule& rule : all_rules()) {
-    if (!chosen(rule, filter)) continue;
+    if (!is_chosen(rule, filter)) continue;
     for (const RuleTest& test : tests) {
       const auto same = [&](const RuleTest& each) { return each.run == test.run; };
       if (test_covers(test, rule.id) && std::none_of(out.begin(), out.end(), same)) {
@@ -312,7 +243,7 @@ std::vector<RuleResult> run_rules(
   // Reports the rules whose tests are all done; `done` counts tests.
   const auto tell = [&](size_t done) {
     for (; rule != all_rules().end(); ++rule) {
-      if (!chosen(*rule, filter)) continue;
+      if (!is_chosen(*rule, filter)) continue;
       for (size_t i = done; i < tests.size(); ++i) {
         if (test_covers(tests[i], rule->id)) return;
       }

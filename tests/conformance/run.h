@@ -60,7 +60,7 @@ struct Progress {
   size_t total = 0;
   const char* now = "";
 };
-// Every rule whose number begins with `filter`, in order. The callbacks may be null.
+// Every rule that `filter` chooses (rules.h), in order. The callbacks may be null.
 std::vector<RuleResult> run_rules(const Target& target, const std::string& device_name,
                                   const std::string& filter,
                                   const std::function<void(const RuleResult& result)>& on_result,
