@@ -132,7 +132,9 @@ function(kaamos_install_headers)
     PATTERN "effects/measure" EXCLUDE ${internal})
 endfunction()
 
+# Components: runtime, d3d12 (shared libraries), tools (programs), python; all else is for development.
 function(kaamos_install_package)
+  set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
   kaamos_collect_libraries(libraries "${PROJECT_SOURCE_DIR}/runtime" "${PROJECT_SOURCE_DIR}/rtapi"
     "${PROJECT_SOURCE_DIR}/d3d12" "${PROJECT_SOURCE_DIR}/effects")
   foreach(library IN LISTS libraries)
@@ -142,6 +144,11 @@ function(kaamos_install_package)
     kaamos_make_includes_relocatable(${library})
     kaamos_make_links_relocatable(${library})
   endforeach()
+  if(TARGET kaamos_d3d12_shared)
+    list(REMOVE_ITEM libraries kaamos_d3d12_shared)
+    install(TARGETS kaamos_d3d12_shared EXPORT kaamosTargets LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+      COMPONENT d3d12 NAMELINK_COMPONENT development)
+  endif()
   list(APPEND libraries kaamos_build_flags)
   kaamos_collect_dependencies(KAAMOS_DEPENDENCIES ${libraries})
 
@@ -153,8 +160,10 @@ function(kaamos_install_package)
     endif()
   endforeach()
   install(TARGETS ${libraries} ${programs} EXPORT kaamosTargets
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    OBJECTS DESTINATION "${CMAKE_INSTALL_LIBDIR}/kaamos" RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
+    OBJECTS DESTINATION "${CMAKE_INSTALL_LIBDIR}/kaamos" COMPONENT development
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
   install(EXPORT kaamosTargets NAMESPACE kaamos:: DESTINATION "${KAAMOS_PACKAGE_DIR}")
   kaamos_install_headers()
 
