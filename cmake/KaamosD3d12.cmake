@@ -51,6 +51,35 @@ function(kaamos_write_exception_header folder)
   file(CONFIGURE OUTPUT "${folder}/bits/exception.h" @ONLY CONTENT "${text}")
 endfunction()
 
+# Copies the C++ library's own <fstream> to `folder`, with MSVC's wide paths and with backslashes in every path; the
+# library itself declares wide ones where the system opens such files.
+function(kaamos_write_fstream_header folder)
+  execute_process(COMMAND "${KAAMOS_CLANG}" -x c++ -std=gnu++17 -M -include fstream /dev/null
+    OUTPUT_VARIABLE files COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "[^ \n]*/fstream[ \n]" header "${files}")
+  string(STRIP "${header}" header)
+  if(NOT header)
+    return()  # not GNU's library: programs with wide paths do not compile
+  endif()
+  file(READ "${header}" text)
+  string(REPLACE "_GLIBCXX_HAVE__WFOPEN && _GLIBCXX_USE_WCHAR_T" "1" text "${text}")
+  string(REPLACE "open(const wchar_t* __s, ios_base::openmode __mode);"
+    "open(const wchar_t* __s, ios_base::openmode __mode) { return open(kaamos_stream_path(__s), __mode); }"
+    text "${text}")
+  string(REPLACE "_M_filebuf.open(__s, __mode | ios_base::in)"
+    "_M_filebuf.open(kaamos_input_path(__s), __mode | ios_base::in)" text "${text}")
+  string(REPLACE "_M_filebuf.open(__s," "_M_filebuf.open(kaamos_stream_path(__s)," text "${text}")
+  # Inlined: the library has the code of the class as it was, and none for wide paths.
+  foreach(name IN ITEMS open basic_ifstream basic_ofstream basic_fstream)
+    foreach(path IN ITEMS "const char[*]" "const wchar_t[*]" "const std::string&")
+      string(REGEX REPLACE "([ \t])${name}\\((${path}) __s(,[^;{]*\\)[ \t\n]*[{:])"
+        "\\1__attribute__((__always_inline__)) ${name}(\\2 __s\\3" text "${text}")
+    endforeach()
+  endforeach()
+  string(REPLACE "namespace std " "#include <kaamos_stream_path.h>\nnamespace std " text "${text}")
+  file(CONFIGURE OUTPUT "${folder}/fstream" @ONLY CONTENT "${text}")
+endfunction()
+
 # Writes a file for clang's -ivfsoverlay that shows the headers of a list of folders, and below, in one
 # folder `root` whose names match in any case. The first folder wins. Where `root` is such a folder
 # itself, its own headers get the match; those that come later do when CMake runs again. Build folders have none.
@@ -164,6 +193,7 @@ function(kaamos_add_d3d12_program target)
   endforeach()
   kaamos_write_gnu_predefines("${folder}/gnu_predefines.h")
   kaamos_write_exception_header("${folder}/library")
+  kaamos_write_fstream_header("${folder}/library")
   set(flags ${KAAMOS_D3D12_COMPILE_OPTIONS} -std=gnu++17 -fPIC -include "${folder}/gnu_predefines.h"
     -I "${CMAKE_CURRENT_BINARY_DIR}/d3d12_shaders" ${includes} -isystem "${folder}/headers"
     -isystem "${folder}/library"

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "d3d12/com/errors.h"
+#include "d3d12/com/text.h"
 
 namespace kaamos::d3d12 {
 
@@ -124,7 +125,7 @@ std::string ArgumentParser::apply(std::string_view name, const std::string& valu
     options.Defines.push_back(
         {value.substr(0, equals), has_value ? value.substr(equals + 1) : "1"});
   } else if (name == "-I") {
-    options.IncludeDirectories.push_back(value);
+    options.IncludeDirectories.push_back(to_path(value));
   } else if (name == "-auto-binding-space") {
     uint32_t space = 0;
     const char* last = value.data() + value.size();
@@ -218,7 +219,7 @@ rtapi::Result<DxcArguments> ArgumentParser::parse(const std::vector<std::string>
         return refuse(word,
                       "there is another source file, \"" + out_.options.File + "\"; give one");
       }
-      out_.options.File = word;
+      out_.options.File = to_path(word);
       continue;
     }
     std::string value;

@@ -130,6 +130,12 @@ TEST(DxcArguments, ErrorsNameTheArgument) {
   EXPECT_THAT(error_of({"-spirv", "a.hlsl"}), HasSubstr("kaamos-hlsl -emit spirv"));
 }
 
+TEST(DxcArguments, BackslashesArePathsOfWindows) {
+  const auto parsed = parse({"-I", "with\\headers", "shaders\\a.hlsl"});
+  EXPECT_EQ(parsed.options.File, "shaders/a.hlsl");
+  EXPECT_THAT(parsed.options.IncludeDirectories, ElementsAre("with/headers"));
+}
+
 TEST(DxcArguments, PathsMayBeginWithASlash) {
   EXPECT_EQ(parse({"-T", "lib_6_3", "/no/such/a.hlsl"}).options.File, "/no/such/a.hlsl");
   // -D takes any text, so that only the file system can tell.

@@ -246,7 +246,7 @@ HRESULT PipelineState::GetCachedBlob(ID3DBlob** blob) {
 HRESULT Device::CreatePipelineLibrary(const void* blob, SIZE_T size, REFIID riid, void** library) {
   if (library != nullptr) *library = nullptr;
   NamedIdentities pipelines;
-  if (blob != nullptr || size != 0) {
+  if (size != 0) {  // an empty file, as programs map it, is an empty library
     const HRESULT result = read_pipeline_library(device_, blob, size, pipelines, reporter());
     if (FAILED(result)) return result;
   }

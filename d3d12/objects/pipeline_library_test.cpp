@@ -252,6 +252,16 @@ TEST_F(PipelineLibraryTest, ALibraryIsWrittenAndReadAgain) {
   EXPECT_EQ(load(library.Get(), L"g\x00E4", changed, first), E_INVALIDARG);
 }
 
+// An empty file that a program maps.
+TEST_F(PipelineLibraryTest, NoBytesAreAnEmptyLibrary) {
+  ComPtr<ID3D12PipelineLibrary> library;
+  const char byte = 0;
+  ASSERT_EQ(device_->CreatePipelineLibrary(&byte, 0, IID_PPV_ARGS(library.GetAddressOf())), S_OK);
+  EXPECT_EQ(library->StorePipeline(L"c", compute().Get()), S_OK);
+  EXPECT_EQ(device_->CreatePipelineLibrary(nullptr, 1, IID_PPV_ARGS(library.GetAddressOf())),
+            E_INVALIDARG);
+}
+
 // The object stays in the library after a program's last reference.
 TEST_F(PipelineLibraryTest, ALoadedPipelineIsOneObject) {
   ComPtr<ID3D12PipelineLibrary1> library;

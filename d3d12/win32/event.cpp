@@ -20,6 +20,7 @@ namespace {
 struct Waiter {
   std::span<const std::shared_ptr<Event>> events;
   bool all;
+  std::thread::id thread;
   std::optional<DWORD> found;  // the index of the first that is set, or 0 once all are
   std::condition_variable changed;
 };
@@ -34,19 +35,31 @@ Waits& waits() {
   return *all;
 }
 
+bool is_free(const Event& event, std::thread::id thread) {
+  const auto* mutex = dynamic_cast<const Mutex*>(&event);
+  return event.set || (mutex != nullptr && mutex->count != 0 && mutex->owner == thread);
+}
+
+void take(Event& event, std::thread::id thread) {
+  if (!event.manual_reset) event.set = false;
+  if (auto* mutex = dynamic_cast<Mutex*>(&event)) {
+    mutex->owner = thread;
+    ++mutex->count;
+  }
+}
+
 // Lets a wait go if its events are set, and resets those that reset themselves.
 void try_let_go(Waiter& waiter) {
   size_t count = 0;
   for (DWORD i = 0; i < waiter.events.size(); ++i) {
-    if (!waiter.events[i]->set) continue;
+    if (!is_free(*waiter.events[i], waiter.thread)) continue;
     ++count;
     if (!waiter.all && !waiter.found) waiter.found = i;
   }
   if (waiter.all && count == waiter.events.size()) waiter.found = 0;
   if (!waiter.found) return;
   for (DWORD i = 0; i < waiter.events.size(); ++i) {
-    Event& event = *waiter.events[i];
-    if ((waiter.all || i == *waiter.found) && !event.manual_reset) event.set = false;
+    if (waiter.all || i == *waiter.found) take(*waiter.events[i], waiter.thread);
   }
 }
 
@@ -54,7 +67,7 @@ void try_let_go(Waiter& waiter) {
 std::optional<DWORD> wait(std::span<const std::shared_ptr<Event>> events, bool all,
                           DWORD milliseconds) {
   std::unique_lock lock(waits().mutex);
-  Waiter waiter{events, all, {}, {}};
+  Waiter waiter{events, all, std::this_thread::get_id(), {}, {}};
   try_let_go(waiter);
   if (waiter.found || milliseconds == 0) return waiter.found;
   const auto place = waits().waiters.insert(waits().waiters.end(), &waiter);
@@ -69,7 +82,8 @@ std::optional<DWORD> wait(std::span<const std::shared_ptr<Event>> events, bool a
 }
 
 BOOL change(HANDLE handle, bool value, const char* call) {
-  const auto event = Handles::instance().find<Event>(handle);
+  auto event = Handles::instance().find<Event>(handle);
+  if (std::dynamic_pointer_cast<Mutex>(event) != nullptr) event = nullptr;
   if (event != nullptr) set_event(*event, value);
   return succeed(event != nullptr, ERROR_INVALID_HANDLE, call,
                  "the handle names no event that lives.");
@@ -81,15 +95,28 @@ HANDLE make_event(bool manual_reset, bool set) {
   return Handles::instance().add(std::make_shared<Event>(manual_reset, set));
 }
 
-void set_event(Event& event, bool value) {
-  std::lock_guard lock(waits().mutex);
-  event.set = value;
-  if (!value) return;
+namespace {
+
+void let_waits_go() {
   for (Waiter* waiter : waits().waiters) {
     if (waiter->found) continue;
     try_let_go(*waiter);
     if (waiter->found) waiter->changed.notify_one();
   }
+}
+
+HANDLE make_mutex(bool owned) {
+  auto mutex = std::make_shared<Mutex>();
+  if (owned) take(*mutex, std::this_thread::get_id());
+  return Handles::instance().add(std::move(mutex));
+}
+
+}  // namespace
+
+void set_event(Event& event, bool value) {
+  std::lock_guard lock(waits().mutex);
+  event.set = value;
+  if (value) let_waits_go();
 }
 
 size_t waiting_threads() {
@@ -129,6 +156,31 @@ BOOL WINAPI ResetEvent(HANDLE event) {
   return change(event, false, "ResetEvent");
 }
 
+HANDLE WINAPI CreateMutexA(LPSECURITY_ATTRIBUTES, BOOL owned, LPCSTR) {
+  return make_mutex(owned != FALSE);
+}
+
+HANDLE WINAPI CreateMutexW(LPSECURITY_ATTRIBUTES, BOOL owned, LPCWSTR) {
+  return make_mutex(owned != FALSE);
+}
+
+BOOL WINAPI ReleaseMutex(HANDLE handle) {
+  const auto mutex = Handles::instance().find<Mutex>(handle);
+  if (mutex == nullptr) {
+    return succeed(false, ERROR_INVALID_HANDLE, "ReleaseMutex",
+                   "the handle names no mutex that lives.");
+  }
+  std::lock_guard lock(waits().mutex);
+  if (mutex->count == 0 || mutex->owner != std::this_thread::get_id()) {
+    return succeed(false, ERROR_NOT_OWNER, "ReleaseMutex", "this thread does not have the mutex.");
+  }
+  if (--mutex->count == 0) {
+    mutex->set = true;
+    let_waits_go();
+  }
+  return TRUE;
+}
+
 DWORD WINAPI WaitForMultipleObjects(DWORD count, const HANDLE* objects, BOOL wait_all,
                                     DWORD milliseconds) {
   std::vector<std::shared_ptr<Event>> events;
@@ -136,7 +188,7 @@ DWORD WINAPI WaitForMultipleObjects(DWORD count, const HANDLE* objects, BOOL wai
     events.push_back(Handles::instance().find<Event>(objects[i]));
     if (events.back() == nullptr) {
       succeed(false, ERROR_INVALID_HANDLE, "WaitForMultipleObjects",
-              "object " + std::to_string(i) + " is no event that lives.");
+              "object " + std::to_string(i) + " is no event and no mutex that lives.");
       return WAIT_FAILED;
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <windows.h>
+#include <wrl/event.h>
 
 #include <gtest/gtest.h>
 
@@ -107,6 +108,54 @@ TEST(Event, SettingAndResettingAManualResetEventLetsAllWaitsGo) {
   }
   EXPECT_EQ(WaitForSingleObject(event, 0), WAIT_TIMEOUT);
   CloseHandle(event);
+}
+
+TEST(Mutex, BelongsToOneThreadAsOftenAsItWaits) {
+  const HANDLE mutex = CreateMutex(nullptr, TRUE, nullptr);
+  EXPECT_EQ(WaitForSingleObject(mutex, 0), WAIT_OBJECT_0);
+  DWORD others_wait = 0, others_error = 0;
+  std::thread([&] {
+    const Quiet quiet;
+    others_wait = WaitForSingleObject(mutex, 0);
+    others_error = ReleaseMutex(mutex) ? 0 : GetLastError();
+  }).join();
+  EXPECT_EQ(others_wait, WAIT_TIMEOUT);
+  EXPECT_EQ(others_error, ERROR_NOT_OWNER);
+
+  DWORD waited = WAIT_TIMEOUT;
+  std::thread other([&] {
+    waited = WaitForSingleObject(mutex, INFINITE);
+    ReleaseMutex(mutex);
+  });
+  while (waiting_threads() != 1) std::this_thread::yield();
+  EXPECT_TRUE(ReleaseMutex(mutex));
+  EXPECT_EQ(waiting_threads(), 1u);
+  EXPECT_TRUE(ReleaseMutex(mutex));
+  other.join();
+  EXPECT_EQ(waited, WAIT_OBJECT_0);
+  const Quiet quiet;
+  EXPECT_FALSE(ReleaseMutex(mutex));
+  EXPECT_FALSE(SetEvent(mutex));
+  EXPECT_TRUE(CloseHandle(mutex));
+  EXPECT_FALSE(ReleaseMutex(mutex));
+  EXPECT_EQ(GetLastError(), DWORD{ERROR_INVALID_HANDLE});
+}
+
+// Wrappers of WRL.
+TEST(Mutex, ALockEndsWithItsObject) {
+  using Microsoft::WRL::Wrappers::Mutex;
+  Mutex mutex(CreateMutex(nullptr, FALSE, nullptr));
+  const auto locked_elsewhere = [&] {
+    bool locked = false;
+    std::thread([&] { locked = Mutex::Lock(mutex.Get(), 0).IsLocked(); }).join();
+    return locked;
+  };
+  {
+    const auto lock = mutex.Lock();
+    EXPECT_TRUE(lock.IsLocked());
+    EXPECT_FALSE(locked_elsewhere());
+  }
+  EXPECT_TRUE(locked_elsewhere());
 }
 
 }  // namespace

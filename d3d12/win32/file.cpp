@@ -4,30 +4,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 #include <kaamos_crt.h>
+#include <kaamos_stream_path.h>
 
 #include "d3d12/com/text.h"
-#include "d3d12/win32/handles.h"
+#include "d3d12/win32/not_found.h"
+#include "d3d12/win32/open_file.h"
 #include "d3d12/win32/text_out.h"
+
+#undef fopen  // that of programs ends here
 
 namespace kaamos::d3d12 {
 
 namespace {
-
-class File final : public HandleObject {
- public:
-  explicit File(int descriptor) : descriptor_(descriptor) {}
-  ~File() override { ::close(descriptor_); }
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 DWORD error_of(int code, const std::string& path) {
   std::error_code ignored;
@@ -50,12 +45,6 @@ DWORD error_of(int code, const std::string& path) {
     default:
       return ERROR_ACCESS_DENIED;
   }
-}
-
-// Programs ask for files that need not be there, so that a missing one is no message.
-BOOL succeed_or_errno(bool done, const std::string& path = {}) {
-  if (!done) SetLastError(error_of(errno, path));
-  return done ? TRUE : FALSE;
 }
 
 HANDLE open_file(const std::string& path, DWORD access, DWORD disposition) {
@@ -90,18 +79,14 @@ HANDLE open_file(const std::string& path, DWORD access, DWORD disposition) {
     return INVALID_HANDLE_VALUE;
   }
   const int descriptor = ::open(path.c_str(), flags, 0666);
-  if (!succeed_or_errno(descriptor >= 0, path)) return INVALID_HANDLE_VALUE;
+  if (!succeed_or_errno(descriptor >= 0, path)) {
+    if (GetLastError() != ERROR_ACCESS_DENIED) tell_not_found("CreateFile", path);
+    return INVALID_HANDLE_VALUE;
+  }
   if (disposition == CREATE_ALWAYS || disposition == OPEN_ALWAYS) {
     SetLastError(existed ? ERROR_ALREADY_EXISTS : ERROR_SUCCESS);
   }
   return Handles::instance().add(std::make_shared<File>(descriptor));
-}
-
-// Null after an error, which GetLastError tells.
-std::shared_ptr<File> find_file(HANDLE handle, const char* call) {
-  auto file = Handles::instance().find<File>(handle);
-  succeed(file != nullptr, ERROR_INVALID_HANDLE, call, "the handle names no open file.");
-  return file;
 }
 
 DWORD attributes_of(const std::string& path) {
@@ -118,6 +103,21 @@ std::string current_directory() {
 
 }  // namespace
 
+File::~File() {
+  ::close(descriptor_);
+}
+
+std::shared_ptr<File> find_file(HANDLE handle, const char* call) {
+  auto file = Handles::instance().find<File>(handle);
+  succeed(file != nullptr, ERROR_INVALID_HANDLE, call, "the handle names no open file.");
+  return file;
+}
+
+BOOL succeed_or_errno(bool done, const std::string& path) {
+  if (!done) SetLastError(error_of(errno, path));
+  return done ? TRUE : FALSE;
+}
+
 }  // namespace kaamos::d3d12
 
 using namespace kaamos::d3d12;  // NOLINT: the functions below are global
@@ -132,6 +132,24 @@ HANDLE WINAPI CreateFileA(LPCSTR path, DWORD access, DWORD, LPSECURITY_ATTRIBUTE
 HANDLE WINAPI CreateFileW(LPCWSTR path, DWORD access, DWORD, LPSECURITY_ATTRIBUTES,
                           DWORD disposition, DWORD, HANDLE) {
   return open_file(to_path(path), access, disposition);
+}
+
+HANDLE WINAPI GetStdHandle(DWORD number) {
+  if (number != STD_INPUT_HANDLE && number != STD_OUTPUT_HANDLE && number != STD_ERROR_HANDLE) {
+    succeed(
+        false, ERROR_INVALID_HANDLE, "GetStdHandle",
+        "nStdHandle is " + std::to_string(static_cast<int>(number)) + "; allowed are -10 to -12.");
+    return INVALID_HANDLE_VALUE;
+  }
+  // One handle for each stream, whatever the number of calls.
+  static const std::array<HANDLE, 3> streams = [] {
+    std::array<HANDLE, 3> made = {};
+    for (int i = 0; i < 3; ++i) {
+      made[static_cast<size_t>(i)] = Handles::instance().add(std::make_shared<File>(::dup(i)));
+    }
+    return made;
+  }();
+  return streams[STD_INPUT_HANDLE - number];
 }
 
 HANDLE WINAPI CreateFile2(LPCWSTR path, DWORD access, DWORD, DWORD disposition,
@@ -273,7 +291,25 @@ FILE* _wfopen(const wchar_t* path, const wchar_t* mode) {
   std::string how = to_utf8(mode);
   how = how.substr(0, how.find(','));
   std::erase(how, 't');
-  return std::fopen(to_path(path).c_str(), how.c_str());
+  FILE* const file = std::fopen(to_path(path).c_str(), how.c_str());
+  if (file == nullptr && errno == ENOENT) tell_not_found("fopen", to_path(path));
+  return file;
+}
+
+const char* kaamos_stream_path_narrow(const char* path) {
+  thread_local std::string text;
+  if (path == nullptr) return nullptr;
+  text = to_path(path);
+  return text.c_str();
+}
+
+const char* kaamos_stream_path_wide(const wchar_t* path) {
+  return path != nullptr ? kaamos_stream_path_narrow(to_utf8(path).c_str()) : nullptr;
+}
+
+const char* kaamos_input_path_of(const char* path) {
+  if (path != nullptr && ::access(path, F_OK) != 0) tell_not_found("ifstream", path);
+  return path;
 }
 
 FILE* kaamos_fopen(const char* path, const char* mode) {

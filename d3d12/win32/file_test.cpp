@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <kaamos_crt.h>
+#include <kaamos_stream_path.h>
 #include <shlwapi.h>
 #include <windows.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
+
+#include "d3d12/com/report_fixture.h"
 
 namespace kaamos::d3d12 {
 namespace {
@@ -93,6 +99,120 @@ TEST_F(FileTest, FopenTakesBackslashes) {
   EXPECT_TRUE(fs::exists(folder_ / "b.txt"));
   EXPECT_EQ(fopen_s(&file, path("none").c_str(), "r"), ENOENT);
   EXPECT_EQ(file, nullptr);
+}
+
+TEST_F(FileTest, APatternFindsNamesInOrder) {
+  for (const char* name : {"b.hlsl", "A.HLSL", "c.txt"}) std::ofstream(folder_ / name) << "1234";
+  WIN32_FIND_DATAA data = {};
+  const HANDLE search = FindFirstFileA(path("*.hlsl").c_str(), &data);
+  ASSERT_NE(search, INVALID_HANDLE_VALUE);
+  EXPECT_STREQ(data.cFileName, "A.HLSL");
+  EXPECT_EQ(data.nFileSizeLow, 4u);
+  EXPECT_EQ(data.dwFileAttributes, DWORD{FILE_ATTRIBUTE_NORMAL});
+  EXPECT_TRUE(FindNextFileA(search, &data));
+  EXPECT_STREQ(data.cFileName, "b.hlsl");
+  EXPECT_FALSE(FindNextFileA(search, &data));
+  EXPECT_EQ(GetLastError(), ERROR_NO_MORE_FILES);
+  EXPECT_TRUE(FindClose(search));
+
+  WIN32_FIND_DATAW wide = {};
+  const HANDLE one = FindFirstFileExW(fs::path(path("c.txt")).wstring().c_str(), FindExInfoBasic,
+                                      &wide, FindExSearchNameMatch, nullptr, 0);
+  ASSERT_NE(one, INVALID_HANDLE_VALUE);
+  EXPECT_STREQ(wide.cFileName, L"c.txt");
+  EXPECT_TRUE(FindClose(one));
+  EXPECT_EQ(FindFirstFileA(path("d*").c_str(), &data), INVALID_HANDLE_VALUE);
+  EXPECT_EQ(GetLastError(), ERROR_FILE_NOT_FOUND);
+  EXPECT_EQ(FindFirstFileA(path("none\\*").c_str(), &data), INVALID_HANDLE_VALUE);
+  EXPECT_EQ(GetLastError(), ERROR_PATH_NOT_FOUND);
+}
+
+TEST_F(FileTest, AMappedFileGrowsAndKeepsWhatIsWritten) {
+  const HANDLE file = CreateFileA(path("map").c_str(), GENERIC_READ | GENERIC_WRITE, 0, nullptr,
+                                  CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
+  ASSERT_NE(file, INVALID_HANDLE_VALUE);
+  EXPECT_EQ(CreateFileMapping(file, nullptr, PAGE_READWRITE, 0, 0, nullptr), nullptr);
+  EXPECT_EQ(GetLastError(), ERROR_FILE_INVALID);
+  const HANDLE mapping = CreateFileMapping(file, nullptr, PAGE_READWRITE, 0, 100, nullptr);
+  ASSERT_NE(mapping, nullptr);
+  EXPECT_TRUE(CloseHandle(file));
+  auto* bytes = static_cast<char*>(MapViewOfFile(mapping, FILE_MAP_ALL_ACCESS, 0, 0, 0));
+  ASSERT_NE(bytes, nullptr);
+  EXPECT_TRUE(CloseHandle(mapping));  // the view lives on
+  bytes[99] = 'x';
+  EXPECT_TRUE(FlushViewOfFile(bytes, 0));
+  EXPECT_TRUE(UnmapViewOfFile(bytes));
+  EXPECT_EQ(fs::file_size(folder_ / "map"), 100u);
+  std::ifstream in(folder_ / "map");
+  EXPECT_EQ(in.seekg(99).get(), 'x');
+  const Quiet quiet;
+  EXPECT_FALSE(UnmapViewOfFile(bytes));
+  EXPECT_EQ(GetLastError(), ERROR_INVALID_ADDRESS);
+}
+
+TEST_F(FileTest, AViewIsNoLargerAndNoMoreThanItsMapping) {
+  const HANDLE memory =
+      CreateFileMapping(INVALID_HANDLE_VALUE, nullptr, PAGE_READWRITE, 0, 70000, nullptr);
+  ASSERT_NE(memory, nullptr);
+  EXPECT_EQ(MapViewOfFile(memory, FILE_MAP_READ, 0, 0, 70001), nullptr);
+  EXPECT_EQ(MapViewOfFile(memory, FILE_MAP_READ, 0, 4096, 0), nullptr);
+  auto* all = static_cast<char*>(MapViewOfFile(memory, FILE_MAP_WRITE, 0, 0, 0));
+  auto* end = static_cast<char*>(MapViewOfFile(memory, FILE_MAP_READ, 0, 65536, 0));
+  ASSERT_TRUE(all != nullptr && end != nullptr);
+  all[65536 + 7] = 'y';
+  EXPECT_EQ(end[7], 'y');
+  EXPECT_TRUE(UnmapViewOfFile(all));
+  EXPECT_TRUE(UnmapViewOfFile(end));
+  CloseHandle(memory);
+
+  std::ofstream(folder_ / "r") << "read";
+  const HANDLE file = CreateFileA(path("r").c_str(), GENERIC_READ, 0, nullptr, OPEN_EXISTING,
+                                  FILE_ATTRIBUTE_NORMAL, nullptr);
+  const HANDLE reads = CreateFileMapping(file, nullptr, PAGE_READONLY, 0, 0, nullptr);
+  EXPECT_EQ(MapViewOfFile(reads, FILE_MAP_ALL_ACCESS, 0, 0, 0), nullptr);
+  EXPECT_EQ(GetLastError(), DWORD{ERROR_ACCESS_DENIED});
+  CloseHandle(reads);
+  CloseHandle(file);
+}
+
+TEST_F(FileTest, AMissingNameIsToldOnce) {
+  std::vector<std::string> told;
+  const uint64_t sink =
+      process_reporter().add_sink([&](D3D12_MESSAGE_SEVERITY severity, const rtapi::Error& error) {
+        EXPECT_EQ(severity, D3D12_MESSAGE_SEVERITY_WARNING);
+        told.push_back(error.message);
+      });
+  for (int i = 0; i < 2; ++i) {
+    CreateFileA(path("gone").c_str(), GENERIC_READ, 0, nullptr, OPEN_EXISTING, 0, nullptr);
+    LoadLibraryA("gone.dll");
+    EXPECT_STREQ(kaamos_input_path(std::wstring(L"no\\where").c_str()), "no/where");
+  }
+  process_reporter().remove_sink(sink);
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_NE(told[0].find("KA4043"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find(folder_.string() + "/gone"), std::string::npos) << told[0];
+  EXPECT_NE(told[1].find("gone.dll"), std::string::npos) << told[1];
+  EXPECT_NE(told[2].find("no/where"), std::string::npos) << told[2];
+}
+
+TEST(File, StandardHandlesAreTheStreams) {
+  const HANDLE out = GetStdHandle(STD_OUTPUT_HANDLE);
+  EXPECT_EQ(out, GetStdHandle(STD_OUTPUT_HANDLE));
+  EXPECT_NE(out, GetStdHandle(STD_ERROR_HANDLE));
+  DWORD written = 1;
+  EXPECT_TRUE(WriteFile(out, "", 0, &written, nullptr));
+  EXPECT_EQ(written, 0u);
+  const Quiet quiet;
+  EXPECT_EQ(GetStdHandle(7), INVALID_HANDLE_VALUE);
+}
+
+TEST(File, PagesAreZerosAtMultiplesOf64KiB) {
+  auto* bytes = static_cast<unsigned char*>(
+      VirtualAlloc(nullptr, 5000, MEM_RESERVE | MEM_COMMIT, PAGE_READWRITE));
+  ASSERT_NE(bytes, nullptr);
+  EXPECT_EQ(reinterpret_cast<uintptr_t>(bytes) % 65536, 0u);
+  EXPECT_EQ(std::count(bytes, bytes + 5000, 0), 5000);
+  EXPECT_TRUE(VirtualFree(bytes, 0, MEM_RELEASE));
 }
 
 TEST(File, PathsExistOrNot) {

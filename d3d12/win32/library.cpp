@@ -15,6 +15,7 @@
 
 #include "d3d12/com/text.h"
 #include "d3d12/win32/handles.h"
+#include "d3d12/win32/not_found.h"
 #include "d3d12/win32/text_out.h"
 
 namespace kaamos::d3d12 {
@@ -89,7 +90,8 @@ HMODULE find_module(const std::string* name) {
   if (name != nullptr) {
     const auto* found = std::find(std::begin(kModules), std::end(kModules), module_name(*name));
     if (found == std::end(kModules)) {
-      SetLastError(ERROR_MOD_NOT_FOUND);  // no message: programs ask for PIX and other tools
+      tell_not_found("LoadLibrary", *name);
+      SetLastError(ERROR_MOD_NOT_FOUND);
       return nullptr;
     }
     number = 2 + static_cast<uintptr_t>(found - std::begin(kModules));

@@ -5,10 +5,13 @@
 
 #include <clocale>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <string>
 #include <vector>
 
 #include "d3d12/com/text.h"
+#include "d3d12/win32/not_found.h"
 
 extern "C" {
 int WINAPI WinMain(HINSTANCE, HINSTANCE, LPSTR, int) __attribute__((weak));
@@ -22,6 +25,9 @@ int wmain_const_texts(int, const wchar_t**) __asm__("_Z5wmainiPPKw") __attribute
 
 namespace {
 
+// What std::terminate called before a list of names came first.
+std::terminate_handler before_fail = nullptr;
+
 // Windows gives WinMain what follows the program's name.
 template <class C>
 C* skip_program(C* line) {
@@ -34,9 +40,7 @@ C* skip_program(C* line) {
   return line;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   std::setlocale(LC_CTYPE, "C.UTF-8");  // wide output of any text
   const HINSTANCE instance = GetModuleHandleA(nullptr);
   if (wWinMain != nullptr) {
@@ -57,4 +61,19 @@ int main(int argc, char** argv) {
   }
   std::fputs("This program has no main, wmain, WinMain or wWinMain.\n", stderr);
   return 1;
+}
+
+[[noreturn]] void fail() {
+  kaamos::d3d12::print_not_found();
+  before_fail();
+  std::abort();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  before_fail = std::set_terminate(&fail);
+  const int code = run(argc, argv);
+  if (code != 0) kaamos::d3d12::print_not_found();
+  return code;
 }

@@ -100,5 +100,15 @@ TEST_F(Pointers, AComPtrTOfAnotherInterfaceIsNullAndThrowsWhenItIsUsed) {
   }
 }
 
+// `return false;` of functions that return a pointer.
+ID3DBlobPtr none() {
+  return false;
+}
+
+TEST(NullPointers, ComPtrTIsMadeOfFalse) {
+  EXPECT_EQ(none().GetInterfacePtr(), nullptr);
+  EXPECT_THROW(ID3DBlobPtr(1), _com_error);
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

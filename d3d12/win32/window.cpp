@@ -9,6 +9,7 @@
 
 #include "d3d12/com/text.h"
 #include "d3d12/win32/handles.h"
+#include "d3d12/win32/not_found.h"
 #include "d3d12/win32/text_out.h"
 #include "d3d12/win32/window_state.h"
 
@@ -35,6 +36,10 @@ BOOL give_mode(DWORD number, Mode* mode) {
   mode->dmPelsHeight = kScreenHeight;
   mode->dmDisplayFrequency = 60;
   return TRUE;
+}
+
+RECT screen() {
+  return {0, 0, kScreenWidth, kScreenHeight};
 }
 
 bool succeed_window(bool found, const char* call) {
@@ -175,6 +180,7 @@ int give_title(std::basic_string<C> title, C* text, int count) {
 
 int show_message(const std::string& text, const std::string& caption, UINT type) {
   std::fprintf(stderr, "%s: %s\n", caption.c_str(), text.c_str());
+  if ((type & 0xF0) == MB_ICONERROR) print_not_found();
   const UINT buttons = type & 0xF;
   return buttons == MB_YESNO || buttons == MB_YESNOCANCEL ? IDYES : IDOK;
 }
@@ -257,7 +263,10 @@ HWND WINAPI CreateWindowExW(DWORD ex_style, LPCWSTR class_name, LPCWSTR title, D
 
 BOOL WINAPI DestroyWindow(HWND handle) {
   const auto window = Windows::instance().find(handle);
-  if (!succeed_window(window != nullptr, "DestroyWindow")) return FALSE;
+  if (window == nullptr) {
+    SetLastError(ERROR_INVALID_WINDOW_HANDLE);  // no message: many programs close what is closed
+    return FALSE;
+  }
   {
     std::lock_guard lock(Windows::instance().mutex);
     if (window->destroying) return TRUE;  // out of its own WM_DESTROY
@@ -336,6 +345,7 @@ BOOL WINAPI MoveWindow(HWND handle, int x, int y, int width, int height, BOOL) {
 }
 
 BOOL WINAPI GetClientRect(HWND handle, LPRECT rect) {
+  if (handle == GetDesktopWindow()) return *rect = screen(), TRUE;
   const auto size = window_size(handle);
   if (!succeed_window(size.has_value(), "GetClientRect")) return FALSE;
   *rect = {0, 0, size->cx, size->cy};
@@ -343,6 +353,7 @@ BOOL WINAPI GetClientRect(HWND handle, LPRECT rect) {
 }
 
 BOOL WINAPI GetWindowRect(HWND handle, LPRECT rect) {
+  if (handle == GetDesktopWindow()) return *rect = screen(), TRUE;
   const auto window = Windows::instance().find(handle);
   if (!succeed_window(window != nullptr, "GetWindowRect")) return FALSE;
   std::lock_guard lock(Windows::instance().mutex);
@@ -396,11 +407,34 @@ int WINAPI MessageBoxW(HWND, LPCWSTR text, LPCWSTR caption, UINT type) {
   return show_message(to_utf8(text), caption != nullptr ? to_utf8(caption) : "Error", type);
 }
 
+HANDLE WINAPI LoadImageA(HINSTANCE, LPCSTR name, UINT, int, int, UINT flags) {
+  if ((flags & LR_LOADFROMFILE) != 0 && GetFileAttributesA(name) == INVALID_FILE_ATTRIBUTES) {
+    tell_not_found("LoadImage", to_path(name));
+    return nullptr;
+  }
+  SetLastError(ERROR_RESOURCE_TYPE_NOT_FOUND);
+  return nullptr;
+}
+HANDLE WINAPI LoadImageW(HINSTANCE instance, LPCWSTR name, UINT type, int width, int height,
+                         UINT flags) {
+  return LoadImageA(instance, (flags & LR_LOADFROMFILE) != 0 ? to_utf8(name).c_str() : nullptr,
+                    type, width, height, flags);
+}
+
 int WINAPI GetSystemMetrics(int index) {
-  return index == SM_CXSCREEN ? kScreenWidth : index == SM_CYSCREEN ? kScreenHeight : 0;
+  switch (index) {
+    case SM_CXSCREEN:
+    case SM_CXVIRTUALSCREEN:
+      return kScreenWidth;
+    case SM_CYSCREEN:
+    case SM_CYVIRTUALSCREEN:
+      return kScreenHeight;
+    default:
+      return 0;
+  }
 }
 BOOL WINAPI GetMonitorInfoA(HMONITOR, LPMONITORINFO info) {
-  info->rcMonitor = info->rcWork = {0, 0, kScreenWidth, kScreenHeight};
+  info->rcMonitor = info->rcWork = screen();
   info->dwFlags = 1;  // MONITORINFOF_PRIMARY
   return TRUE;
 }

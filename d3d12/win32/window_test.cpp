@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "d3d12/win32/window.h"
 
+#include <xinput.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -167,6 +169,41 @@ TEST(Window, NamesOfOneTextTypeAreFunctions) {
   EXPECT_EQ(MonitorFromPoint({10, 10}, MONITOR_DEFAULTTONEAREST),
             MonitorFromWindow(window, MONITOR_DEFAULTTONEAREST));
   EXPECT_TRUE(DestroyWindow(window));
+}
+
+TEST_F(WindowTest, ClosingAClosedWindowIsNoError) {
+  const Listener listener;
+  EXPECT_TRUE(DestroyWindow(window_));
+  EXPECT_FALSE(DestroyWindow(window_));
+  EXPECT_EQ(GetLastError(), DWORD{ERROR_INVALID_WINDOW_HANDLE});
+  EXPECT_THAT(listener.messages, testing::IsEmpty());
+}
+
+TEST(Desktop, HasTheSizeOfTheScreen) {
+  RECT rect = {};
+  ASSERT_TRUE(GetWindowRect(GetDesktopWindow(), &rect));
+  EXPECT_EQ(rect.right, GetSystemMetrics(SM_CXSCREEN));
+  EXPECT_EQ(rect.bottom, GetSystemMetrics(SM_CYVIRTUALSCREEN));
+  EXPECT_TRUE(GetClientRect(GetDesktopWindow(), &rect));
+  EXPECT_EQ(rect.right, GetDeviceCaps(GetDC(nullptr), HORZRES));
+}
+
+TEST(Desktop, HasNoImagesAndNoInput) {
+  EXPECT_EQ(LoadImageW(nullptr, L"none.ico", IMAGE_ICON, 0, 0, LR_LOADFROMFILE), nullptr);
+  EXPECT_EQ(GetLastError(), DWORD{ERROR_FILE_NOT_FOUND});
+  EXPECT_EQ(LoadImage(nullptr, MAKEINTRESOURCE(1), IMAGE_ICON, 0, 0, LR_DEFAULTSIZE), nullptr);
+  EXPECT_EQ(GetLastError(), DWORD{ERROR_RESOURCE_TYPE_NOT_FOUND});
+  BYTE keys[256] = {1};
+  EXPECT_TRUE(GetKeyboardState(keys));
+  EXPECT_EQ(keys[0], 0);
+  CURSORINFO cursor = {};
+  cursor.flags = CURSOR_SHOWING;
+  EXPECT_TRUE(GetCursorInfo(&cursor));
+  EXPECT_EQ(cursor.flags, 0u);
+  UINT size = 0;
+  EXPECT_EQ(GetRawInputData(nullptr, RID_INPUT, nullptr, &size, sizeof(RAWINPUTHEADER)), UINT_MAX);
+  XINPUT_STATE pad = {};
+  EXPECT_EQ(XInputGetState(0, &pad), ERROR_DEVICE_NOT_CONNECTED);
 }
 
 }  // namespace

@@ -49,7 +49,11 @@ class _com_ptr_t {
   static const IID& GetIID() { return Id::GetIID(); }
 
   _com_ptr_t() noexcept = default;
-  _com_ptr_t(std::nullptr_t) noexcept {}             // NOLINT: implicit, as MSVC's
+  _com_ptr_t(std::nullptr_t) noexcept {}  // NOLINT: implicit, as MSVC's
+  /// Null for 0 and false; _com_error of E_POINTER for other numbers, as MSVC's.
+  _com_ptr_t(int null) {  // NOLINT: implicit, as MSVC's
+    if (null != 0) _com_raise_error(E_POINTER);
+  }
   _com_ptr_t(Interface* object) : object_(object) {  // NOLINT: implicit, as MSVC's
     if (object_ != nullptr) object_->AddRef();
   }

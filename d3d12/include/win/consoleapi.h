@@ -3,6 +3,7 @@
 #pragma once
 
 #include <handleapi.h>
+#include <kaamos_text.h>
 
 inline BOOL AllocConsole() {
   return TRUE;
@@ -12,6 +13,16 @@ inline BOOL FreeConsole() {
 }
 inline BOOL AttachConsole(DWORD) {
   return TRUE;
+}
+inline BOOL SetConsoleTitleA(LPCSTR) {
+  return TRUE;
+}
+inline BOOL SetConsoleTitleW(LPCWSTR) {
+  return TRUE;
+}
+KAAMOS_TEXT_CALL(SetConsoleTitle);
+inline HWND GetConsoleWindow() {
+  return NULL;
 }
 inline BOOL SetConsoleOutputCP(UINT) {
   return TRUE;

@@ -52,6 +52,29 @@ typedef struct _FILE_STANDARD_INFO {
   BOOLEAN Directory;
 } FILE_STANDARD_INFO, *PFILE_STANDARD_INFO;
 
+#define KAAMOS_FIND_DATA(name, C) \
+  typedef struct _##name {        \
+    DWORD dwFileAttributes;       \
+    FILETIME ftCreationTime;      \
+    FILETIME ftLastAccessTime;    \
+    FILETIME ftLastWriteTime;     \
+    DWORD nFileSizeHigh;          \
+    DWORD nFileSizeLow;           \
+    DWORD dwReserved0;            \
+    DWORD dwReserved1;            \
+    C cFileName[MAX_PATH];        \
+    C cAlternateFileName[14];     \
+  } name, *P##name, *LP##name
+KAAMOS_FIND_DATA(WIN32_FIND_DATAA, CHAR);
+KAAMOS_FIND_DATA(WIN32_FIND_DATAW, WCHAR);
+#undef KAAMOS_FIND_DATA
+KAAMOS_TEXT_TYPE(WIN32_FIND_DATA);
+typedef enum _FINDEX_INFO_LEVELS { FindExInfoStandard, FindExInfoBasic } FINDEX_INFO_LEVELS;
+typedef enum _FINDEX_SEARCH_OPS {
+  FindExSearchNameMatch,
+  FindExSearchLimitToDirectories
+} FINDEX_SEARCH_OPS;
+
 EXTERN_C HANDLE WINAPI CreateFileA(LPCSTR path, DWORD access, DWORD share,
                                    LPSECURITY_ATTRIBUTES attributes, DWORD disposition, DWORD flags,
                                    HANDLE template_file);
@@ -75,6 +98,18 @@ EXTERN_C BOOL WINAPI SetFilePointerEx(HANDLE file, LARGE_INTEGER distance, PLARG
 /// FileStandardInfo only.
 EXTERN_C BOOL WINAPI GetFileInformationByHandleEx(HANDLE file, FILE_INFO_BY_HANDLE_CLASS kind,
                                                   LPVOID info, DWORD size);
+/// A pattern has wildcards in its last part, and letter case does not count. Names come in order.
+///@{
+EXTERN_C HANDLE WINAPI FindFirstFileA(LPCSTR pattern, WIN32_FIND_DATAA* data);
+EXTERN_C HANDLE WINAPI FindFirstFileW(LPCWSTR pattern, WIN32_FIND_DATAW* data);
+EXTERN_C HANDLE WINAPI FindFirstFileExA(LPCSTR pattern, FINDEX_INFO_LEVELS level, LPVOID data,
+                                        FINDEX_SEARCH_OPS search, LPVOID filter, DWORD flags);
+EXTERN_C HANDLE WINAPI FindFirstFileExW(LPCWSTR pattern, FINDEX_INFO_LEVELS level, LPVOID data,
+                                        FINDEX_SEARCH_OPS search, LPVOID filter, DWORD flags);
+EXTERN_C BOOL WINAPI FindNextFileA(HANDLE search, WIN32_FIND_DATAA* data);
+EXTERN_C BOOL WINAPI FindNextFileW(HANDLE search, WIN32_FIND_DATAW* data);
+///@}
+EXTERN_C BOOL WINAPI FindClose(HANDLE search);
 EXTERN_C DWORD WINAPI GetFileAttributesA(LPCSTR path);
 EXTERN_C DWORD WINAPI GetFileAttributesW(LPCWSTR path);
 EXTERN_C BOOL WINAPI CreateDirectoryA(LPCSTR path, LPSECURITY_ATTRIBUTES attributes);
@@ -87,6 +122,9 @@ EXTERN_C BOOL WINAPI SetCurrentDirectoryA(LPCSTR path);
 EXTERN_C BOOL WINAPI SetCurrentDirectoryW(LPCWSTR path);
 
 KAAMOS_TEXT_CALL(CreateFile);
+KAAMOS_TEXT_CALL(FindFirstFile);
+KAAMOS_TEXT_CALL(FindFirstFileEx);
+KAAMOS_TEXT_CALL(FindNextFile);
 KAAMOS_TEXT_CALL(GetFileAttributes);
 KAAMOS_TEXT_CALL(CreateDirectory);
 KAAMOS_TEXT_CALL(DeleteFile);

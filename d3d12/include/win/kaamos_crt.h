@@ -56,7 +56,7 @@ int kaamos_vscan(const char* text, const char* format, va_list arguments);
 int kaamos_vscan_wide(const wchar_t* text, const wchar_t* format, va_list arguments);
 int kaamos_vscan_file(FILE* file, const char* format, va_list arguments);
 ///@}
-/// With slashes or backslashes in the path.
+/// With slashes or backslashes in the path; kaamos_fopen is fopen.
 FILE* _wfopen(const wchar_t* path, const wchar_t* mode);
 FILE* kaamos_fopen(const char* path, const char* mode);
 int _wtoi(const wchar_t* text);
@@ -337,14 +337,17 @@ inline long long _ftelli64(FILE* file) {
   return ftello(file);
 }
 }
+#include <cstdio>
 #include <cstring>
 #include <cwchar>
 namespace std {
+using ::kaamos_fopen;
 using ::kaamos_fwprintf;
 using ::kaamos_strrchr;
 using ::kaamos_wcsrchr;
 using ::wprintf_s;
 }  // namespace std
+#define fopen kaamos_fopen
 #define strrchr kaamos_strrchr
 #define wcsrchr kaamos_wcsrchr
 #define wprintf wprintf_s

@@ -7,10 +7,10 @@
 
 typedef void VOID, *PVOID, *LPVOID;
 typedef const void* LPCVOID;
-typedef char CHAR, *PCHAR, *PSTR, *LPSTR;
+typedef char CHAR, *PCHAR, *LPCH, *PSTR, *LPSTR;
 typedef const char *PCSTR, *LPCSTR;
-typedef wchar_t WCHAR, *PWCHAR, *PWSTR, *LPWSTR;
-typedef const wchar_t *PCWSTR, *LPCWSTR;
+typedef wchar_t WCHAR, *PWCHAR, *PWCH, *LPWCH, *PWSTR, *LPWSTR;
+typedef const wchar_t *PCWSTR, *LPCWSTR, *LPCWCH, *PCWCH;
 typedef unsigned char UCHAR, *PUCHAR, BYTE, *PBYTE, *LPBYTE;
 typedef BYTE BOOLEAN, *PBOOLEAN;
 typedef int16_t SHORT, *PSHORT;
@@ -128,6 +128,10 @@ DECLARE_HANDLE(HICON);
 DECLARE_HANDLE(HBRUSH);
 DECLARE_HANDLE(HMONITOR);
 DECLARE_HANDLE(HKEY);
+DECLARE_HANDLE(HKL);
+DECLARE_HANDLE(HRGN);
+DECLARE_HANDLE(HBITMAP);
+DECLARE_HANDLE(HRSRC);
 typedef HICON HCURSOR;
 typedef void* HGDIOBJ;
 

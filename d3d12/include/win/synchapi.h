@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events and waits. The library implements these calls. [Win32: synchapi.h]
+// Events, mutexes and waits. The library implements these calls. [Win32: synchapi.h]
 #pragma once
 
 #include <handleapi.h>
@@ -29,6 +29,12 @@ EXTERN_C HANDLE WINAPI CreateEventExW(LPSECURITY_ATTRIBUTES attributes, LPCWSTR 
 ///@}
 EXTERN_C BOOL WINAPI SetEvent(HANDLE event);
 EXTERN_C BOOL WINAPI ResetEvent(HANDLE event);
+/// A wait takes a mutex; its thread may wait again, and releases it as often.
+///@{
+EXTERN_C HANDLE WINAPI CreateMutexA(LPSECURITY_ATTRIBUTES attributes, BOOL owned, LPCSTR name);
+EXTERN_C HANDLE WINAPI CreateMutexW(LPSECURITY_ATTRIBUTES attributes, BOOL owned, LPCWSTR name);
+///@}
+EXTERN_C BOOL WINAPI ReleaseMutex(HANDLE mutex);
 EXTERN_C DWORD WINAPI WaitForSingleObject(HANDLE object, DWORD milliseconds);
 EXTERN_C DWORD WINAPI WaitForSingleObjectEx(HANDLE object, DWORD milliseconds, BOOL alertable);
 EXTERN_C DWORD WINAPI WaitForMultipleObjects(DWORD count, const HANDLE* objects, BOOL wait_all,
@@ -39,8 +45,10 @@ EXTERN_C void WINAPI Sleep(DWORD milliseconds);
 
 #ifdef UNICODE
 #define CreateEvent CreateEventW
+#define CreateMutex CreateMutexW
 #define CreateEventEx CreateEventExW
 #else
 #define CreateEvent CreateEventA
+#define CreateMutex CreateMutexA
 #define CreateEventEx CreateEventExA
 #endif

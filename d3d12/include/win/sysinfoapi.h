@@ -39,6 +39,34 @@ typedef struct _MEMORYSTATUSEX {
   DWORDLONG ullAvailExtendedVirtual;
 } MEMORYSTATUSEX, *LPMEMORYSTATUSEX;
 
+typedef struct _OSVERSIONINFOEXW {
+  DWORD dwOSVersionInfoSize;
+  DWORD dwMajorVersion;
+  DWORD dwMinorVersion;
+  DWORD dwBuildNumber;
+  DWORD dwPlatformId;
+  WCHAR szCSDVersion[128];
+  WORD wServicePackMajor;
+  WORD wServicePackMinor;
+  WORD wSuiteMask;
+  BYTE wProductType;
+  BYTE wReserved;
+} OSVERSIONINFOEXW, RTL_OSVERSIONINFOEXW, *LPOSVERSIONINFOEXW, *PRTL_OSVERSIONINFOEXW;
+#define VER_MINORVERSION 0x1
+#define VER_MAJORVERSION 0x2
+#define VER_BUILDNUMBER 0x4
+#define VER_EQUAL 1
+#define VER_GREATER_EQUAL 3
+#define VER_SET_CONDITION(mask, type, condition) \
+  ((mask) = VerSetConditionMask((mask), (type), (condition)))
+/// Three bits of `condition` for each kind of version.
+inline ULONGLONG VerSetConditionMask(ULONGLONG mask, DWORD type, BYTE condition) {
+  for (int bit = 0; bit < 8; ++bit) {
+    if ((type & (1u << bit)) != 0) mask |= (ULONGLONG)(condition & 7) << (3 * bit);
+  }
+  return mask;
+}
+
 EXTERN_C void WINAPI GetSystemInfo(LPSYSTEM_INFO info);
 EXTERN_C void WINAPI GetSystemTime(LPSYSTEMTIME time);
 EXTERN_C void WINAPI GetLocalTime(LPSYSTEMTIME time);

@@ -11,6 +11,7 @@
 #include <handleapi.h>
 #include <heapapi.h>
 #include <libloaderapi.h>
+#include <memoryapi.h>
 #include <minwindef.h>
 #include <objbase.h>
 #include <processenv.h>
@@ -21,6 +22,7 @@
 #include <winapifamily.h>
 #include <winbase.h>
 #include <winerror.h>
+#include <winnls.h>
 #include <winnt.h>
 #include <winuser.h>
 #ifndef WIN32_LEAN_AND_MEAN

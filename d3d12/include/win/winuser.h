@@ -126,6 +126,7 @@ KAAMOS_TEXT_TYPE(CREATESTRUCT);
 KAAMOS_TEXT_TYPE(LPCREATESTRUCT);
 
 #include <winuser_constants.h>
+#include <winuser_input.h>
 
 // Classes and windows
 EXTERN_C ATOM WINAPI RegisterClassA(const WNDCLASSA* desc);
@@ -257,7 +258,7 @@ inline BOOL IsZoomed(HWND) {
 }
 ///@}
 
-// There is no input, cursor or icon.
+// There is no cursor and no icon.
 inline HCURSOR LoadCursorA(HINSTANCE, LPCSTR) {
   return (HCURSOR)(LONG_PTR)1;
 }
@@ -270,41 +271,47 @@ inline HICON LoadIconA(HINSTANCE, LPCSTR) {
 inline HICON LoadIconW(HINSTANCE, LPCWSTR) {
   return (HICON)(LONG_PTR)1;
 }
-inline HCURSOR SetCursor(HCURSOR) {
+inline BOOL DestroyIcon(HICON) {
+  return TRUE;
+}
+/// There are no image files for windows: null, with GetLastError() ERROR_RESOURCE_TYPE_NOT_FOUND.
+///@{
+EXTERN_C HANDLE WINAPI LoadImageA(HINSTANCE instance, LPCSTR name, UINT type, int width, int height,
+                                  UINT flags);
+EXTERN_C HANDLE WINAPI LoadImageW(HINSTANCE instance, LPCWSTR name, UINT type, int width,
+                                  int height, UINT flags);
+///@}
+
+// The desktop has every window; the foreground is no window of this program.
+inline HWND GetDesktopWindow() {
+  return (HWND)(LONG_PTR)1;
+}
+inline HWND GetForegroundWindow() {
   return NULL;
 }
-inline int ShowCursor(BOOL show) {
-  return show ? 0 : -1;
+inline BOOL IsChild(HWND, HWND) {
+  return FALSE;
 }
-inline SHORT GetAsyncKeyState(int) {
-  return 0;
-}
-inline SHORT GetKeyState(int) {
-  return 0;
-}
-inline BOOL GetCursorPos(LPPOINT point) {
-  return point->x = point->y = 0, TRUE;
-}
-inline BOOL SetCursorPos(int, int) {
-  return TRUE;
-}
-inline BOOL ScreenToClient(HWND, LPPOINT) {
-  return TRUE;
-}
-inline BOOL ClientToScreen(HWND, LPPOINT) {
-  return TRUE;
-}
-inline HWND SetCapture(HWND) {
+inline HWND GetParent(HWND) {
   return NULL;
 }
-inline BOOL ReleaseCapture() {
+inline BOOL IsWindowUnicode(HWND) {
   return TRUE;
 }
 inline HWND SetFocus(HWND) {
   return NULL;
 }
+inline HWND GetFocus() {
+  return NULL;
+}
 inline BOOL SetForegroundWindow(HWND) {
   return TRUE;
+}
+inline BOOL BringWindowToTop(HWND) {
+  return TRUE;
+}
+inline BOOL FlashWindow(HWND, BOOL) {
+  return FALSE;
 }
 inline BOOL SetProcessDPIAware() {
   return TRUE;
@@ -323,6 +330,30 @@ inline HGDIOBJ GetStockObject(int index) {
 }
 inline BOOL DeleteObject(HGDIOBJ) {
   return TRUE;
+}
+inline HRGN CreateRectRgn(int, int, int, int) {
+  return (HRGN)(LONG_PTR)1;
+}
+inline HBRUSH CreateSolidBrush(COLORREF) {
+  return (HBRUSH)(LONG_PTR)1;
+}
+/// Of the monitor: 96 dots an inch.
+inline int GetDeviceCaps(HDC, int index) {
+  switch (index) {
+    case LOGPIXELSX:
+    case LOGPIXELSY:
+      return 96;
+    case HORZRES:
+      return 1920;
+    case VERTRES:
+      return 1080;
+    case BITSPIXEL:
+      return 32;
+    case VREFRESH:
+      return 60;
+    default:
+      return 0;
+  }
 }
 inline HDC GetDC(HWND) {
   return (HDC)(LONG_PTR)1;
@@ -352,6 +383,7 @@ KAAMOS_TEXT_CALL(MessageBox);
 KAAMOS_TEXT_CALL(GetMonitorInfo);
 KAAMOS_TEXT_CALL(LoadCursor);
 KAAMOS_TEXT_CALL(LoadIcon);
+KAAMOS_TEXT_CALL(LoadImage);
 inline HWND CreateWindowA(LPCSTR class_name, LPCSTR title, DWORD style, int x, int y, int width,
                           int height, HWND parent, HMENU menu, HINSTANCE instance,
                           LPVOID parameter) {

@@ -6,6 +6,9 @@
 #include <comdef.h>
 #include <d3d12.h>
 #include <d3dcompiler.h>
+#include <d3dx12/d3dx12.h>
+#include <dwmapi.h>
+#include <include\d3dx12\d3dx12.h>
 #include <shlwapi.h>
 #include <wrl.h>
 #include <wrl\wrappers\corewrappers.h>
@@ -14,6 +17,7 @@
 #include <cstdio>
 #include <cwchar>
 #include <exception>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -81,6 +85,19 @@ bool ReadWhole(const std::wstring& name, std::vector<byte>& bytes) {
          read == bytes.size();
 }
 
+// Streams take wide paths, and backslashes.
+bool Streams(const std::wstring& folder) {
+  std::ofstream((folder + L"words.txt").c_str()) << "wide";
+  std::ifstream wide((folder + L"words.txt").c_str());
+  std::string text, again;
+  wide >> text;
+  std::ifstream narrow(".\\none\\..\\words.txt");
+  std::fstream both;
+  both.open((folder + L".\\words.txt").c_str(), std::ios::in);
+  both >> again;
+  return text == "wide" && again == "wide" && !narrow && std::ifstream(L"none.txt").fail();
+}
+
 LRESULT CALLBACK Procedure(HWND window, UINT message, WPARAM wide, LPARAM lparam) {
   return DefWindowProc(window, message, wide, lparam);
 }
@@ -134,6 +151,7 @@ int wmain(int argc, wchar_t** argv) {
   }
   if (!HoldsBlobs() || !AsksWhatNewHeadersHave()) return 7;
   if (!PathFileExists(folder.c_str())) return 8;
+  if (!Streams(folder)) return 9;
   ForgetsToReturn();
   printf_s("Win32: %ls read, %S %I64u\n", L"CMakeCache.txt", L"bytes", static_cast<UINT64>(1));
   return y == 2.0f ? 0 : 6;

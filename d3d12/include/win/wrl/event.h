@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Microsoft::WRL::Wrappers::Event and FileHandle: handles that close themselves.
+// Microsoft::WRL::Wrappers::Event, Mutex and FileHandle: handles that close themselves.
 #pragma once
 
 #include <handleapi.h>
@@ -45,7 +45,28 @@ class HandleT {
   HANDLE handle_ = Traits::invalid();
 };
 
+/// Has a mutex as long as it lives.
+template <class Traits>
+class HandleLock {
+ public:
+  explicit HandleLock(HANDLE handle) : handle_(handle) {}
+  HandleLock(HandleLock&& other) noexcept : handle_(other.handle_) { other.handle_ = nullptr; }
+  HandleLock& operator=(HandleLock&&) = delete;
+  ~HandleLock() { Unlock(); }
+  bool IsLocked() const { return handle_ != nullptr; }
+  void Unlock() {
+    if (IsLocked()) ReleaseMutex(handle_);
+    handle_ = nullptr;
+  }
+
+ private:
+  HANDLE handle_;
+};
+
 namespace HandleTraits {
+struct MutexTraits {
+  static HANDLE invalid() { return nullptr; }
+};
 struct EventTraits {
   static HANDLE invalid() { return nullptr; }
 };
@@ -55,6 +76,19 @@ struct FileHandleTraits {
 }  // namespace HandleTraits
 
 using Event = HandleT<HandleTraits::EventTraits>;
+class Mutex : public HandleT<HandleTraits::MutexTraits> {
+ public:
+  typedef HandleLock<HandleTraits::MutexTraits> SyncLock;
+  explicit Mutex(HANDLE handle) : HandleT(handle) {}
+  /// Waits for the mutex; what it returns has none after a timeout.
+  ///@{
+  SyncLock Lock(DWORD milliseconds = INFINITE) { return Lock(Get(), milliseconds); }
+  static SyncLock Lock(HANDLE handle, DWORD milliseconds = INFINITE) {
+    return SyncLock(WaitForSingleObjectEx(handle, milliseconds, FALSE) == WAIT_OBJECT_0 ? handle
+                                                                                        : nullptr);
+  }
+  ///@}
+};
 using FileHandle = HandleT<HandleTraits::FileHandleTraits>;
 
 }  // namespace Microsoft::WRL::Wrappers
