@@ -164,6 +164,13 @@ function(kaamos_install_package)
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
     OBJECTS DESTINATION "${CMAKE_INSTALL_LIBDIR}/kaamos" COMPONENT development
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
+  # Everything that is installed: what scripts/package builds.
+  add_custom_target(package-files DEPENDS ${libraries} ${programs})
+  foreach(target IN ITEMS kaamos_d3d12_shared kaamos_python)
+    if(TARGET ${target})
+      add_dependencies(package-files ${target})
+    endif()
+  endforeach()
   install(EXPORT kaamosTargets NAMESPACE kaamos:: DESTINATION "${KAAMOS_PACKAGE_DIR}")
   kaamos_install_headers()
 

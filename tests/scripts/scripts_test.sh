@@ -221,7 +221,7 @@ everything_installed_asks_for_no_root() {
   run_test
   expect_status 0
   expect_no_call apt-get
-  expect "All $(grep -vc '^clang-tidy$' "$state/packages") needed packages are installed."
+  expect "All $(grep -vcE '^(clang-tidy|lintian|debootstrap)$' "$state/packages") needed packages are installed."
 }
 
 missing_packages_are_named_and_installed() {
@@ -607,7 +607,7 @@ label_is_passed_to_ctest() {
 full_run_adds_every_part() {
   run_test --full
   expect_status 0
-  expect_last_line '12 passed, 0 failed, 0 skipped'
+  expect_last_line '14 passed, 0 failed, 0 skipped'
   expect_call 'ctest .*build/release .*-LE \^full\$'
   expect_call 'ctest .*build/release .*-L \^long\$'
   expect_call 'cmake --build --preset asan'
@@ -671,11 +671,35 @@ files_part_installs_and_runs_clang_tidy() {
   expect_call 'cmake --build --preset dev .*--target tidy-check'
 }
 
+packages_part_installs_lintian_and_runs_its_tests_alone() {
+  sed -i '/^lintian$/d' "$state/packages"
+  run_test
+  expect_no_call apt-get
+  run_test --full=packages
+  expect_status 0
+  expect_call 'apt-get .*install .*lintian'
+  expect_call 'ctest .*build/release .*-L \^packages\$'
+  expect_no_call 'build/(asan|tsan)'
+}
+
+package_options_are_named() {
+  command_ "$checkout/scripts/package" --help
+  expect_status 0
+  expect 'Usage: scripts/package [--source] [--debian]'
+  command_ "$checkout/scripts/package" --rpm
+  expect_status 1
+  expect 'scripts/package: error: unknown option "--rpm".'
+  command_ "$checkout/scripts/package" --out
+  expect_status 1
+  expect '--out needs a folder, for example: scripts/package --out packages'
+  expect_no_call .
+}
+
 unknown_full_part_is_named() {
   run_test --full=long,fast
   expect_status 1
   expect 'scripts/test: error: --full has no part "fast".'
-  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), files, fuzz.'
+  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), files, packages, fuzz.'
   run_test --full=
   expect_status 1
   expect '--full= needs a part, for example: scripts/test --full=long'

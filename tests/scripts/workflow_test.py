@@ -127,7 +127,7 @@ def check_coverage(jobs):
             parts |= set(matrix.get("part", []))
     if pairs != RELEASE_MATRIX:
         yield f"pushes are tested on {sorted(pairs, key=str)}, not on {sorted(RELEASE_MATRIX)}"
-    for part in {"asan", "tsan", "files"} - parts:
+    for part in {"asan", "tsan", "files", "packages"} - parts:
         yield f"{part} does not run on schedule"
 
 
@@ -168,8 +168,8 @@ FAULTS = [
     ('debian: ["12", "13"]', 'debian: ["12"]', "pushes are tested on"),
     ("compiler: [gcc, clang]", "compiler: [gcc]", "pushes are tested on"),
     ("        compiler: [", "        compilers: [", 'the matrix has no "compiler"'),
-    ("part: [asan, tsan, files]", "part: [asan, files]", "tsan does not run on schedule"),
-    ("part: [asan, tsan, files]", "part: [asan, tsan, files, msan]", 'has no part "msan"'),
+    ("part: [asan, tsan, files, packages]", "part: [asan, files, packages]", "tsan does not run on schedule"),
+    ("part: [asan, tsan, files, packages]", "part: [asan, tsan, files, packages, msan]", 'has no part "msan"'),
     (".ci/run --full", ".ci/run --everything", 'no option "--everything"'),
     (".ci/run --full=", "scripts/test --full=", "does not run .ci/run"),
     ("${{ matrix.part }}", "${{ matrix.part }", 'without its end'),
