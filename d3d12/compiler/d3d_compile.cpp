@@ -82,7 +82,7 @@ void add_defines(rtapi::ShaderCompileOptions& options, const D3D_SHADER_MACRO* d
 DxcArguments arguments_of(const char* name, std::string source, const D3D_SHADER_MACRO* defines,
                           ID3DInclude* includes) {
   DxcArguments out;
-  out.options.File = name != nullptr && *name != '\0' ? name : "Shader@0";
+  out.options.File = name != nullptr && *name != '\0' ? to_path(name) : "Shader@0";
   out.options.Source = std::move(source);
   out.options.HlslVersion = "2018";
   add_defines(out.options, defines);

@@ -144,6 +144,23 @@ TEST(DxcApi, DefaultHandlerReadsFiles) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(DxcApi, FirstCompilerIncludesFromTheFolderOfABackslashPath) {
+  const std::string source = "#include \"colour.hlsli\"\nfloat4 Main() : SV_Target { return 1; }";
+  ComPtr<IDxcBlobEncoding> blob;
+  ASSERT_EQ(
+      create<IDxcLibrary>(CLSID_DxcLibrary)
+          ->CreateBlobWithEncodingFromPinned(source.data(), static_cast<UINT32>(source.size()),
+                                             DXC_CP_UTF8, blob.GetAddressOf()),
+      S_OK);
+  TestIncludes includes;
+  ComPtr<IDxcOperationResult> result;
+  ASSERT_EQ(create<IDxcCompiler>(CLSID_DxcCompiler)
+                ->Compile(blob.Get(), L"shaders\\sky.hlsl", L"Main", L"ps_6_0", nullptr, 0, nullptr,
+                          0, &includes, result.GetAddressOf()),
+            S_OK);
+  EXPECT_THAT(includes.asked, ElementsAre("./shaders/colour.hlsli"));
+}
+
 TEST(DxcApi, FirstCompilerTakesEntryProfileAndDefines) {
   const std::string source = "float4 Main() : SV_Target { return COLOUR; }";
   auto library = create<IDxcLibrary>(CLSID_DxcLibrary);

@@ -102,7 +102,7 @@ DxcResult* run(const std::vector<std::string>& words, LPCWSTR name, std::string 
                IDxcIncludeHandler* includes) {
   auto parsed = parse_dxc_arguments(words);
   if (!parsed) return failed_result(parsed.error().message + "\n");
-  if (name != nullptr && *name != L'\0') parsed->options.File = to_utf8(name);
+  if (name != nullptr && *name != L'\0') parsed->options.File = to_path(name);
   if (parsed->options.File.empty()) parsed->options.File = "hlsl.hlsl";
   if (parsed->options.Target.empty() && !parsed->preprocess) {
     return failed_result(

@@ -73,15 +73,23 @@ std::vector<Method> read_methods(const std::string& body) {
   return methods;
 }
 
-void read_header(const std::string& text, std::vector<Interface>& interfaces) {
+// False if there is none.
+bool read_header(const std::string& text, std::vector<Interface>& interfaces) {
+  bool found = false;
   static const std::regex kInterface(
       R"re(MIDL_INTERFACE\("([0-9A-Fa-f-]{36})"\)\s*(\w+)\s*(?::\s*public\s+(\w+))?\s*\{)re");
   for (std::sregex_iterator it(text.begin(), text.end(), kInterface), end; it != end; ++it) {
+    found = true;
     const size_t start = it->position() + it->length();
     const size_t stop = text.find("};", start);
+    // A newer header of Microsoft's has what ours declares for older ones.
+    const std::string name = (*it)[2];
+    if (std::ranges::any_of(interfaces, [&](const Interface& i) { return i.name == name; }))
+      continue;
     interfaces.push_back(
         {(*it)[2], (*it)[3], (*it)[1], read_methods(text.substr(start, stop - start))});
   }
+  return found;
 }
 
 // "ID3D12Device" of "ID3D12Device11".
@@ -151,7 +159,8 @@ void write_method(std::ostream& out, const Interface& interface, const Method& m
 void write_entries(std::ostream& out, const Chains& chains) {
   out << "// Made by kaamos-d3d12-entries. Every method of every interface, saying that it is "
          "missing.\n#pragma once\n\n#include \"d3d12/com/interface_id.h\"\n"
-         "#include \"d3d12/com/report.h\"\n\nnamespace kaamos::d3d12 {\n";
+         "#include \"d3d12/com/report.h\"\n#include <kaamos_d3d12_interfaces.h>\n\nnamespace "
+         "kaamos::d3d12 {\n";
   for (const Interface* newest : chains.newest()) {
     const auto chain = chains.chain(*newest);
     // The name of the oldest version: ID3D12DeviceEntries has the methods of ID3D12Device11.
@@ -210,9 +219,7 @@ int main(int argc, char** argv) {
     }
     std::ostringstream text;
     text << in.rdbuf();
-    const size_t before = interfaces.size();
-    read_header(text.str(), interfaces);
-    if (interfaces.size() == before) {
+    if (!read_header(text.str(), interfaces)) {
       std::cerr << "kaamos-d3d12-entries: no MIDL_INTERFACE in " << argv[i] << "\n";
       return 1;
     }

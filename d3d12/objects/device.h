@@ -129,6 +129,12 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   D3D12_RESOURCE_ALLOCATION_INFO STDMETHODCALLTYPE
   GetResourceAllocationInfo1(UINT visible_mask, UINT count, const D3D12_RESOURCE_DESC* descs,
                              D3D12_RESOURCE_ALLOCATION_INFO1* infos) override;
+  // Formats that views may cast to need no memory.
+  D3D12_RESOURCE_ALLOCATION_INFO STDMETHODCALLTYPE GetResourceAllocationInfo3(
+      UINT visible_mask, UINT count, const D3D12_RESOURCE_DESC1* descs, const UINT32*,
+      const DXGI_FORMAT* const*, D3D12_RESOURCE_ALLOCATION_INFO1* infos) override {
+    return GetResourceAllocationInfo2(visible_mask, count, descs, infos);
+  }
   D3D12_HEAP_PROPERTIES STDMETHODCALLTYPE GetCustomHeapProperties(UINT node_mask,
                                                                   D3D12_HEAP_TYPE type) override;
   void STDMETHODCALLTYPE GetCopyableFootprints(const D3D12_RESOURCE_DESC* desc, UINT first,

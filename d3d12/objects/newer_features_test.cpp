@@ -7,6 +7,8 @@
 #include <windows.h>
 
 #include <directx/d3d12.h>
+#include <dxguids/dxguids.h>
+#include <kaamos_d3d12_interfaces.h>
 
 // All of them, beside those of a newer d3d12.h.
 namespace ours {
@@ -24,6 +26,13 @@ using newer::Feature;
 
 Feature feature(D3D12_FEATURE value) {
   return static_cast<Feature>(static_cast<UINT>(value));
+}
+
+TEST(NewerFeatures, InterfacesHaveTheirIds) {
+  EXPECT_TRUE(IID_ID3D12Device14 == __uuidof(ID3D12Device14));
+  EXPECT_TRUE(IID_ID3D12Device13 == __uuidof(ID3D12Device13));
+  EXPECT_TRUE(IID_ID3D12Device12 == __uuidof(ID3D12Device12));
+  EXPECT_TRUE(IID_ID3D12GraphicsCommandList9 == __uuidof(ID3D12GraphicsCommandList9));
 }
 
 TEST(NewerFeatures, HaveTheNumbersThatDevicesAnswer) {
@@ -68,6 +77,7 @@ TEST(NewerFeatures, AgreeWithMicrosoftsHeaders) {
   KAAMOS_SAME_VALUE(D3D12_EXECUTE_INDIRECT_TIER_1_1);
   KAAMOS_SAME_VALUE(D3D12_RAYTRACING_TIER_1_2);
   KAAMOS_SAME_VALUE(D3D12_TIGHT_ALIGNMENT_TIER_1);
+  KAAMOS_SAME_VALUE(D3D12_RESOURCE_FLAG_USE_TIGHT_ALIGNMENT);
   KAAMOS_SAME_LAST(D3D12_FEATURE_DATA_D3D12_OPTIONS16, GPUUploadHeapSupported);
   KAAMOS_SAME_LAST(D3D12_FEATURE_DATA_D3D12_OPTIONS17, ManualWriteTrackingResourceSupported);
   KAAMOS_SAME_LAST(D3D12_FEATURE_DATA_D3D12_OPTIONS18, RenderPassesValid);

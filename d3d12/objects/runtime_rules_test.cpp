@@ -180,6 +180,13 @@ TEST_P(RuntimeRules, ResourcesStartInABarrierLayout) {
             S_OK);
   D3D12_RESOURCE_ALLOCATION_INFO1 info = {};
   EXPECT_EQ(device->GetResourceAllocationInfo2(0, 1, &desc, &info).SizeInBytes, 65536u);
+  ComPtr<ID3D12Device14> newest;
+  ASSERT_EQ(device_.As(&newest), S_OK);
+  const UINT32 formats = 1;
+  const DXGI_FORMAT castable = DXGI_FORMAT_R32_FLOAT;
+  const DXGI_FORMAT* const castables[] = {&castable};
+  EXPECT_EQ(newest->GetResourceAllocationInfo3(0, 1, &desc, &formats, castables, &info).SizeInBytes,
+            65536u);
   D3D12_HEAP_DESC heap_desc = {};
   heap_desc.SizeInBytes = 65536;
   heap_desc.Properties = heap;

@@ -16,7 +16,7 @@ HRESULT Device::CreateStateObject(const D3D12_STATE_OBJECT_DESC* desc, REFIID ri
                                   void** state_object) {
   if (state_object != nullptr) *state_object = nullptr;
   if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateStateObject: pDesc.");
-  const auto converted = state_object_desc(*desc, reporter());
+  const auto converted = state_object_desc(device_, *desc, reporter());
   if (!converted) return fail(converted.error());
   auto made = device_.CreateStateObject(*converted);
   if (!made) return fail(made.error());
@@ -29,7 +29,7 @@ HRESULT Device::AddToStateObject(const D3D12_STATE_OBJECT_DESC* addition, ID3D12
   if (addition == nullptr || parent == nullptr) {
     return fail(ErrorId::kNullPointer, "AddToStateObject: pAddition or pStateObjectToGrowFrom.");
   }
-  const auto converted = state_object_desc(*addition, reporter());
+  const auto converted = state_object_desc(device_, *addition, reporter());
   if (!converted) return fail(converted.error());
   auto made =
       device_.AddToStateObject(*converted, static_cast<StateObject*>(parent)->rtapi_state_object());

@@ -27,8 +27,24 @@ std::vector<std::string> names_of(const LPCWSTR* names, UINT count) {
 
 class Converter {
  public:
-  Converter(const D3D12_STATE_OBJECT_DESC& desc, Reporter& reporter)
-      : desc_(desc), reporter_(reporter) {}
+  Converter(const rtapi::Device& device, const D3D12_STATE_OBJECT_DESC& desc, Reporter& reporter)
+      : device_(device), desc_(desc), reporter_(reporter) {}
+
+  // A null global root signature, and an association with one: as if they were not there.
+  bool is_left_out(UINT index) const {
+    const D3D12_STATE_SUBOBJECT& subobject = desc_.pSubobjects[index];
+    if (subobject.pDesc == nullptr) return false;
+    if (subobject.Type == D3D12_STATE_SUBOBJECT_TYPE_GLOBAL_ROOT_SIGNATURE) {
+      return static_cast<const D3D12_GLOBAL_ROOT_SIGNATURE*>(subobject.pDesc)
+                 ->pGlobalRootSignature == nullptr;
+    }
+    if (subobject.Type != D3D12_STATE_SUBOBJECT_TYPE_SUBOBJECT_TO_EXPORTS_ASSOCIATION) return false;
+    const auto* target = static_cast<const D3D12_SUBOBJECT_TO_EXPORTS_ASSOCIATION*>(subobject.pDesc)
+                             ->pSubobjectToAssociate;
+    return is_in_array(target) &&
+           target->Type == D3D12_STATE_SUBOBJECT_TYPE_GLOBAL_ROOT_SIGNATURE &&
+           is_left_out(static_cast<UINT>(target - desc_.pSubobjects));
+  }
 
   rtapi::Result<rtapi::StateSubobject> convert(UINT index) const {
     const D3D12_STATE_SUBOBJECT& subobject = desc_.pSubobjects[index];
@@ -43,8 +59,8 @@ class Converter {
         return rtapi::StateSubobject(rtapi::GlobalRootSignature{rtapi_root_signature(
             as(static_cast<D3D12_GLOBAL_ROOT_SIGNATURE*>(nullptr)).pGlobalRootSignature)});
       case D3D12_STATE_SUBOBJECT_TYPE_LOCAL_ROOT_SIGNATURE:
-        return rtapi::StateSubobject(rtapi::LocalRootSignature{rtapi_root_signature(
-            as(static_cast<D3D12_LOCAL_ROOT_SIGNATURE*>(nullptr)).pLocalRootSignature)});
+        return local_root_signature(
+            as(static_cast<D3D12_LOCAL_ROOT_SIGNATURE*>(nullptr)).pLocalRootSignature);
       case D3D12_STATE_SUBOBJECT_TYPE_NODE_MASK:
         return rtapi::StateSubobject(
             rtapi::NodeMask{as(static_cast<D3D12_NODE_MASK*>(nullptr)).NodeMask});
@@ -94,6 +110,17 @@ class Converter {
                       "pSubobjects[" + std::to_string(index) + "]: " + detail);
   }
 
+  // Null is that of shaders without arguments.
+  rtapi::Result<rtapi::StateSubobject> local_root_signature(ID3D12RootSignature* from) const {
+    if (from != nullptr) {
+      return rtapi::StateSubobject(rtapi::LocalRootSignature{rtapi_root_signature(from)});
+    }
+    auto empty =
+        device_.CreateRootSignature({.Flags = rtapi::RootSignatureFlags::kLocalRootSignature});
+    if (!empty) return empty.error();
+    return rtapi::StateSubobject(rtapi::LocalRootSignature{*empty});
+  }
+
   rtapi::Result<rtapi::StateSubobject> library(UINT index,
                                                const D3D12_DXIL_LIBRARY_DESC& from) const {
     if (from.NumExports != 0 && from.pExports == nullptr) return bad(index, "pExports is null.");
@@ -116,24 +143,37 @@ class Converter {
   rtapi::Result<rtapi::StateSubobject> association(
       UINT index, const D3D12_SUBOBJECT_TO_EXPORTS_ASSOCIATION& from) const {
     if (from.NumExports != 0 && from.pExports == nullptr) return bad(index, "pExports is null.");
-    const D3D12_STATE_SUBOBJECT* first = desc_.pSubobjects;
     const D3D12_STATE_SUBOBJECT* target = from.pSubobjectToAssociate;
-    if (std::less<>()(target, first) || !std::less<>()(target, first + desc_.NumSubobjects)) {
+    if (!is_in_array(target)) {
       return bad(index, "pSubobjectToAssociate is not in the array of " +
                             std::to_string(desc_.NumSubobjects) +
                             " subobjects. Did the array move after the pointer was taken?");
     }
     return rtapi::StateSubobject(rtapi::SubobjectToExportsAssociation{
-        static_cast<uint32_t>(target - first), names_of(from.pExports, from.NumExports)});
+        kept_before(static_cast<UINT>(target - desc_.pSubobjects)),
+        names_of(from.pExports, from.NumExports)});
   }
 
+  bool is_in_array(const D3D12_STATE_SUBOBJECT* subobject) const {
+    return !std::less<>()(subobject, desc_.pSubobjects) &&
+           std::less<>()(subobject, desc_.pSubobjects + desc_.NumSubobjects);
+  }
+
+  uint32_t kept_before(UINT index) const {
+    uint32_t count = 0;
+    for (UINT i = 0; i < index; ++i) count += is_left_out(i) ? 0 : 1;
+    return count;
+  }
+
+  const rtapi::Device& device_;
   const D3D12_STATE_OBJECT_DESC& desc_;
   Reporter& reporter_;
 };
 
 }  // namespace
 
-rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT_DESC& desc,
+rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const rtapi::Device& device,
+                                                        const D3D12_STATE_OBJECT_DESC& desc,
                                                         Reporter& reporter) {
   if (desc.NumSubobjects != 0 && desc.pSubobjects == nullptr) {
     return make_error(ErrorId::kStateObject, "pSubobjects is null.");
@@ -146,8 +186,9 @@ rtapi::Result<rtapi::StateObjectDesc> state_object_desc(const D3D12_STATE_OBJECT
   }
   rtapi::StateObjectDesc out;
   out.Type = static_cast<rtapi::StateObjectType>(desc.Type);
-  const Converter converter(desc, reporter);
+  const Converter converter(device, desc, reporter);
   for (UINT i = 0; i < desc.NumSubobjects; ++i) {
+    if (converter.is_left_out(i)) continue;
     auto subobject = converter.convert(i);
     if (!subobject) return subobject.error();
     out.Subobjects.push_back(*std::move(subobject));

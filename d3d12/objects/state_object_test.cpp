@@ -20,6 +20,7 @@ RaytracingAccelerationStructure scene : register(t0);
   Payload payload = {float3(0, 0, 0)};
   TraceRay(scene, 0, 0xFF, 0, 1, 0, ray, payload);
 }
+[shader("raygeneration")] void Empty() {}
 [shader("closesthit")] void Closest(inout Payload p, BuiltInTriangleIntersectionAttributes a) {
   p.color = float3(a.barycentrics, 0);
 }
@@ -123,6 +124,45 @@ TEST_F(StateObjectCalls, AdditionsKeepWhatWasThere) {
   ASSERT_NE(after->GetShaderIdentifier(L"Ground"), nullptr);
   ASSERT_NE(after->GetShaderIdentifier(L"Sky"), nullptr);
   EXPECT_EQ(before->GetShaderIdentifier(L"Sky"), after->GetShaderIdentifier(L"Sky"));
+}
+
+// A program passes it for shaders without arguments, and associates it.
+TEST_F(StateObjectCalls, ANullRootSignatureHasNoArguments) {
+  CD3DX12_STATE_OBJECT_DESC desc(D3D12_STATE_OBJECT_TYPE_RAYTRACING_PIPELINE);
+  describe(desc, {L"Sky"});
+  auto* local = desc.CreateSubobject<CD3DX12_LOCAL_ROOT_SIGNATURE_SUBOBJECT>();
+  local->SetRootSignature(nullptr);
+  auto* association = desc.CreateSubobject<CD3DX12_SUBOBJECT_TO_EXPORTS_ASSOCIATION_SUBOBJECT>();
+  association->SetSubobjectToAssociate(*local);
+  association->AddExport(L"Sky");
+  ComPtr<ID3D12StateObject> pipeline;
+  EXPECT_EQ(device_->CreateStateObject(desc, IID_PPV_ARGS(pipeline.GetAddressOf())), S_OK);
+
+  // Shaders with arguments need one, and calls need none.
+  CD3DX12_STATE_OBJECT_DESC global(D3D12_STATE_OBJECT_TYPE_RAYTRACING_PIPELINE);
+  root_signature_ = nullptr;
+  describe(global, {L"Sky", L"Empty"});
+  EXPECT_EQ(device_->CreateStateObject(global, IID_PPV_ARGS(pipeline.ReleaseAndGetAddressOf())),
+            S_OK);
+  ComPtr<ID3D12GraphicsCommandList4> list;
+  ASSERT_EQ(list_.As(&list), S_OK);
+  const auto table = buffer(64, D3D12_HEAP_TYPE_UPLOAD, D3D12_RESOURCE_STATE_GENERIC_READ);
+  void* record = nullptr;
+  ASSERT_EQ(table->Map(0, nullptr, &record), S_OK);
+  std::memcpy(record, properties(pipeline.Get())->GetShaderIdentifier(L"Empty"), 32);
+  D3D12_DISPATCH_RAYS_DESC rays = {};
+  rays.RayGenerationShaderRecord = {table->GetGPUVirtualAddress(), 32};
+  rays.Width = rays.Height = rays.Depth = 1;
+  list->SetPipelineState1(pipeline.Get());
+  list->DispatchRays(&rays);
+  EXPECT_EQ(list->Close(), S_OK);
+  EXPECT_TRUE(messages().empty());
+  CD3DX12_STATE_OBJECT_DESC without(D3D12_STATE_OBJECT_TYPE_RAYTRACING_PIPELINE);
+  describe(without, {L"RayGen"});
+  EXPECT_EQ(device_->CreateStateObject(without, IID_PPV_ARGS(pipeline.ReleaseAndGetAddressOf())),
+            E_INVALIDARG);
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_NE(messages()[0].find("scene"), std::string::npos) << messages()[0];
 }
 
 TEST_F(StateObjectCalls, ErrorsNameTheSubobject) {

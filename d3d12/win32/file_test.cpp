@@ -215,6 +215,15 @@ TEST(File, PagesAreZerosAtMultiplesOf64KiB) {
   EXPECT_TRUE(VirtualFree(bytes, 0, MEM_RELEASE));
 }
 
+TEST(File, PartsOfPathsAreFoundInAnyCase) {
+  const wchar_t* text = L"a/Kaamos.DLL";
+  EXPECT_EQ(StrStrIW(text, L"kaamos"), text + 2);
+  EXPECT_EQ(StrStrIW(text, L"dll"), text + 9);
+  EXPECT_EQ(StrStrIW(text, L"dlls"), nullptr);
+  EXPECT_STREQ(StrStrIA("a/B", "/b"), "/B");
+  EXPECT_EQ(StrStrIA("a/B", "c"), nullptr);
+}
+
 TEST(File, PathsExistOrNot) {
   EXPECT_TRUE(PathFileExistsA("/"));
   EXPECT_TRUE(PathFileExistsW(L"\\"));

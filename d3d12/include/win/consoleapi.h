@@ -21,6 +21,14 @@ inline BOOL SetConsoleTitleW(LPCWSTR) {
   return TRUE;
 }
 KAAMOS_TEXT_CALL(SetConsoleTitle);
+#define FOREGROUND_BLUE 0x1
+#define FOREGROUND_GREEN 0x2
+#define FOREGROUND_RED 0x4
+#define FOREGROUND_INTENSITY 0x8
+/// Text keeps its colour.
+inline BOOL SetConsoleTextAttribute(HANDLE, WORD) {
+  return TRUE;
+}
 inline HWND GetConsoleWindow() {
   return NULL;
 }

@@ -186,6 +186,15 @@ inline int printf_s(const char* format, ...) {
   va_end(arguments);
   return length;
 }
+/// To the terminal.
+///@{
+inline int _vcprintf(const char* format, va_list arguments) {
+  return kaamos_vfprint(stdout, format, arguments);
+}
+inline int _vcwprintf(const wchar_t* format, va_list arguments) {
+  return kaamos_vfprint_wide(stdout, format, arguments);
+}
+///@}
 inline int fprintf_s(FILE* file, const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <fileapi.h>
+#include <string.h>
+#include <wchar.h>
 #include <winbase.h>
 
 /// Tells whether there is a file or folder of that name.
@@ -15,4 +17,18 @@ inline BOOL PathFileExistsW(LPCWSTR path) {
 }
 ///@}
 
+/// Where `part` begins in `text`, whichever the case of ASCII letters; null if it is nowhere.
+///@{
+inline LPSTR StrStrIA(LPCSTR text, LPCSTR part) {
+  return (LPSTR)strcasestr(text, part);
+}
+inline LPWSTR StrStrIW(LPCWSTR text, LPCWSTR part) {
+  for (const SIZE_T length = wcslen(part);; ++text) {
+    if (wcsncasecmp(text, part, length) == 0) return (LPWSTR)text;
+    if (*text == 0) return NULL;
+  }
+}
+///@}
+
 KAAMOS_TEXT_CALL(PathFileExists);
+KAAMOS_TEXT_CALL(StrStrI);
