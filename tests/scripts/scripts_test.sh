@@ -685,7 +685,7 @@ packages_part_installs_lintian_and_runs_its_tests_alone() {
 package_options_are_named() {
   command_ "$checkout/scripts/package" --help
   expect_status 0
-  expect 'Usage: scripts/package [--source] [--debian]'
+  expect 'Usage: scripts/package [--source] [--debian] [--wheel]'
   command_ "$checkout/scripts/package" --rpm
   expect_status 1
   expect 'scripts/package: error: unknown option "--rpm".'
