@@ -15,11 +15,11 @@ mkdir -p "$work"
 trap 'umount "$root/proc" 2>/dev/null || true; rm -rf "$work"' EXIT
 export DEBFULLNAME="A Packager" DEBEMAIL=packager@debian.org DEBIAN_FRONTEND=noninteractive LC_ALL=C
 
-# Those in $debs, or new ones.
+# make_packages [OPTION]: those in $debs, or new ones.
 make_packages() {
   [[ -z $debs ]] || return 0
   debs=$work/debs
-  "$source/scripts/package" --debian --no-build --no-install --out "$debs"
+  "$source/scripts/package" --debian --no-build --no-install --out "$debs" "$@"
 }
 
 # A Debian of this system's release.
