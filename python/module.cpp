@@ -7,6 +7,8 @@
 #include <rtapi/upload.h>
 #include <rtapi/version.h>
 
+#include "python/draws.h"
+#include "python/frame.h"
 #include "python/rays.h"
 
 namespace kaamos::python {
@@ -62,7 +64,8 @@ ArrayTexture make_texture(Session& session, const py::object& object) {
   desc.Height = static_cast<uint32_t>(array.shape(0));
   desc.Width = static_cast<uint32_t>(array.shape(1));
   desc.Format = format_of(array.dtype(), array.ndim() == 3 ? array.shape(2) : 1);
-  desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+  desc.Flags =
+      rtapi::ResourceFlags::kAllowUnorderedAccess | rtapi::ResourceFlags::kAllowRenderTarget;
   desc.Name = "texture";
   const rtapi::Texture texture = session.device().CreateTexture(desc).value();
   rtapi::UploadTexture(session.device(), session.queue(), texture, 0, bytes_of(array)).value();
@@ -76,6 +79,24 @@ py::array read_texture(const Session& session, const ArrayTexture& from) {
     bytes = rtapi::ReadbackTexture(session.device(), session.queue(), from.texture, 0).value();
   }
   return array_of(bytes, from.type, from.shape);
+}
+
+RayDispatch ray_dispatch(std::string ray_generation, std::vector<Record> miss,
+                         std::vector<Record> hit_groups, std::vector<Record> callable,
+                         std::vector<std::array<std::string, 4>> groups,
+                         std::vector<std::string> local, uint32_t payload_bytes,
+                         uint32_t attribute_bytes, uint32_t recursion,
+                         std::array<uint32_t, 3> size) {
+  return {std::move(ray_generation),
+          std::move(miss),
+          std::move(hit_groups),
+          std::move(callable),
+          std::move(groups),
+          std::move(local),
+          payload_bytes,
+          attribute_bytes,
+          recursion,
+          {size[0], size[1], size[2]}};
 }
 
 py::list entries(const Library& library) {
@@ -128,6 +149,31 @@ PYBIND11_MODULE(_kaamos, m) {
         return names;
       });
 
+  py::class_<RayDispatch>(m, "RayDispatch").def(py::init(&ray_dispatch));
+  py::class_<Draw>(m, "Draw").def(
+      py::init([](std::string vertex, std::string pixel, uint32_t vertices, uint32_t instances,
+                  std::string topology, std::string cull, std::string blend, bool wireframe,
+                  std::vector<float> clear, bool depth) {
+        return Draw{
+            std::move(vertex), std::move(pixel), vertices,  instances,        std::move(topology),
+            std::move(cull),   std::move(blend), wireframe, std::move(clear), depth};
+      }));
+  py::class_<Frame>(m, "Frame")
+      .def(py::init([](const Session& session, std::string scene, uint32_t width, uint32_t height,
+                       std::vector<std::string> effects, uint32_t seed,
+                       std::map<std::string, std::string> settings) {
+             return std::make_unique<Frame>(
+                 session, FrameOptions{std::move(scene), width, height, std::move(effects), seed,
+                                       std::move(settings)});
+           }),
+           py::keep_alive<1, 2>())
+      .def("render", &Frame::render)
+      .def("layers", &Frame::layers)
+      .def("layer", &Frame::layer)
+      .def("picture", &Frame::picture);
+  m.def("scene_names", scene_names);
+  m.def("described_settings", described_settings);
+
   py::class_<Session>(m, "Session")
       .def(py::init([](const std::string& backend, bool interpret, bool checked, uint32_t threads) {
              return std::make_unique<Session>(DeviceOptions{backend, interpret, checked, threads});
@@ -160,26 +206,17 @@ PYBIND11_MODULE(_kaamos, m) {
              session.dispatch(library, entry, {groups[0], groups[1], groups[2]}, given);
            })
       .def("dispatch_rays",
-           [](Session& session, const Library& library, const std::string& ray_generation,
-              const std::vector<Record>& miss, const std::vector<Record>& hit_groups,
-              const std::vector<Record>& callable,
-              const std::vector<std::array<std::string, 4>>& groups,
-              const std::vector<std::string>& local, uint32_t payload_bytes,
-              uint32_t attribute_bytes, uint32_t recursion, std::array<uint32_t, 3> size,
-              const Bindings& given) {
-             dispatch_rays(session, library,
-                           {ray_generation,
-                            miss,
-                            hit_groups,
-                            callable,
-                            groups,
-                            local,
-                            payload_bytes,
-                            attribute_bytes,
-                            recursion,
-                            {size[0], size[1], size[2]}},
-                           given);
+           [](Session& session, const Library& library, const RayDispatch& what,
+              const Bindings& given) { dispatch_rays(session, library, what, given); })
+      .def("explain_rays",
+           [](Session& session, const Library& library, const RayDispatch& what,
+              std::array<uint32_t, 3> at, const Bindings& given) {
+             const Explanation found = explain_rays(session, library, what, at, given);
+             return py::make_tuple(found.text, found.json);
            })
+      .def("draw", [](Session& session, const Library& library, const Draw& what,
+                      const std::vector<ArrayTexture>& targets,
+                      const Bindings& given) { draw(session, library, what, targets, given); })
       .def("take_messages", [](Session& session) {
         py::list out;
         for (const Message& one : session.take_messages()) {

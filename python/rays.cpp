@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "python/rays.h"
 
+#include <rtapi/explain.h>
 #include <rtapi/shader_table.h>
 #include <rtapi/upload.h>
 
@@ -135,14 +136,43 @@ Structure build_top_level(Session& session, const std::vector<Instance>& instanc
   return out;
 }
 
-void dispatch_rays(Session& session, const Library& given_library, const RayDispatch& what,
-                   const Bindings& given) {
-  Library library = given_library;
-  std::erase_if(library.reflection.Bindings, [&](const rtapi::ShaderBindingInfo& binding) {
-    return std::find(what.local.begin(), what.local.end(), binding.Name) != what.local.end();
-  });
-  const rtapi::RootSignature signature = session.root_signature(library);
-  const rtapi::StateObject pipeline = make_pipeline(session, library, signature, what);
+namespace {
+
+// All that a pipeline depends on.
+std::string name_of(const RayDispatch& what) {
+  std::string out = std::to_string(what.payload_bytes) + "," +
+                    std::to_string(what.attribute_bytes) + "," + std::to_string(what.recursion);
+  for (const auto& group : what.groups) {
+    for (const std::string& part : group) out += "," + part;
+  }
+  out += ";";
+  for (const std::string& one : what.local) out += "," + one;
+  return out;
+}
+
+const RayPipeline& pipeline_for(const Session& session, const Library& library,
+                                const RayDispatch& what) {
+  auto& made = library.made->of_rays;
+  const std::string name = name_of(what);
+  const auto found = made.find(name);
+  if (found != made.end()) return found->second;
+  RayPipeline pipeline;
+  pipeline.root_signature = session.root_signature(library, what.local);
+  pipeline.state_object = make_pipeline(session, library, pipeline.root_signature, what);
+  return made.emplace(name, std::move(pipeline)).first->second;
+}
+
+// A recorded dispatch, and what must live until it has run.
+struct Recorded {
+  rtapi::CommandList list;
+  BoundResources bound;
+  std::vector<rtapi::ShaderTable> tables;
+};
+
+Recorded record(Session& session, const Library& library, const RayDispatch& what,
+                const Bindings& given) {
+  const RayPipeline& made = pipeline_for(session, library, what);
+  const rtapi::StateObject& pipeline = made.state_object;
   const auto table = [&](const std::vector<Record>& records, const char* name) {
     return make_table(session, pipeline, records, name);
   };
@@ -159,10 +189,30 @@ void dispatch_rays(Session& session, const Library& given_library, const RayDisp
   desc.Height = what.size[1];
   desc.Depth = what.size[2];
   rtapi::CommandList list = session.device().CreateCommandList().value();
-  const auto alive = session.bind(list, library, signature, given);
+  BoundResources bound =
+      session.bind(list, Root::kCompute, library, made.root_signature, given, what.local);
   list.SetPipelineState1(pipeline);
   list.DispatchRays(desc);
-  session.execute(list);
+  return {std::move(list), std::move(bound), {start, miss, hit, callable}};
+}
+
+}  // namespace
+
+void dispatch_rays(Session& session, const Library& library, const RayDispatch& what,
+                   const Bindings& given) {
+  Recorded recorded = record(session, library, what, given);
+  session.execute(recorded.list, recorded.bound);
+}
+
+Explanation explain_rays(Session& session, const Library& library, const RayDispatch& what,
+                         std::array<uint32_t, 3> at, const Bindings& given) {
+  Recorded recorded = record(session, library, what, given);
+  if (!recorded.bound.undo.empty()) recorded.list.ResourceBarrier(recorded.bound.undo);
+  const py::gil_scoped_release released;
+  const rtapi::PixelExplanation found =
+      rtapi::ExplainPixel(session.queue(), recorded.list, {.X = at[0], .Y = at[1], .Z = at[2]})
+          .value();
+  return {rtapi::ToText(found), rtapi::ToJson(found)};
 }
 
 }  // namespace kaamos::python

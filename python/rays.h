@@ -47,7 +47,15 @@ struct RayDispatch {
   uint32_t recursion = 1;
   uint32_t size[3] = {1, 1, 1};
 };
-void dispatch_rays(Session& session, const Library& given_library, const RayDispatch& what,
+void dispatch_rays(Session& session, const Library& library, const RayDispatch& what,
                    const Bindings& given);
+
+struct Explanation {
+  std::string text;  // lines for a terminal
+  std::string json;
+};
+// Runs the dispatch, and explains one of its rays. [rtapi::ExplainPixel]
+Explanation explain_rays(Session& session, const Library& library, const RayDispatch& what,
+                         std::array<uint32_t, 3> at, const Bindings& given);
 
 }  // namespace kaamos::python

@@ -35,11 +35,41 @@ const char* view_text(const ShaderBindingInfo& binding) {
   return binding.RegisterClass == 'b' ? "CBV" : binding.RegisterClass == 'u' ? "UAV" : "SRV";
 }
 
-// The texture in a state that shaders of its binding can use it in. States decay between lists.
+// The state of a texture that shaders of its binding can use it in.
 rtapi::ResourceStates state_for(const ShaderBindingInfo& binding) {
   return binding.IsWritable ? rtapi::ResourceStates::kUnorderedAccess
-                            : rtapi::ResourceStates::kNonPixelShaderResource;
+                            : rtapi::ResourceStates::kAllShaderResource;
 }
+
+bool is_local(const ShaderBindingInfo& binding, const std::vector<std::string>& local) {
+  return std::find(local.begin(), local.end(), binding.Name) != local.end();
+}
+
+// Sets root arguments of compute shaders and rays, or of draws.
+struct RootArguments {
+  rtapi::CommandList& list;
+  bool graphics;
+
+  void signature(const rtapi::RootSignature& one) const {
+    graphics ? list.SetGraphicsRootSignature(one) : list.SetComputeRootSignature(one);
+  }
+  void table(uint32_t parameter, rtapi::GpuDescriptorHandle base) const {
+    graphics ? list.SetGraphicsRootDescriptorTable(parameter, base)
+             : list.SetComputeRootDescriptorTable(parameter, base);
+  }
+  void descriptor(uint32_t parameter, char register_class, rtapi::GpuVirtualAddress at) const {
+    if (register_class == 'b') {
+      graphics ? list.SetGraphicsRootConstantBufferView(parameter, at)
+               : list.SetComputeRootConstantBufferView(parameter, at);
+    } else if (register_class == 'u') {
+      graphics ? list.SetGraphicsRootUnorderedAccessView(parameter, at)
+               : list.SetComputeRootUnorderedAccessView(parameter, at);
+    } else {
+      graphics ? list.SetGraphicsRootShaderResourceView(parameter, at)
+               : list.SetComputeRootShaderResourceView(parameter, at);
+    }
+  }
+};
 
 std::string what_is(const Bound& bound) {
   constexpr const char* kNames[] = {"a Buffer", "a Texture", "an acceleration structure",
@@ -82,9 +112,12 @@ Library Session::compile(rtapi::ShaderCompileOptions options) const {
   return {compiled.Library, std::move(compiled.Reflection), options.File};
 }
 
-rtapi::RootSignature Session::root_signature(const Library& library) const {
+rtapi::RootSignature Session::root_signature(const Library& library,
+                                             const std::vector<std::string>& local) const {
+  if (local.empty() && library.made->root_signature) return *library.made->root_signature;
   std::string text;
   for (const ShaderBindingInfo& binding : library.reflection.Bindings) {
+    if (is_local(binding, local)) continue;
     const std::string place = register_text(binding);
     std::string one;
     if (binding.Count != 1) {
@@ -103,12 +136,14 @@ rtapi::RootSignature Session::root_signature(const Library& library) const {
     }
     text += (text.empty() ? "" : ", ") + one;
   }
-  return device_.CreateRootSignature(text).value();
+  auto made = device_.CreateRootSignature(text).value();
+  if (local.empty()) library.made->root_signature = made;
+  return made;
 }
 
-std::vector<rtapi::Resource> Session::bind(rtapi::CommandList& list, const Library& library,
-                                           const rtapi::RootSignature& signature,
-                                           const Bindings& given) {
+BoundResources Session::bind(rtapi::CommandList& list, Root root, const Library& library,
+                             const rtapi::RootSignature& signature, const Bindings& given,
+                             const std::vector<std::string>& local) {
   const auto& bindings = library.reflection.Bindings;
   for (const auto& [name, bound] : given) {
     const bool known = std::any_of(bindings.begin(), bindings.end(),
@@ -127,12 +162,13 @@ std::vector<rtapi::Resource> Session::bind(rtapi::CommandList& list, const Libra
                 .value();
     list.SetDescriptorHeaps({*heap_});
   }
-  list.SetComputeRootSignature(signature);
-  std::vector<rtapi::Resource> alive;
+  const RootArguments arguments = {list, root == Root::kGraphics};
+  arguments.signature(signature);
+  BoundResources out;
   uint32_t parameter = 0;
   uint32_t slot = 0;
   for (const ShaderBindingInfo& binding : bindings) {
-    if (is_sampler(binding)) continue;
+    if (is_sampler(binding) || is_local(binding, local)) continue;
     const auto found = given.find(binding.Name);
     if (found == given.end()) {
       throw py::type_error("the shader's '" + binding.Name + "' is not given");
@@ -149,8 +185,10 @@ std::vector<rtapi::Resource> Session::bind(rtapi::CommandList& list, const Libra
       }
       list.ResourceBarrier(rtapi::ResourceBarrier::Transition(
           texture->texture, rtapi::ResourceStates::kCommon, state_for(binding)));
-      list.SetComputeRootDescriptorTable(parameter++, heap_->GetGPUDescriptorHandle(slot++));
-      alive.emplace_back(texture->texture);
+      out.undo.push_back(rtapi::ResourceBarrier::Transition(texture->texture, state_for(binding),
+                                                            rtapi::ResourceStates::kCommon));
+      arguments.table(parameter++, heap_->GetGPUDescriptorHandle(slot++));
+      out.alive.emplace_back(texture->texture);
       continue;
     }
     rtapi::Buffer buffer;
@@ -177,32 +215,29 @@ std::vector<rtapi::Resource> Session::bind(rtapi::CommandList& list, const Libra
             buffer, rtapi::ResourceStates::kCommon, rtapi::ResourceStates::kUnorderedAccess));
       }
     }
-    const rtapi::GpuVirtualAddress address = buffer.GetGPUVirtualAddress();
-    if (binding.RegisterClass == 'b') {
-      list.SetComputeRootConstantBufferView(parameter++, address);
-    } else if (binding.RegisterClass == 'u') {
-      list.SetComputeRootUnorderedAccessView(parameter++, address);
-    } else {
-      list.SetComputeRootShaderResourceView(parameter++, address);
-    }
-    alive.emplace_back(buffer);
+    arguments.descriptor(parameter++, binding.RegisterClass, buffer.GetGPUVirtualAddress());
+    out.alive.emplace_back(buffer);
   }
-  return alive;
+  return out;
 }
 
 void Session::dispatch(const Library& library, const std::string& entry,
                        const uint32_t (&groups)[3], const Bindings& given) {
   const rtapi::RootSignature signature = root_signature(library);
-  const rtapi::PipelineState pipeline =
-      device_.CreateComputePipelineState({signature, library.library, entry, entry}).value();
+  rtapi::PipelineState& pipeline = library.made->pipelines[entry];
+  if (!pipeline) {
+    pipeline =
+        device_.CreateComputePipelineState({signature, library.library, entry, entry}).value();
+  }
   rtapi::CommandList list = device_.CreateCommandList().value();
-  const auto alive = bind(list, library, signature, given);
+  const BoundResources bound = bind(list, Root::kCompute, library, signature, given);
   list.SetPipelineState(pipeline);
   list.Dispatch(groups[0], groups[1], groups[2]);
-  execute(list);
+  execute(list, bound);
 }
 
-void Session::execute(const rtapi::CommandList& list) {
+void Session::execute(rtapi::CommandList& list, const BoundResources& bound) {
+  if (!bound.undo.empty()) list.ResourceBarrier(bound.undo);
   const py::gil_scoped_release released;
   queue_.ExecuteAndWait(list).value();
 }

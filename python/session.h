@@ -18,11 +18,26 @@
 
 namespace kaamos::python {
 
+// A pipeline of rays, and the root signature that it was made with.
+struct RayPipeline {
+  rtapi::RootSignature root_signature;
+  rtapi::StateObject state_object;
+};
+
+// What calls have made of a library so far, by all that they named, so that the next one with the
+// same names need not.
+struct MadePipelines {
+  std::optional<rtapi::RootSignature> root_signature;
+  std::map<std::string, rtapi::PipelineState> pipelines;
+  std::map<std::string, RayPipeline> of_rays;
+};
+
 // What was compiled, and where each of its resources is bound.
 struct Library {
   rtapi::ShaderLibrary library;
   rtapi::ShaderReflection reflection;
   std::string source_name;
+  std::shared_ptr<MadePipelines> made = std::make_shared<MadePipelines>();
 };
 
 // A bottom or top level, with what it was built from.
@@ -34,6 +49,14 @@ struct Structure {
 // What a call binds to a name: a resource, or the bytes of a constant buffer.
 using Bound = std::variant<ArrayBuffer, ArrayTexture, Structure, std::string>;
 using Bindings = std::map<std::string, Bound>;
+
+// What a list must leave alive and put back.
+struct BoundResources {
+  std::vector<rtapi::Resource> alive;
+  std::vector<rtapi::ResourceBarrier> undo;  // textures back to the common state
+};
+
+enum class Root { kCompute, kGraphics };
 
 struct Message {
   rtapi::MessageSeverity severity;
@@ -57,16 +80,19 @@ class Session {
   const DeviceOptions& options() const { return options_; }
 
   Library compile(rtapi::ShaderCompileOptions options) const;
-  // Root parameters for every resource of the library. Throws for what cannot be bound.
-  rtapi::RootSignature root_signature(const Library& library) const;
-  // Sets all of them on the list, from the resources of those names. Returns what must live until
-  // the list has run. Throws py::type_error for a name that the library lacks or that is not given.
-  std::vector<rtapi::Resource> bind(rtapi::CommandList& list, const Library& library,
-                                    const rtapi::RootSignature& signature, const Bindings& given);
+  // Root parameters for every resource of the library but those of local root signatures. Throws
+  // for what cannot be bound.
+  rtapi::RootSignature root_signature(const Library& library,
+                                      const std::vector<std::string>& local = {}) const;
+  // Sets all of them on the list, from the resources of those names. Throws py::type_error for a
+  // name that the library lacks or that is not given.
+  BoundResources bind(rtapi::CommandList& list, Root root, const Library& library,
+                      const rtapi::RootSignature& signature, const Bindings& given,
+                      const std::vector<std::string>& local = {});
   void dispatch(const Library& library, const std::string& entry, const uint32_t (&groups)[3],
                 const Bindings& given);
-  // Runs a list, without the GIL.
-  void execute(const rtapi::CommandList& list);
+  // Puts textures back and runs the list, without the GIL.
+  void execute(rtapi::CommandList& list, const BoundResources& bound);
   // What was said since the last call.
   std::vector<Message> take_messages();
 

@@ -22,8 +22,8 @@ import numpy as np
 from . import _kaamos
 from ._kaamos import Error, Library, __version__
 
-__all__ = ["Device", "Buffer", "Texture", "Instance", "AccelerationStructure", "Library", "Error",
-           "CheckError", "call", "__version__"]
+__all__ = ["Device", "Buffer", "Texture", "Instance", "AccelerationStructure", "Library", "Explanation", "Picture",
+           "FrameRenderer", "scenes", "frame_settings", "Error", "CheckError", "call", "__version__"]
 
 
 class CheckError(Error):
@@ -91,14 +91,50 @@ class Instance:
         self.flags = flags
 
 
+class Picture:
+    """An array as notebooks show it: (height, width) or (height, width, channels), of uint8, or of floats
+    from 0 to 1 that become sRGB. Two channels are red and green. `zoom`: each texel is so many pixels wide
+    and high."""
+
+    def __init__(self, array, zoom=1):
+        array = np.asarray(array)
+        if array.ndim not in (2, 3):
+            raise TypeError(f"a picture has the shape (height, width) or (height, width, channels), not {array.shape}")
+        self.array = array
+        self.zoom = zoom
+
+    def _repr_png_(self):
+        return _png(self.array.repeat(self.zoom, axis=0).repeat(self.zoom, axis=1))
+
+
+class Explanation:
+    """What one ray of a dispatch did: `text` for people, `tree` as dicts and lists. The members of the
+    tree are those of rtapi::PixelExplanation."""
+
+    def __init__(self, text, json):
+        self.text = text
+        self._json = json
+
+    @property
+    def tree(self):
+        """The shaders that ran, the rays that they traced, and each candidate along them."""
+        import json
+        return json.loads(self._json)
+
+    def __repr__(self):
+        return self.text
+
+
 def _png(array):
     """The bytes of a PNG of an array of floats (0 to 1, linear) or of uint8."""
     import zlib
     if array.ndim == 2:
         array = array[:, :, None]
     array = array[:, :, :3]
-    if array.shape[2] != 3:
-        array = np.repeat(array[:, :, :1], 3, axis=2)
+    if array.shape[2] == 1:
+        array = np.repeat(array, 3, axis=2)
+    if array.shape[2] == 2:
+        array = np.dstack([array, np.zeros_like(array[:, :, 0])])
     if array.dtype.kind == "f":
         linear = np.clip(np.nan_to_num(array.astype(np.float64)), 0, 1)
         curve = np.where(linear <= 0.0031308, 12.92 * linear,
@@ -143,6 +179,14 @@ def _three(size):
     if not 1 <= len(size) <= 3:
         raise TypeError("a size has one to three numbers")
     return size + (1,) * (3 - len(size))
+
+
+def _rays(ray_generation, size, miss, hit_groups, callable, groups, local, payload_bytes, attribute_bytes,
+          recursion):
+    made = [(name,) + tuple(shaders) + ("",) * (3 - len(shaders))
+            for name, shaders in (groups or {}).items()]
+    return _kaamos.RayDispatch(ray_generation, _records(miss), _records(hit_groups), _records(callable), made,
+                               list(local), payload_bytes, attribute_bytes, recursion, _three(size))
 
 
 def _records(records):
@@ -216,16 +260,41 @@ class Device:
         local root constants, None for a null record. `local` are the names in HLSL of what these
         constants are for, which is in a local root signature of the HLSL. `groups` defines hit groups that the HLSL does
         not: {"Name": ("ClosestHit", "AnyHit", "Intersection")}, shorter where there are fewer."""
-        made = [(name,) + tuple(shaders) + ("",) * (3 - len(shaders))
-                for name, shaders in (groups or {}).items()]
-        self._run(self._session.dispatch_rays, library, ray_generation, _records(miss),
-                  _records(hit_groups), _records(callable), made, list(local), payload_bytes, attribute_bytes,
-                  recursion, _three(size),
+        self._run(self._session.dispatch_rays, library,
+                  _rays(ray_generation, size, miss, hit_groups, callable, groups, local, payload_bytes,
+                        attribute_bytes, recursion),
+                  {name: _native(value) for name, value in resources.items()})
+
+    def explain_rays(self, library, ray_generation, size, at, miss=(), hit_groups=(), callable=(),
+                     groups=None, local=(), payload_bytes=64, attribute_bytes=8, recursion=1,
+                     **resources):
+        """Runs the same dispatch, and explains the ray at the index `at` (up to three numbers): which
+        shaders ran, what their rays met, and why each candidate was taken or not."""
+        at = tuple(at) if np.ndim(at) else (at,)
+        at += (0,) * (3 - len(at))
+        return Explanation(*self._run(
+            self._session.explain_rays, library,
+            _rays(ray_generation, size, miss, hit_groups, callable, groups, local, payload_bytes,
+                  attribute_bytes, recursion),
+            at, {name: _native(value) for name, value in resources.items()}))
+
+    def draw(self, library, vertex, pixel, vertices, targets, instances=1, topology="triangles",
+             clear=None, depth=False, cull="none", blend="none", wireframe=False, **resources):
+        """Draws `vertices` vertices into one Texture or several of one size, and waits. The vertex
+        shader reads what it needs by SV_VertexID from buffers. `topology`: "triangles", "triangle
+        strip", "lines", "line strip" or "points"; `clear`: four numbers that the targets begin with,
+        None keeps what is there; `depth`: the nearer wins, by a depth buffer of this draw alone;
+        `cull`: "none", "back" or "front"; `blend`: "none", "alpha" or "add". Raises Error, TypeError,
+        ValueError for words that there are not."""
+        targets = [targets] if isinstance(targets, Texture) else list(targets)
+        what = _kaamos.Draw(vertex, pixel or "", vertices, instances, topology, cull, blend, wireframe,
+                            [float(one) for one in clear] if clear is not None else [], depth)
+        self._run(self._session.draw, library, what, [one._native for one in targets],
                   {name: _native(value) for name, value in resources.items()})
 
     def _run(self, function, *arguments):
         try:
-            function(*arguments)
+            result = function(*arguments)
         finally:
             messages = self._session.take_messages()
             for _, id, text in messages:
@@ -236,6 +305,8 @@ class Device:
                 error = CheckError(text)
                 error.id = id
                 raise error
+        return result
 
 
 from .call import call  # noqa: E402  (needs Device)
+from .frame import FrameRenderer, frame_settings, scenes  # noqa: E402  (needs Device)

@@ -86,6 +86,17 @@ class Package(unittest.TestCase):
         np.testing.assert_allclose(image.numpy()[~edge], expected[~edge], atol=1e-6)
         self.assertTrue(image._repr_png_().startswith(b"\x89PNG"))
 
+    def test_pictures_are_arrays(self):
+        import struct
+
+        def size(picture):
+            return struct.unpack(">II", picture._repr_png_()[16:24])
+
+        self.assertEqual(size(kaamos.Picture(np.zeros((2, 3)), zoom=4)), (12, 8))
+        self.assertEqual(size(kaamos.Picture(np.zeros((2, 3, 2), np.uint8))), (3, 2))
+        with self.assertRaisesRegex(TypeError, "shape"):
+            kaamos.Picture(np.zeros(3))
+
     def test_vulkan_gives_the_same(self):
         try:
             device = kaamos.Device("vulkan")
@@ -137,6 +148,122 @@ class Package(unittest.TestCase):
         many = np.arange(70000, dtype=np.uint32)
         np.testing.assert_array_equal(
             kaamos.call("s", "uint s(uint a) { return a * a; }", many, device=self.device), many * many)
+
+    def test_rays_are_explained(self):
+        device = self.device
+        triangle = device.bottom_level(np.array([[-1, -1, 5], [1, -1, 5], [-1, 1, 5]], np.float32),
+                                       np.array([[0, 1, 2]], np.uint32))
+        scene = device.top_level([kaamos.Instance(triangle, mask=0xFE), kaamos.Instance(triangle, id=3)])
+        image = device.texture(np.zeros((4, 4, 4), np.float32))
+        library = device.compile(SCENE)
+        found = device.explain_rays(library, "Camera", (4, 4), (0, 1), miss=["Sky"], hit_groups=["Triangle"],
+                                    groups={"Triangle": ("Hit",)}, scene=scene, image=image)
+        self.assertIn("Hit", found.text)
+        self.assertEqual(str(found.tree["index"]), "[0, 1, 0]")
+        ray = found.tree["ray_generation"][0]["calls"][0]
+        self.assertEqual(len(ray["candidates"]), 2)
+        self.assertAlmostEqual(image.numpy()[1, 0, 0], 0.5)  # it ran
+
+    def draw(self, device, **options):
+        library = device.compile("""
+            StructuredBuffer<float4> corners; cbuffer C { float4 color; };
+            [shader("vertex")] float4 Corner(uint i : SV_VertexID) : SV_Position { return corners[i]; }
+            [shader("pixel")] float4 Color() : SV_Target { return color; }""")
+        target = device.texture(np.zeros((8, 8, 4), np.float32))
+        corners = np.array([[-1, 1, 0.5, 1], [1, 1, 0.5, 1], [-1, -1, 0.5, 1]], np.float32)
+        for color in ((1, 0, 0, 0.5), (0, 1, 0, 0.5)):
+            device.draw(library, "Corner", "Color", 3, target, corners=device.buffer(corners),
+                        C=np.array(color, np.float32), **options)
+        return target.numpy()
+
+    def test_draws(self):
+        y, x = np.mgrid[0:8, 0:8]
+        inside = x + y < 7
+        plain = self.draw(self.device)
+        np.testing.assert_array_equal(plain[inside], np.tile([0, 1, 0, 0.5], (28, 1)))
+        self.assertFalse(plain[~inside].any())
+        # The clear of the second draw; the depth of each draw is its own.
+        cleared = self.draw(self.device, clear=(0, 0, 1, 1), depth=True)
+        np.testing.assert_array_equal(cleared[inside][0], [0, 1, 0, 0.5])
+        np.testing.assert_array_equal(cleared[7, 7], [0, 0, 1, 1])
+        blended = self.draw(self.device, blend="alpha")
+        np.testing.assert_array_equal(blended[0, 0, :3], [0.25, 0.5, 0])
+        self.assertFalse(self.draw(self.device, cull="front").any())
+        self.assertEqual(np.count_nonzero(self.draw(self.device, wireframe=True)[1:6, 1:6, 1]), 4)  # one edge
+        self.assertFalse(self.draw(self.device, topology="points")[1:, 1:7].any())
+        with self.assertRaisesRegex(ValueError, "'triangles', 'triangle strip'"):
+            self.draw(self.device, topology="fans")
+
+    def test_frames_have_layers(self):
+        lines = []
+        frame = kaamos.FrameRenderer(kaamos.Device(), "lounge", 48, 32, effects="ao", settings={"ao-radius": 0.5})
+        frame.render(lambda what, done: lines.append((what, done)))
+        self.assertTrue(all(0 <= done <= 1 for _, done in lines))
+        self.assertIn("ao", frame.layers)
+        ao = frame.layer("ao")
+        self.assertEqual((ao.dtype, ao.shape[:2]), (np.float32, (32, 48)))
+        self.assertTrue(0.1 < ao.mean() < 1)
+        again = kaamos.FrameRenderer(kaamos.Device(threads=1), "lounge", 48, 32, effects="ao",
+                                     settings={"ao-radius": 0.5})
+        np.testing.assert_array_equal(again.layer("ao"), ao)
+        wider = kaamos.FrameRenderer(kaamos.Device(), "lounge", 48, 32, effects="ao", settings={"ao-radius": 5})
+        self.assertLess(wider.layer("ao").mean(), ao.mean())
+        self.assertTrue(frame._repr_png_().startswith(b"\x89PNG"))
+        self.assertIn("lounge", kaamos.scenes())
+        self.assertIn("ao-radius", [one["name"] for one in kaamos.frame_settings()])
+        with self.assertRaises(kaamos.Error) as caught:
+            kaamos.FrameRenderer(kaamos.Device(), effects="none such")
+        self.assertEqual(caught.exception.id, "KA3046")
+        with self.assertRaisesRegex(kaamos.Error, "KA3049"):
+            kaamos.FrameRenderer(kaamos.Device(), settings={"ao-radios": 1})
+
+    def test_progress_may_stop_a_frame(self):
+        frame = kaamos.FrameRenderer(kaamos.Device(), "lounge", 48, 32, effects="ao")
+
+        def stop(what, done):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            frame.render(stop)
+        self.assertEqual(frame.layer("ao").shape[:2], (32, 48))  # and it goes on
+
+    def test_pipelines_are_made_once(self):
+        library = self.device.compile("""RWStructuredBuffer<uint> a;
+            [shader("compute")] [numthreads(1,1,1)] void f() { a[0] += 1; }""")
+        a = self.device.buffer(np.zeros(1, np.uint32))
+        for _ in range(3):
+            self.device.dispatch(library, "f", 1, a=a)
+        self.assertEqual(a.numpy()[0], 3)
+
+    def test_stubs_say_what_there_is(self):
+        import ast
+        import inspect
+        with open(os.path.join(os.path.dirname(kaamos.__file__), "__init__.pyi")) as file:
+            stubs = ast.parse(file.read())
+        named = {node.name: node for node in stubs.body if hasattr(node, "name")}
+        for name in kaamos.__all__:
+            if name == "__version__":
+                continue
+            self.assertIn(name, named)
+            thing, stub = getattr(kaamos, name), named[name]
+            if not inspect.isclass(thing):
+                self.check_arguments(thing, stub)
+                continue
+            stubbed = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+            for member, function in vars(thing).items():
+                if member.startswith("_") and member != "__init__" or name in ("Error", "CheckError", "Library"):
+                    continue
+                if inspect.isfunction(function) and name != "Explanation" and member in stubbed:
+                    self.check_arguments(function, stubbed[member])
+                elif not member.startswith("_"):
+                    self.assertIn(member, stubbed, name)
+
+    def check_arguments(self, function, stub):
+        import inspect
+        arguments = stub.args
+        names = [one.arg for one in arguments.args] + [one.arg for one in arguments.kwonlyargs]
+        names += [one.arg for one in (arguments.vararg, arguments.kwarg) if one]
+        self.assertCountEqual(names, list(inspect.signature(function).parameters))
 
     def test_mistakes_are_explained(self):
         with self.assertRaisesRegex(kaamos.Error, "undeclared") as caught:
