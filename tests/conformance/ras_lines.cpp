@@ -262,6 +262,29 @@ void multisampled_lines_are_rectangles(Context& t) {
   t.equal("in the middle of a row", screen.texel<float>(20, 40), 1.0f);
 }
 
+void weights_of_lines_and_points(Context& t) {
+  Screen screen(t, {Format::kR32G32B32A32Float}, Format::kUnknown, kSide);
+  screen.library = kaamos_shaders_ras_lines();
+  const GraphicsPipelineStateDesc desc =
+      described(screen, PrimitiveTopologyType::kLine, "Weights");
+  if (t.target().backend == "vulkan") {
+    // The stage that stands in for what lavapipe lacks takes triangles.
+    return t.refused("lines", t.device().CreateGraphicsPipelineState(desc), "KA0967");
+  }
+  draw(screen, PrimitiveTopology::kLineList, screen.make(desc),
+       {screen.at(8, 30.5f), screen.at(40, 30.5f)});
+  const float expected[] = {0.625f - 0.5f / 32, 0.375f + 0.5f / 32, 0};
+  for (uint32_t c = 0; c < 3; ++c) {
+    t.close("weight " + std::to_string(c), screen.texel<float>(20, 30, c), expected[c], 1e-5f);
+  }
+  draw(screen, PrimitiveTopology::kPointList,
+       screen.make(described(screen, PrimitiveTopologyType::kPoint, "Weights")),
+       {screen.at(20.5f, 30.5f)});
+  const float sum = screen.texel<float>(20, 30, 0) + screen.texel<float>(20, 30, 1) +
+                    screen.texel<float>(20, 30, 2);
+  t.close("a point's weights together", sum, 1, 1e-6f);
+}
+
 void lines_are_not_biased(Context& t) {
   Screen screen(t, {Format::kR32Float}, Format::kD32Float, kSide);
   for (const bool triangle : {false, true}) {
@@ -369,6 +392,7 @@ std::vector<RuleTest> ras_line_tests() {
           {"RAS-57", multisampled_lines_are_rectangles},
           ras_multisample_lines_test(),
           {"RAS-57, RAS-68", lines_are_not_biased},
+          {"RAS-57, RAS-72", weights_of_lines_and_points},
           {"RAS-159", wireframes_are_edges},
           {"RAS-159", edges_face_as_triangles},
           {"RAS-159", cut_triangles_have_their_own_edges}};

@@ -2,6 +2,11 @@
 // Shaders of the rules of lines and points, and of blending two sources.
 #include "ras.hlsli"
 
+[shader("pixel")]
+float4 Weights(float3 weights : SV_Barycentrics) : SV_Target0 {
+  return float4(weights, 1.0);
+}
+
 // All bits, if a number is asked for.
 [shader("pixel")]
 uint4 FrontAsNumber(uint front : SV_IsFrontFace) : SV_Target0 {

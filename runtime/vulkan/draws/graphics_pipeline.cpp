@@ -113,6 +113,14 @@ rtapi::Status GraphicsPipeline::start() {
                                      "\" reads SV_Barycentrics or calls GetAttributeAtVertex, and "
                                      "workaround BARY is off.");
     }
+    // The stage that hands them on takes triangles.
+    if (linked_->topology != rtapi::PrimitiveTopologyType::kTriangle) {
+      return runtime::make_error(runtime::Id::kNoBarycentrics,
+                                 "pixel shader \"" + linked_->pixel.name + "\" of \"" +
+                                     linked_->name +
+                                     "\" reads SV_Barycentrics or calls GetAttributeAtVertex, and "
+                                     "draws points or lines.");
+    }
     if (!attributes.empty() && attributes.back().location >= kLocationCount) {
       return runtime::make_error(
           runtime::Id::kNoBarycentrics,
