@@ -69,6 +69,8 @@ function(kaamos_write_fstream_header folder)
   string(REPLACE "_M_filebuf.open(__s, __mode | ios_base::in)"
     "_M_filebuf.open(kaamos_input_path(__s), __mode | ios_base::in)" text "${text}")
   string(REPLACE "_M_filebuf.open(__s," "_M_filebuf.open(kaamos_stream_path(__s)," text "${text}")
+  string(REPLACE "decltype(std::declval<_Path&>().make_preferred().filename())"
+    "decltype(kaamos_path_type(std::declval<_Path&>()))" text "${text}")
   # Inlined: the library has the code of the class as it was, and none for wide paths.
   foreach(name IN ITEMS open basic_ifstream basic_ofstream basic_fstream)
     foreach(path IN ITEMS "const char[*]" "const wchar_t[*]" "const std::string&")

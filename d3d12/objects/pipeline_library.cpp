@@ -40,7 +40,11 @@ HRESULT PipelineLibrary::load(LPCWSTR name, const Identity& identity, REFIID rii
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(to_utf8(name));
   if (found == entries_.end()) {
-    return fail(ErrorId::kCachedPipeline, "the library has no pipeline \"" + to_utf8(name) + "\".");
+    // No error: programs ask first, and make and store what is not there.
+    const rtapi::Error error = make_error(ErrorId::kCachedPipeline,
+                                          "the library has no pipeline \"" + to_utf8(name) + "\".");
+    reporter().report(D3D12_MESSAGE_SEVERITY_WARNING, error);
+    return to_hresult(error.code);
   }
   Entry& entry = found->second;
   if (entry.identity != identity) {

@@ -257,7 +257,11 @@ TEST_F(PipelineLibraryTest, NoBytesAreAnEmptyLibrary) {
   ComPtr<ID3D12PipelineLibrary> library;
   const char byte = 0;
   ASSERT_EQ(device_->CreatePipelineLibrary(&byte, 0, IID_PPV_ARGS(library.GetAddressOf())), S_OK);
+  ComPtr<ID3D12PipelineState> none;
+  EXPECT_EQ(load(library.Get(), L"c", compute_desc(), none), E_INVALIDARG);
+  EXPECT_TRUE(messages().empty());
   EXPECT_EQ(library->StorePipeline(L"c", compute().Get()), S_OK);
+  EXPECT_EQ(load(library.Get(), L"c", compute_desc(), none), S_OK);
   EXPECT_EQ(device_->CreatePipelineLibrary(nullptr, 1, IID_PPV_ARGS(library.GetAddressOf())),
             E_INVALIDARG);
 }

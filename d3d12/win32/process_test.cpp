@@ -29,6 +29,39 @@ TEST(Thread, ItsHandleIsSetWhenItHasEnded) {
   for (HANDLE thread : threads) EXPECT_TRUE(CloseHandle(thread));
 }
 
+// The type that DWORD has on Windows.
+unsigned long WINAPI start_of_windows(void* seen) {
+  *static_cast<bool*>(seen) = true;
+  return 0;
+}
+
+TEST(Thread, MayStartInAFunctionOfUnsignedLong) {
+  bool seen = false;
+  const HANDLE thread = CreateThread(nullptr, 0, start_of_windows, &seen, 0, nullptr);
+  ASSERT_NE(thread, nullptr);
+  EXPECT_EQ(WaitForSingleObject(thread, INFINITE), WAIT_OBJECT_0);
+  EXPECT_TRUE(seen);
+  EXPECT_TRUE(CloseHandle(thread));
+}
+
+TEST(Process, LocallyUniqueIdsDiffer) {
+  LUID first = {}, second = {};
+  ASSERT_TRUE(AllocateLocallyUniqueId(&first));
+  ASSERT_TRUE(AllocateLocallyUniqueId(&second));
+  EXPECT_FALSE(first.LowPart == second.LowPart && first.HighPart == second.HighPart);
+}
+
+struct Listed {
+  int number;
+  LIST_ENTRY entry;
+};
+
+TEST(ListEntry, IsFoundInWhatContainsIt) {
+  Listed listed = {7, {}};
+  listed.entry.Flink = listed.entry.Blink = &listed.entry;
+  EXPECT_EQ(CONTAINING_RECORD(listed.entry.Flink, Listed, entry)->number, 7);
+}
+
 TEST(Thread, OneThatIsSuspendedWaitsForResumeThread) {
   const Quiet quiet;
   LONG value = 0;

@@ -180,7 +180,7 @@ int give_title(std::basic_string<C> title, C* text, int count) {
 
 int show_message(const std::string& text, const std::string& caption, UINT type) {
   std::fprintf(stderr, "%s: %s\n", caption.c_str(), text.c_str());
-  if ((type & 0xF0) == MB_ICONERROR) print_not_found();
+  print_not_found();  // most boxes of programs tell of a failure
   const UINT buttons = type & 0xF;
   return buttons == MB_YESNO || buttons == MB_YESNOCANCEL ? IDYES : IDOK;
 }

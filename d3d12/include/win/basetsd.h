@@ -27,3 +27,11 @@ typedef uintptr_t ULONG_PTR, *PULONG_PTR;
 typedef uintptr_t DWORD_PTR, *PDWORD_PTR;
 typedef size_t SIZE_T, *PSIZE_T;
 typedef ptrdiff_t SSIZE_T, *PSSIZE_T;
+
+#define MAXUINT8 ((UINT8) ~((UINT8)0))
+#define MAXUINT16 ((UINT16) ~((UINT16)0))
+#define MAXUINT32 ((UINT32) ~((UINT32)0))
+#define MAXUINT64 ((UINT64) ~((UINT64)0))
+#define MAXINT32 ((INT32)(MAXUINT32 >> 1))
+#define MAXINT64 ((INT64)(MAXUINT64 >> 1))
+#define MAXSIZE_T ((SIZE_T) ~((SIZE_T)0))

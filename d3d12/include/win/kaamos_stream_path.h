@@ -24,6 +24,12 @@ inline const char* kaamos_stream_path(const wchar_t* path) {
 inline const char* kaamos_stream_path(const std::string& path) {
   return kaamos_stream_path_narrow(path.c_str());
 }
+/// The type of a path that a stream takes besides text: std::filesystem::path, and std::wstring.
+///@{
+template <class Path>
+auto kaamos_path_type(Path& path) -> decltype(path.make_preferred().filename());
+std::wstring kaamos_path_type(std::wstring& path);
+///@}
 template <class Path>
 const char* kaamos_input_path(const Path& path) {
   return kaamos_input_path_of(kaamos_stream_path(path));

@@ -17,6 +17,15 @@ typedef DWORD(WINAPI* LPTHREAD_START_ROUTINE)(LPVOID);
 EXTERN_C HANDLE WINAPI CreateThread(LPSECURITY_ATTRIBUTES attributes, SIZE_T stack_size,
                                     LPTHREAD_START_ROUTINE start, LPVOID parameter, DWORD flags,
                                     LPDWORD id);
+#ifdef __cplusplus
+/// As Windows' DWORD is `unsigned long`, which is wider here.
+inline HANDLE CreateThread(LPSECURITY_ATTRIBUTES attributes, SIZE_T stack_size,
+                           unsigned long(WINAPI* start)(LPVOID), LPVOID parameter, DWORD flags,
+                           LPDWORD id) {
+  return CreateThread(attributes, stack_size, (LPTHREAD_START_ROUTINE)(void*)start, parameter,
+                      flags, id);
+}
+#endif
 /// Starts a thread that was made with CREATE_SUSPENDED. Returns 1, 0 if it runs already, or
 /// (DWORD)-1 for a handle of no thread.
 EXTERN_C DWORD WINAPI ResumeThread(HANDLE thread);

@@ -5,6 +5,8 @@
 
 #include <kaamos_text.h>
 #include <stdlib.h>
+#include <string.h>
+#include <wchar.h>
 #include <winerror.h>
 
 /// The program's entry point, called by main of kaamos::d3d12_main. `instance` is
@@ -50,6 +52,13 @@ EXTERN_C int WINAPI MultiByteToWideChar(UINT code_page, DWORD flags, LPCSTR text
 EXTERN_C int WINAPI WideCharToMultiByte(UINT code_page, DWORD flags, LPCWSTR wide, int wide_size,
                                         LPSTR text, int size, LPCSTR fallback, LPBOOL used);
 ///@}
+inline int lstrlenA(LPCSTR text) {
+  return text == NULL ? 0 : (int)strlen(text);
+}
+inline int lstrlenW(LPCWSTR text) {
+  return text == NULL ? 0 : (int)wcslen(text);
+}
+KAAMOS_TEXT_CALL(lstrlen);
 inline int MulDiv(int a, int b, int c) {
   return c == 0 ? -1 : (int)(((int64_t)a * b + c / 2) / c);
 }

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Interlocked calls, and locks that Win32 has. [Win32: winnt.h, synchapi.h]
+// Interlocked calls, and the locks and links that Win32 has. [Win32: winnt.h, synchapi.h]
 #pragma once
 
 #include <minwindef.h>
 #include <pthread.h>
+
+typedef struct _LIST_ENTRY {
+  struct _LIST_ENTRY* Flink;
+  struct _LIST_ENTRY* Blink;
+} LIST_ENTRY, *PLIST_ENTRY;
+#define CONTAINING_RECORD(address, type, field) \
+  ((type*)((PCHAR)(address) - (ULONG_PTR)(&((type*)0)->field)))
 
 inline LONG InterlockedIncrement(volatile LONG* p) {
   return __sync_add_and_fetch(p, 1);

@@ -325,6 +325,8 @@ typedef DWORD COLORREF;
 #define RGB(r, g, b) ((COLORREF)((r) | ((g) << 8) | ((b) << 16)))
 #define WHITE_BRUSH 0
 #define BLACK_BRUSH 4
+#define NULL_BRUSH 5
+#define HOLLOW_BRUSH NULL_BRUSH
 inline HGDIOBJ GetStockObject(int index) {
   return (HGDIOBJ)(LONG_PTR)(index + 1);
 }

@@ -88,7 +88,7 @@ bool ReadWhole(const std::wstring& name, std::vector<byte>& bytes) {
 // Streams take wide paths, and backslashes.
 bool Streams(const std::wstring& folder) {
   std::ofstream((folder + L"words.txt").c_str()) << "wide";
-  std::ifstream wide((folder + L"words.txt").c_str());
+  std::ifstream wide(folder + L"words.txt");
   std::string text, again;
   wide >> text;
   std::ifstream narrow(".\\none\\..\\words.txt");
