@@ -265,8 +265,7 @@ void multisampled_lines_are_rectangles(Context& t) {
 void weights_of_lines_and_points(Context& t) {
   Screen screen(t, {Format::kR32G32B32A32Float}, Format::kUnknown, kSide);
   screen.library = kaamos_shaders_ras_lines();
-  const GraphicsPipelineStateDesc desc =
-      described(screen, PrimitiveTopologyType::kLine, "Weights");
+  const GraphicsPipelineStateDesc desc = described(screen, PrimitiveTopologyType::kLine, "Weights");
   if (t.target().backend == "vulkan") {
     // The stage that stands in for what lavapipe lacks takes triangles.
     return t.refused("lines", t.device().CreateGraphicsPipelineState(desc), "KA0967");
