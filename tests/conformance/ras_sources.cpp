@@ -73,6 +73,8 @@ void two_sources_have_one_target(Context& t) {
   desc.BlendState.RenderTarget[0].BlendEnable = true;
   desc.BlendState.RenderTarget[0].SrcBlend = Blend::kSrc1Color;
   t.refused("a second target", t.device().CreateGraphicsPipelineState(desc), "KA0720");
+  desc.RTVFormats = {Format::kR32G32B32A32Float, Format::kUnknown, Format::kR32G32B32A32Float};
+  t.accepted("a target that is not written", t.device().CreateGraphicsPipelineState(desc));
   desc.RTVFormats.resize(1);
   t.accepted("one target", t.device().CreateGraphicsPipelineState(desc));
   desc.BlendState.RenderTarget[0].SrcBlend = Blend::kOne;

@@ -177,7 +177,7 @@ enum class Blend : uint32_t {
   kSrcAlphaSat = 11,
   kBlendFactor = 14,
   kInvBlendFactor = 15,
-  /// Of SV_Target1, the second source of render target 0; there may be no other target (KA0720).
+  /// Of SV_Target1, the second source of render target 0; the shader writes no other (KA0720).
   ///@{
   kSrc1Color = 16,
   kInvSrc1Color = 17,

@@ -369,6 +369,14 @@ Status link_targets(const DeviceImpl& device, LinkedGraphics& linked) {
                      ", but RTVFormats has no target in that slot: the output is dropped"));
       continue;
     }
+    // The second source is in the place of another target's colour. [D3D11.3: 17.6]
+    if (linked.blends_two_sources && slot != 0) {
+      return make_error(Id::kGraphicsDesc,
+                        "blending reads SV_Target1 as a second source, and pixel shader ",
+                        in_quotes(linked.pixel.name), " writes ", describe(e), " to RTVFormats[",
+                        slot, "], which is DXGI format ", static_cast<uint32_t>(format),
+                        "; it may write no target but RTVFormats[0]");
+    }
     if (Status s = check_joined(device, linked, slot); !s.ok()) return s;
     if (column_type_of(format) != e.type) {
       device.report(

@@ -110,22 +110,6 @@ Status check_logic_op(const GraphicsPipelineStateDesc& desc, const RenderTargetB
                     "; it must be 0 to 15");
 }
 
-// The second source is in the place of another target's colour. [D3D11.3: 17.6]
-Status check_second_source(const GraphicsPipelineStateDesc& desc, LinkedGraphics& linked) {
-  for (uint32_t i = 0; i < linked.target_count; ++i) {
-    if (!reads_second_source(linked.blend[i])) continue;
-    for (uint32_t slot = 1; slot < linked.target_count; ++slot) {
-      if (desc.RTVFormats[slot] == Format::kUnknown) continue;
-      return make_error(Id::kGraphicsDesc, "RenderTarget[", i,
-                        "] blends with SV_Target1, and RTVFormats[", slot, "] is DXGI format ",
-                        static_cast<uint32_t>(desc.RTVFormats[slot]),
-                        "; there may be no target but RTVFormats[0]");
-    }
-    linked.blends_two_sources = true;
-  }
-  return {};
-}
-
 Status check_blend(const RenderTargetBlendDesc& desc, const std::string& where) {
   if (static_cast<uint32_t>(desc.RenderTargetWriteMask) > 15) {
     return make_error(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
@@ -188,13 +172,13 @@ Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
     if (Status s = check_blend(linked.blend[i], where); !s.ok()) return s;
     const Format format = desc.RTVFormats[i];
     linked.target_formats[i] = format;
+    linked.blends_two_sources = linked.blends_two_sources || reads_second_source(linked.blend[i]);
     if (format == Format::kUnknown) continue;
     if (!device.backend->supports_target(format, false)) {
       return make_error(Id::kTargetFormat, "RTVFormats[", i, "] is DXGI format ",
                         static_cast<uint32_t>(format), ", which this backend cannot draw to");
     }
   }
-  if (Status s = check_second_source(desc, linked); !s.ok()) return s;
   linked.depth_format = desc.DSVFormat;
   if (desc.DSVFormat != Format::kUnknown &&
       (!IsDepthFormat(desc.DSVFormat) || !device.backend->supports_target(desc.DSVFormat, false))) {
