@@ -75,6 +75,11 @@ void two_sources_have_one_target(Context& t) {
   t.refused("a second target", t.device().CreateGraphicsPipelineState(desc), "KA0720");
   desc.RTVFormats = {Format::kR32G32B32A32Float, Format::kUnknown, Format::kR32G32B32A32Float};
   t.accepted("a target that is not written", t.device().CreateGraphicsPipelineState(desc));
+  desc.BlendState.IndependentBlendEnable = true;
+  t.accepted("independent", t.device().CreateGraphicsPipelineState(desc));
+  desc.BlendState.RenderTarget[2].BlendEnable = true;
+  t.refused("another one blends", t.device().CreateGraphicsPipelineState(desc), "KA0720");
+  desc.BlendState.IndependentBlendEnable = false;
   desc.RTVFormats.resize(1);
   t.accepted("one target", t.device().CreateGraphicsPipelineState(desc));
   desc.BlendState.RenderTarget[0].SrcBlend = Blend::kOne;

@@ -110,6 +110,19 @@ Status check_logic_op(const GraphicsPipelineStateDesc& desc, const RenderTargetB
                     "; it must be 0 to 15");
 }
 
+// Only target 0 is blended with a second source, and nothing is blended beside it, not even where
+// there is no target. [D3D11.3: 17.6]
+Status check_second_source(const BlendDesc& desc, const LinkedGraphics& linked) {
+  if (!linked.blends_two_sources || !desc.IndependentBlendEnable) return {};
+  for (uint32_t i = 1; i < kSimultaneousRenderTargetCount; ++i) {
+    if (!desc.RenderTarget[i].BlendEnable) continue;
+    return make_error(Id::kGraphicsDesc, "RenderTarget[", i,
+                      "] has BlendEnable, and another one blends with SV_Target1; only "
+                      "RenderTarget[0] may blend then");
+  }
+  return {};
+}
+
 Status check_blend(const RenderTargetBlendDesc& desc, const std::string& where) {
   if (static_cast<uint32_t>(desc.RenderTargetWriteMask) > 15) {
     return make_error(Id::kGraphicsDesc, where, ".RenderTargetWriteMask is ",
@@ -179,6 +192,7 @@ Status take_targets(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
                         static_cast<uint32_t>(format), ", which this backend cannot draw to");
     }
   }
+  if (Status s = check_second_source(desc.BlendState, linked); !s.ok()) return s;
   linked.depth_format = desc.DSVFormat;
   if (desc.DSVFormat != Format::kUnknown &&
       (!IsDepthFormat(desc.DSVFormat) || !device.backend->supports_target(desc.DSVFormat, false))) {
