@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "d3d12/com/object.h"
+#include "d3d12/objects/removed_data.h"
 
 namespace kaamos::d3d12 {
 
@@ -34,6 +35,7 @@ bool debug_layer_enabled() {
 }
 
 HRESULT get_debug_interface(REFIID riid, void** debug) {
+  if (is_removed_data_settings(riid)) return get_removed_data_settings(riid, debug);
   if (debug != nullptr) *debug = nullptr;
   return hand_out(new Debug, riid, debug);
 }

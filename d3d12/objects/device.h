@@ -8,13 +8,14 @@
 #include "d3d12/com/report.h"
 #include "d3d12/objects/info_queue.h"
 #include "d3d12/objects/live_objects.h"
+#include "d3d12/objects/removed_data.h"
 #include "d3d12/objects/shader_identifiers.h"
 
 namespace kaamos::d3d12 {
 
 /// A device. Its methods are in device.cpp, device_resources.cpp, device_views.cpp,
 /// device_pipelines.cpp and device_features.cpp. Thread-safe, as rtapi::Device is.
-class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDevice> {
+class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDevice, RemovedData> {
  public:
   /// `debug`: whether the debug layer is on, whose interfaces are hidden otherwise.
   /// `reporter`: that of the messages of `device`.
@@ -24,6 +25,7 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   LiveObjects& live_objects() { return live_objects_; }
   ShaderIdentifiers& shader_identifiers() { return shader_identifiers_; }
   Reporter& reporter() const override { return *reporter_; }
+  HRESULT removed_reason() override { return GetDeviceRemovedReason(); }
 
   // Queues, lists, fences
   HRESULT STDMETHODCALLTYPE CreateCommandQueue(const D3D12_COMMAND_QUEUE_DESC* desc, REFIID riid,

@@ -351,6 +351,30 @@ TEST_F(DeviceCalls, ARemovedDeviceSaysSo) {
   EXPECT_EQ(device_->GetDeviceRemovedReason(), DXGI_ERROR_DEVICE_REMOVED);
 }
 
+// [D3D12: ID3D12DeviceRemovedExtendedData]
+TEST_F(DeviceCalls, RemovedDataIsThereOnceTheDeviceIsRemoved) {
+  ComPtr<ID3D12DeviceRemovedExtendedDataSettings1> settings;
+  ASSERT_EQ(D3D12GetDebugInterface(IID_PPV_ARGS(settings.GetAddressOf())), S_OK);
+  settings->SetAutoBreadcrumbsEnablement(D3D12_DRED_ENABLEMENT_FORCED_ON);
+  ComPtr<ID3D12Device5> asked;
+  ASSERT_EQ(D3D12CreateDevice(nullptr, D3D_FEATURE_LEVEL_12_0, IID_PPV_ARGS(asked.GetAddressOf())),
+            S_OK);
+  settings->SetAutoBreadcrumbsEnablement(D3D12_DRED_ENABLEMENT_SYSTEM_CONTROLLED);
+  ComPtr<ID3D12DeviceRemovedExtendedData2> data;
+  ASSERT_EQ(asked.As(&data), S_OK);
+  D3D12_DRED_AUTO_BREADCRUMBS_OUTPUT breadcrumbs = {};
+  EXPECT_EQ(data->GetAutoBreadcrumbsOutput(&breadcrumbs), DXGI_ERROR_NOT_CURRENTLY_AVAILABLE);
+  EXPECT_EQ(data->GetDeviceState(), D3D12_DRED_DEVICE_STATE_UNKNOWN);
+  asked->RemoveDevice();
+  breadcrumbs.pHeadAutoBreadcrumbNode = reinterpret_cast<D3D12_AUTO_BREADCRUMB_NODE*>(1);
+  EXPECT_EQ(data->GetAutoBreadcrumbsOutput(&breadcrumbs), S_OK);
+  EXPECT_EQ(breadcrumbs.pHeadAutoBreadcrumbNode, nullptr);
+  D3D12_DRED_PAGE_FAULT_OUTPUT fault = {};
+  EXPECT_EQ(data->GetPageFaultAllocationOutput(&fault), DXGI_ERROR_UNSUPPORTED);
+  EXPECT_EQ(data->GetPageFaultAllocationOutput(nullptr), E_INVALIDARG);
+  EXPECT_EQ(data->GetDeviceState(), D3D12_DRED_DEVICE_STATE_FAULT);
+}
+
 TEST_F(DeviceCalls, TheClearValueOfADepthTextureIsItsDepth) {
   ComPtr<ID3D12Debug4> debug;
   ASSERT_EQ(D3D12GetDebugInterface(IID_PPV_ARGS(debug.GetAddressOf())), S_OK);
