@@ -162,7 +162,7 @@ TEST_F(DrawInputs, StripCutsThatDoNotFit) {
   draw_cut(IndexBufferStripCutValue::k0xFFFFFFFF, PrimitiveTopology::kTriangleStrip);
   expect_one("KA0455", {"IBStripCutValue is k0xFFFFFFFF, but indices are R16_UINT"});
   draw_cut(IndexBufferStripCutValue::k0xFFFF, PrimitiveTopology::kTriangleList);
-  expect_one("KA0455", {"the topology is a triangle list"});
+  expect_one("KA0455", {"the topology is a list"});
 }
 
 TEST_F(DrawInputs, BuffersInAnotherState) {

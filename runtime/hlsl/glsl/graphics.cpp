@@ -17,6 +17,13 @@ std::string vector_type(const SignatureElement& element) {
   return glsl::vector_name(kScalars[static_cast<size_t>(element.type)], element.components);
 }
 
+// Points have one pixel. It counts as an output, of which there may be 32 vectors; drivers take
+// what is not written as 1.
+bool writes_point_size(const EntryPoint& entry) {
+  constexpr size_t kMostVectors = 32;
+  return entry.stage == kStageVertex && entry.outputs.size() < kMostVectors;
+}
+
 std::string component_of(const SignatureElement& element, const std::string& name, int index) {
   return element.components == 1 ? name : name + "." + glsl::component(index);
 }
@@ -175,8 +182,7 @@ void GlslEmitter::graphics_main() {
   for (size_t i = 0; i < entry_.outputs.size(); ++i) {
     graphics_output(i, "g_result_" + std::to_string(entry_.inputs.size() + i));
   }
-  // Points have one pixel.
-  if (entry_.stage == kStageVertex) line("gl_PointSize = 1.0;");
+  if (writes_point_size(entry_)) line("gl_PointSize = 1.0;");
 }
 
 std::string GlslEmitter::graphics_head() const {
@@ -211,7 +217,8 @@ std::string GlslEmitter::graphics_layout() const {
     if (element.system_value == shader::SystemValue::kCullDistance) sizes[1] += element.components;
   }
   // Without the members that are not written, which count where outputs are limited.
-  out += "out gl_PerVertex {\n  vec4 gl_Position;\n  float gl_PointSize;\n";
+  out += "out gl_PerVertex {\n  vec4 gl_Position;\n";
+  if (writes_point_size(entry_)) out += "  float gl_PointSize;\n";
   if (sizes[0] != 0) out += "  float gl_ClipDistance[" + std::to_string(sizes[0]) + "];\n";
   if (sizes[1] != 0) out += "  float gl_CullDistance[" + std::to_string(sizes[1]) + "];\n";
   out += "};\n";

@@ -142,11 +142,15 @@ FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
 
   // Depth is limited to the viewport's range in any case. [RAS-42]
   depth_clip.depthClipEnable = linked.rasterizer.DepthClipEnable;
-  lines.lineRasterizationMode = linked.rasterizer.MultisampleEnable
-                                    ? VK_LINE_RASTERIZATION_MODE_RECTANGULAR_EXT
-                                    : VK_LINE_RASTERIZATION_MODE_BRESENHAM_EXT;
+  const bool draws_lines = linked.topology == rtapi::PrimitiveTopologyType::kLine ||
+                           linked.rasterizer.FillMode == rtapi::FillMode::kWireframe;
+  const bool rectangles = draws_lines && linked.rasterizer.MultisampleEnable;
+  lines.lineRasterizationMode = rectangles ? VK_LINE_RASTERIZATION_MODE_RECTANGULAR_EXT
+                                           : VK_LINE_RASTERIZATION_MODE_BRESENHAM_EXT;
   lines.pNext = &depth_clip;
-  rasterizer.pNext = &lines;
+  rasterizer.pNext = &depth_clip;
+  // Vulkan has no such lines with alpha to coverage. [VUID-...-lineRasterizationMode-02766]
+  if (rectangles || (draws_lines && !linked.alpha_to_coverage)) rasterizer.pNext = &lines;
   rasterizer.depthClampEnable = VK_TRUE;
   rasterizer.polygonMode = linked.rasterizer.FillMode == rtapi::FillMode::kWireframe
                                ? VK_POLYGON_MODE_LINE
@@ -154,7 +158,7 @@ FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
   rasterizer.cullMode = cull_mode(linked.rasterizer.CullMode);
   rasterizer.frontFace = linked.rasterizer.FrontCounterClockwise ? VK_FRONT_FACE_COUNTER_CLOCKWISE
                                                                  : VK_FRONT_FACE_CLOCKWISE;
-  rasterizer.lineWidth = linked.rasterizer.MultisampleEnable ? 1.4f : 1.0f;
+  rasterizer.lineWidth = rectangles ? 1.4f : 1.0f;
   const float bias = static_cast<float>(linked.rasterizer.DepthBias);
   const bool unorm =
       wanted.depth == rtapi::Format::kD16Unorm || wanted.depth == rtapi::Format::kD24UnormS8Uint;
