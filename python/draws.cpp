@@ -19,21 +19,21 @@ T value_of(const std::string& word, const char* what,
   throw py::value_error(std::string(what) + " is '" + word + "'; it is one of " + names);
 }
 
-rtapi::PrimitiveTopology topology_of(const std::string& word) {
-  using T = rtapi::PrimitiveTopology;
-  return value_of<T>(word, "topology",
-                     {{"triangles", T::kTriangleList},
-                      {"triangle strip", T::kTriangleStrip},
-                      {"lines", T::kLineList},
-                      {"line strip", T::kLineStrip},
-                      {"points", T::kPointList}});
-}
+// As the list and as the pipeline name it.
+struct Topology {
+  rtapi::PrimitiveTopology of_list;
+  rtapi::PrimitiveTopologyType of_pipeline;
+};
 
-rtapi::PrimitiveTopologyType type_of(rtapi::PrimitiveTopology topology) {
+Topology topology_of(const std::string& word) {
   using T = rtapi::PrimitiveTopology;
-  if (topology == T::kPointList) return rtapi::PrimitiveTopologyType::kPoint;
-  const bool lines = topology == T::kLineList || topology == T::kLineStrip;
-  return lines ? rtapi::PrimitiveTopologyType::kLine : rtapi::PrimitiveTopologyType::kTriangle;
+  using Type = rtapi::PrimitiveTopologyType;
+  return value_of<Topology>(word, "topology",
+                            {{"triangles", {T::kTriangleList, Type::kTriangle}},
+                             {"triangle strip", {T::kTriangleStrip, Type::kTriangle}},
+                             {"lines", {T::kLineList, Type::kLine}},
+                             {"line strip", {T::kLineStrip, Type::kLine}},
+                             {"points", {T::kPointList, Type::kPoint}}});
 }
 
 enum class Blending { kNone, kAlpha, kAdd };
@@ -66,7 +66,7 @@ rtapi::PipelineState make_pipeline(const Session& session, const Library& librar
   desc.BlendState.RenderTarget[0] = blend_of(what.blend);
   desc.DepthStencilState.DepthEnable = what.depth;
   if (what.depth) desc.DSVFormat = rtapi::Format::kD32Float;
-  desc.PrimitiveTopologyType = type_of(topology_of(what.topology));
+  desc.PrimitiveTopologyType = topology_of(what.topology).of_pipeline;
   for (const ArrayTexture& target : targets) {
     desc.RTVFormats.push_back(target.texture.GetDesc().Format);
   }
@@ -130,7 +130,7 @@ void draw(Session& session, const Library& library, const Draw& what,
                           " numbers, and needs 4");
   }
   const rtapi::RootSignature signature = session.root_signature(library);
-  rtapi::PipelineState& pipeline = library.made->pipelines[name_of(what, targets)];
+  rtapi::PipelineState& pipeline = session.made_of(library).pipelines[name_of(what, targets)];
   if (!pipeline) pipeline = make_pipeline(session, library, signature, what, targets);
   const Targets views = make_targets(session, what, targets);
   rtapi::CommandList list = session.device().CreateCommandList().value();
@@ -151,7 +151,7 @@ void draw(Session& session, const Library& library, const Draw& what,
   if (what.depth) list.ClearDepthStencilView(depth, rtapi::ClearFlags::kDepth, 1, 0);
   const rtapi::TextureDesc size = targets.front().texture.GetDesc();
   list.SetPipelineState(pipeline);
-  list.IASetPrimitiveTopology(topology_of(what.topology));
+  list.IASetPrimitiveTopology(topology_of(what.topology).of_list);
   list.RSSetViewports(
       rtapi::Viewport{0, 0, static_cast<float>(size.Width), static_cast<float>(size.Height), 0, 1});
   list.RSSetScissorRects(

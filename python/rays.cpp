@@ -152,7 +152,7 @@ std::string name_of(const RayDispatch& what) {
 
 const RayPipeline& pipeline_for(const Session& session, const Library& library,
                                 const RayDispatch& what) {
-  auto& made = library.made->of_rays;
+  auto& made = session.made_of(library).of_rays;
   const std::string name = name_of(what);
   const auto found = made.find(name);
   if (found != made.end()) return found->second;

@@ -4,6 +4,7 @@
 #include <rtapi/upload.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace {
 
 using rtapi::ShaderBindingInfo;
 using rtapi::ShaderResourceType;
+
+std::atomic<uint64_t> g_sessions{0};
 
 bool is_root_descriptor(const ShaderBindingInfo& binding) {
   return binding.Type == ShaderResourceType::kConstantBuffer ||
@@ -85,7 +88,7 @@ std::string what_is(const Bound& bound) {
 
 }  // namespace
 
-Session::Session(const DeviceOptions& options) : options_(options) {
+Session::Session(const DeviceOptions& options) : options_(options), number_(g_sessions++) {
   rtapi::DeviceDesc desc;
   desc.Backend = options.backend;
   desc.Checked = options.checked;
@@ -114,7 +117,8 @@ Library Session::compile(rtapi::ShaderCompileOptions options) const {
 
 rtapi::RootSignature Session::root_signature(const Library& library,
                                              const std::vector<std::string>& local) const {
-  if (local.empty() && library.made->root_signature) return *library.made->root_signature;
+  std::optional<rtapi::RootSignature>& known = made_of(library).root_signature;
+  if (local.empty() && known) return *known;
   std::string text;
   for (const ShaderBindingInfo& binding : library.reflection.Bindings) {
     if (is_local(binding, local)) continue;
@@ -137,7 +141,7 @@ rtapi::RootSignature Session::root_signature(const Library& library,
     text += (text.empty() ? "" : ", ") + one;
   }
   auto made = device_.CreateRootSignature(text).value();
-  if (local.empty()) library.made->root_signature = made;
+  if (local.empty()) known = made;
   return made;
 }
 
@@ -153,18 +157,18 @@ BoundResources Session::bind(rtapi::CommandList& list, Root root, const Library&
                            "' that an entry point reads or writes");
     }
   }
+  BoundResources out;
   const auto textures =
       static_cast<uint32_t>(std::count_if(bindings.begin(), bindings.end(), is_texture));
   if (textures != 0) {
-    heap_ = device_
-                .CreateDescriptorHeap({.NumDescriptors = textures,
-                                       .Flags = rtapi::DescriptorHeapFlags::kShaderVisible})
-                .value();
-    list.SetDescriptorHeaps({*heap_});
+    out.heap = device_
+                   .CreateDescriptorHeap({.NumDescriptors = textures,
+                                          .Flags = rtapi::DescriptorHeapFlags::kShaderVisible})
+                   .value();
+    list.SetDescriptorHeaps({out.heap});
   }
   const RootArguments arguments = {list, root == Root::kGraphics};
   arguments.signature(signature);
-  BoundResources out;
   uint32_t parameter = 0;
   uint32_t slot = 0;
   for (const ShaderBindingInfo& binding : bindings) {
@@ -177,7 +181,7 @@ BoundResources Session::bind(rtapi::CommandList& list, Root root, const Library&
     if (is_texture(binding)) {
       const auto* texture = std::get_if<ArrayTexture>(&bound);
       if (texture == nullptr) wrong_kind(binding, bound, "a texture");
-      const rtapi::CpuDescriptorHandle handle = heap_->GetCPUDescriptorHandle(slot);
+      const rtapi::CpuDescriptorHandle handle = out.heap.GetCPUDescriptorHandle(slot);
       if (binding.IsWritable) {
         device_.CreateUnorderedAccessView(texture->texture, handle).value();
       } else {
@@ -187,7 +191,7 @@ BoundResources Session::bind(rtapi::CommandList& list, Root root, const Library&
           texture->texture, rtapi::ResourceStates::kCommon, state_for(binding)));
       out.undo.push_back(rtapi::ResourceBarrier::Transition(texture->texture, state_for(binding),
                                                             rtapi::ResourceStates::kCommon));
-      arguments.table(parameter++, heap_->GetGPUDescriptorHandle(slot++));
+      arguments.table(parameter++, out.heap.GetGPUDescriptorHandle(slot++));
       out.alive.emplace_back(texture->texture);
       continue;
     }
@@ -224,7 +228,7 @@ BoundResources Session::bind(rtapi::CommandList& list, Root root, const Library&
 void Session::dispatch(const Library& library, const std::string& entry,
                        const uint32_t (&groups)[3], const Bindings& given) {
   const rtapi::RootSignature signature = root_signature(library);
-  rtapi::PipelineState& pipeline = library.made->pipelines[entry];
+  rtapi::PipelineState& pipeline = made_of(library).pipelines[entry];
   if (!pipeline) {
     pipeline =
         device_.CreateComputePipelineState({signature, library.library, entry, entry}).value();

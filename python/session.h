@@ -24,8 +24,8 @@ struct RayPipeline {
   rtapi::StateObject state_object;
 };
 
-// What calls have made of a library so far, by all that they named, so that the next one with the
-// same names need not.
+// What calls of one device have made of a library so far, by all that they named, so that the next
+// one with the same names need not.
 struct MadePipelines {
   std::optional<rtapi::RootSignature> root_signature;
   std::map<std::string, rtapi::PipelineState> pipelines;
@@ -37,7 +37,9 @@ struct Library {
   rtapi::ShaderLibrary library;
   rtapi::ShaderReflection reflection;
   std::string source_name;
-  std::shared_ptr<MadePipelines> made = std::make_shared<MadePipelines>();
+  // By Session::number().
+  std::shared_ptr<std::map<uint64_t, MadePipelines>> made =
+      std::make_shared<std::map<uint64_t, MadePipelines>>();
 };
 
 // A bottom or top level, with what it was built from.
@@ -53,6 +55,7 @@ using Bindings = std::map<std::string, Bound>;
 // What a list must leave alive and put back.
 struct BoundResources {
   std::vector<rtapi::Resource> alive;
+  rtapi::DescriptorHeap heap;                // empty without textures
   std::vector<rtapi::ResourceBarrier> undo;  // textures back to the common state
 };
 
@@ -78,6 +81,9 @@ class Session {
   const rtapi::Device& device() const { return device_; }
   const rtapi::CommandQueue& queue() const { return queue_; }
   const DeviceOptions& options() const { return options_; }
+  // No other session has it, not even after this one.
+  uint64_t number() const { return number_; }
+  MadePipelines& made_of(const Library& library) const { return (*library.made)[number_]; }
 
   Library compile(rtapi::ShaderCompileOptions options) const;
   // Root parameters for every resource of the library but those of local root signatures. Throws
@@ -98,11 +104,11 @@ class Session {
 
  private:
   const DeviceOptions options_;
+  const uint64_t number_;
   std::shared_ptr<std::mutex> mutex_ = std::make_shared<std::mutex>();
   std::shared_ptr<std::vector<Message>> messages_ = std::make_shared<std::vector<Message>>();
   rtapi::Device device_;
   rtapi::CommandQueue queue_;
-  std::optional<rtapi::DescriptorHeap> heap_;  // of the list that is recorded
 };
 
 }  // namespace kaamos::python

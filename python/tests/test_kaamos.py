@@ -234,6 +234,10 @@ class Package(unittest.TestCase):
         for _ in range(3):
             self.device.dispatch(library, "f", 1, a=a)
         self.assertEqual(a.numpy()[0], 3)
+        other = kaamos.Device(interpret=True)
+        b = other.buffer(np.zeros(1, np.uint32))
+        other.dispatch(library, "f", 1, a=b)  # made anew: pipelines belong to a device
+        self.assertEqual(b.numpy()[0], 1)
 
     def test_stubs_say_what_there_is(self):
         import ast

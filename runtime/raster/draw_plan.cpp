@@ -103,12 +103,6 @@ void plan_targets(const runtime::LinkedGraphics& linked, const Targets& targets,
     if (!writes) continue;
     target.blends = target.blend.BlendEnable && !target.codec->integer;
     if (target.blend.LogicOpEnable) target.whole_texels = false;
-    if (linked.blends_two_sources) {
-      const auto& second = linked.pixel_columns.targets[1];
-      target.has_second = true;
-      target.second_column = second.first_column;
-      target.second_components = second.components;
-    }
     plan.targets.push_back(target);
   }
 }

@@ -42,10 +42,6 @@ struct PlannedTarget {
   uint32_t mask[4] = {};     // bits of each word that are written
   bool whole_texels = true;  // all bits are written, whatever is there
   bool blends = false;
-  // Of SV_Target1, if blending reads it.
-  bool has_second = false;
-  uint32_t second_column = 0;
-  uint32_t second_components = 0;  // those that the shader writes
   rtapi::RenderTargetBlendDesc blend;
 };
 

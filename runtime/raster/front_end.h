@@ -4,6 +4,8 @@
 // sets up its triangles and lines, and sorts them into tiles. One for each thread.
 #pragma once
 
+#include <array>
+
 #include "runtime/raster/bins.h"
 #include "runtime/raster/clip.h"
 #include "runtime/raster/draw_plan.h"
@@ -79,6 +81,8 @@ class FrontEnd {
     float perspective[3];  // weights of the primitive's vertices, as of ClipWeights
     float on_screen[3];
   };
+  // Of a part whose vertices are these of the two ends.
+  static ClipWeights weights_of(const LineEnd ends[2], const std::array<int, 3>& vertices);
   static LineEnd end_at_corner(const Primitive& primitive, int corner);
   static LineEnd end_at_vertex(const Polygon& polygon, int vertex);
   void add_point(const Primitive& primitive);

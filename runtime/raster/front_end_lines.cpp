@@ -23,6 +23,15 @@ FrontEnd::LineEnd FrontEnd::end_at_vertex(const Polygon& polygon, int vertex) {
   return end;
 }
 
+ClipWeights FrontEnd::weights_of(const LineEnd ends[2], const std::array<int, 3>& vertices) {
+  ClipWeights out;
+  for (size_t v = 0; v < 3; ++v) {
+    std::copy_n(ends[vertices[v]].perspective, 3, out.perspective[v]);
+    std::copy_n(ends[vertices[v]].on_screen, 3, out.screen[v]);
+  }
+  return out;
+}
+
 // A square of two triangles, which has the vertex's attributes everywhere. [D3D11.3: 3.4.4]
 void FrontEnd::add_point(const Primitive& primitive) {
   if ((primitive.codes & kNeedsClip) != 0) return;
@@ -93,12 +102,7 @@ void FrontEnd::emit_line(const LineEnd ends[2], const Primitive& primitive, bool
   line.flags |= viewport_flags_ | kClipped | (front ? kFrontFacing : 0u);
   bins_.add(line, slice_, static_cast<uint32_t>(number));
   if (!plan_->has_shading) return;
-  ClipWeights weights;
-  for (int v = 0; v < 3; ++v) {
-    std::copy_n(ends[v % 2].perspective, 3, weights.perspective[v]);
-    std::copy_n(ends[v % 2].on_screen, 3, weights.screen[v]);
-  }
-  add_part_shading(screen, primitive, weights);
+  add_part_shading(screen, primitive, weights_of(ends, {0, 1, 0}));
 }
 
 void FrontEnd::emit_rectangle(const LineEnd ends[2], const Primitive& primitive, bool front) {
@@ -113,13 +117,8 @@ void FrontEnd::emit_rectangle(const LineEnd ends[2], const Primitive& primitive,
     added->flags |= kClipped;
     if (!plan_->has_shading) continue;
     const bool swapped = (added->flags & kSwapped) != 0;
-    const int order[3] = {half[0], half[swapped ? 2 : 1], half[swapped ? 1 : 2]};
-    ClipWeights weights;
-    for (int v = 0; v < 3; ++v) {
-      std::copy_n(ends[order[v] / 2].perspective, 3, weights.perspective[v]);
-      std::copy_n(ends[order[v] / 2].on_screen, 3, weights.screen[v]);
-    }
-    add_part_shading(part, primitive, weights);
+    const std::array of_ends = {half[0] / 2, half[swapped ? 2 : 1] / 2, half[swapped ? 1 : 2] / 2};
+    add_part_shading(part, primitive, weights_of(ends, of_ends));
   }
 }
 

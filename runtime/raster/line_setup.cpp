@@ -79,11 +79,7 @@ SetUp set_up_line(const PixelRect& rect, const ScreenVertex v[2], Triangle& out)
   const auto [low, high] = std::minmax({line.row_at(first), line.row_at(last)});
   const PixelRect reach = line.along_x ? PixelRect{first, low, last + 1, high + 1}
                                        : PixelRect{low, first, high + 1, last + 1};
-  const PixelRect box{std::max(rect.left, reach.left), std::max(rect.top, reach.top),
-                      std::min(rect.right, reach.right), std::min(rect.bottom, reach.bottom)};
-  if (box.empty()) return SetUp::kNoPixel;
-  out.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
-             static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
+  if (set_box(rect, reach, out).empty()) return SetUp::kNoPixel;
   // As far to the side as the line is long, so that the plane is well conditioned.
   const ScreenVertex side = {v[0].x + (line.along_x ? 0 : -dy), v[0].y + (line.along_x ? dx : 0),
                              v[0].z, v[0].inv_w};

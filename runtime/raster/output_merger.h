@@ -55,12 +55,10 @@ struct TileTexels {
   }
 };
 
-// The second source of blending, with 0 in components that the shader does not write.
-inline void second_source(const PlannedTarget& target, const shader::Column* outputs,
-                          shader::Column out[4]) {
+// Four columns, with 0 in components that the shader does not write.
+inline void all_components(const shader::Column* written, uint32_t count, shader::Column out[4]) {
   for (uint32_t c = 0; c < 4; ++c) {
-    const bool written = c < target.second_components;
-    store(out[c], written ? load<int32_t>(outputs[target.second_column + c]) : Ints8{});
+    store(out[c], c < count ? load<int32_t>(written[c]) : Ints8{});
   }
 }
 
@@ -71,9 +69,7 @@ inline void write_target(const DrawPlan& plan, const PlannedTarget& target,
   alignas(32) shader::Column components[4];
   const shader::Column* colors = outputs + target.first_column;
   if (target.components < (target.blends ? 4 : codec.columns)) {
-    for (uint32_t c = 0; c < 4; ++c) {
-      store(components[c], c < target.components ? load<int32_t>(colors[c]) : Ints8{});
-    }
+    all_components(colors, target.components, components);
     colors = components;
   }
   const auto write = [&](uint32_t word, const Ints8& value)
@@ -85,10 +81,15 @@ inline void write_target(const DrawPlan& plan, const PlannedTarget& target,
   if (target.blends) {
     alignas(32) shader::Column destination[4];
     codec.decode(old, destination);
+    const bool two = plan.linked->blends_two_sources;
     alignas(32) shader::Column second[4];
-    if (target.has_second) second_source(target, outputs, second);
-    blend_colors(target.blend, codec, plan.blend_factor, colors,
-                 target.has_second ? second : nullptr, destination, blended);
+    if (two) {
+      const auto& written = plan.linked->pixel_columns.targets[1];
+      const bool any = written.first_column != runtime::kNoColumn;
+      all_components(any ? outputs + written.first_column : outputs, written.components, second);
+    }
+    blend_colors(target.blend, codec, plan.blend_factor, colors, two ? second : nullptr,
+                 destination, blended);
     colors = blended;
   }
   encode_colors(codec, colors, [&](uint32_t word, const Ints8& encoded) KAAMOS_INLINE_LAMBDA {

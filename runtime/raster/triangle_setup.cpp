@@ -85,6 +85,14 @@ void place(const DrawPlan& plan, const ScreenVertex v[3], int64_t area, Facing f
 
 }  // namespace
 
+PixelRect set_box(const PixelRect& rect, const PixelRect& reach, Triangle& triangle) {
+  const PixelRect box{std::max(rect.left, reach.left), std::max(rect.top, reach.top),
+                      std::min(rect.right, reach.right), std::min(rect.bottom, reach.bottom)};
+  triangle.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
+                  static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
+  return box;
+}
+
 void set_depth_plane(Triangle& t, double area) {
   const double dz1 = static_cast<double>(t.z[1]) - static_cast<double>(t.z[0]);
   const double dz2 = static_cast<double>(t.z[2]) - static_cast<double>(t.z[0]);
@@ -121,13 +129,11 @@ SetUp set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenV
   const int32_t bottom = std::max({v[0].y, v[1].y, v[2].y});
   const int32_t up = kSubpixels - 1 - plan.greatest_sample;
   const int32_t down = plan.least_sample;
-  const PixelRect box{std::max(rect.left, (left + up) >> kSubpixelBits),
-                      std::max(rect.top, (top + up) >> kSubpixelBits),
-                      std::min(rect.right, ((right - down) >> kSubpixelBits) + 1),
-                      std::min(rect.bottom, ((bottom - down) >> kSubpixelBits) + 1)};
+  const PixelRect reach{(left + up) >> kSubpixelBits, (top + up) >> kSubpixelBits,
+                        ((right - down) >> kSubpixelBits) + 1,
+                        ((bottom - down) >> kSubpixelBits) + 1};
+  const PixelRect box = set_box(rect, reach, out);
   if (box.empty()) return SetUp::kNoPixel;
-  out.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
-             static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
   place(plan, v, area, facing, whole && plan.biased, out);
   // Rounding of the plane's gradients grows by the square of the length over the area.
   const int32_t length = std::max(right - left, bottom - top);

@@ -15,6 +15,9 @@ enum class SetUp : uint8_t { kDone, kZeroArea, kCulled, kNoPixel };
 // turn, and neither culled nor biased.
 enum class PartOf : uint8_t { kTriangle, kPointOrLine };
 
+// The part of `reach` in `rect` becomes the triangle's box; returns it.
+PixelRect set_box(const PixelRect& rect, const PixelRect& reach, Triangle& triangle);
+
 // Depths at a triangle's vertices, and a plane through them, by subpixel. `area` is not 0.
 void set_depth_plane(Triangle& triangle, double area);
 

@@ -119,10 +119,9 @@ void four_samples(Context& t) {
   }
 }
 
-// Of a line that is no rectangle a pixel has all samples or none; rectangles 1.4 pixels wide have
-// the samples that they cover. A line at y = 4 has 3 of 4 samples of the pixels above it, 1.3 to
-// 0.7 pixels, hence of those at 2, 6, 10 and 14 sixteenths all but the first, and below all but the
-// last.
+// A plain line covers all samples of its pixels, a rectangle 1.4 pixels wide those that lie in it.
+// One around y = 4 reaches 0.7 pixels to either side. Samples lie 2, 6, 10 and 14 sixteenths below
+// the top of a pixel: three of four are covered in the row above, and in the row below.
 void lines_of_samples(Context& t) {
   for (const bool rectangles : {false, true}) {
     Screen screen(t, {Format::kR32Float}, Format::kUnknown, kSide);

@@ -124,7 +124,7 @@ typedef struct D3D11_SHADER_RESOURCE_VIEW_DESC {
   };
 } D3D11_SHADER_RESOURCE_VIEW_DESC;
 
-// Of each interface, the methods that loaders call; there is no object of any.
+// Each interface has the methods that loaders call; no call makes an object of one.
 struct ID3D11DeviceChild : public IUnknown {
   virtual HRESULT STDMETHODCALLTYPE SetPrivateData(REFGUID guid, UINT size, const void* data) = 0;
 };

@@ -339,7 +339,7 @@ inline HRGN CreateRectRgn(int, int, int, int) {
 inline HBRUSH CreateSolidBrush(COLORREF) {
   return (HBRUSH)(LONG_PTR)1;
 }
-/// Of the monitor: 96 dots an inch.
+/// The monitor has 96 dots an inch.
 inline int GetDeviceCaps(HDC, int index) {
   switch (index) {
     case LOGPIXELSX:

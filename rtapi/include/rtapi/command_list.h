@@ -29,7 +29,8 @@ namespace detail {
 struct CommandListImpl;
 }
 
-/// What becomes of a list if one of its calls breaks a rule. The call is not recorded either way.
+/// What becomes of a list if one of its calls breaks a rule. The call is not recorded either way,
+/// but for a vertex buffer view that reaches past its buffer, which kDropCall cuts there.
 enum class InvalidCalls : uint32_t {
   kFailList = 0,  ///< Close() returns the error, and the list cannot be executed
   /// As D3D12's runtimes do without their debug layer: calls that they drop or ignore are told to

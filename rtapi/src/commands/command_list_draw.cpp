@@ -2,6 +2,7 @@
 //
 // Draws, what they need to be set, and clears of targets.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <rtapi/command_list.h>
@@ -211,7 +212,8 @@ void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const Vertex
     return impl_->fail(make_error(Id::kDrawBuffers, "IASetVertexBuffers: slots ", start_slot, "..",
                                   start_slot + views.size(), "; there are 32"));
   }
-  std::vector<VertexBufferView> taken(views.begin(), views.end());
+  std::array<VertexBufferView, kIAVertexInputResourceSlotCount> taken;
+  std::copy(views.begin(), views.end(), taken.begin());
   for (size_t i = 0; i < views.size(); ++i) {
     const VertexBufferView& view = views[i];
     if (view.StrideInBytes > kMaxVertexStride) {
@@ -230,8 +232,8 @@ void CommandList::IASetVertexBuffers(uint32_t start_slot, std::span<const Vertex
     if (there == 0 || impl_->device->desc.InvalidCalls != InvalidCalls::kDropCall) return;
     taken[i].SizeInBytes = static_cast<uint32_t>(there);
   }
-  std::copy(taken.begin(), taken.end(),
-            impl_->writable_draw_state().vertex_buffers.begin() + start_slot);
+  std::copy_n(taken.begin(), views.size(),
+              impl_->writable_draw_state().vertex_buffers.begin() + start_slot);
   for (size_t i = 0; i < views.size(); ++i) {
     const auto slot = static_cast<uint32_t>(start_slot + i);
     note_input(*impl_, slot, views[i].BufferLocation, concat("vertex buffer ", slot));

@@ -110,7 +110,7 @@ VkStencilOpState stencil_state(const rtapi::DepthStencilOpDesc& desc) {
   return state;
 }
 
-// Of which the topology that lists set is one.
+// A list chooses a topology of this class when it draws.
 VkPrimitiveTopology topology_class(rtapi::PrimitiveTopologyType type) {
   switch (type) {
     case rtapi::PrimitiveTopologyType::kPoint:
