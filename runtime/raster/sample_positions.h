@@ -3,8 +3,11 @@
 // The places of a pixel's samples: D3D12's standard patterns. [D3D11.3: 19.2.4]
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+
+#include <kaamos/shader/sample_patterns.h>
 
 #include "runtime/raster/viewport.h"
 
@@ -20,16 +23,20 @@ struct SamplePosition {
 
 namespace sample_positions_detail {
 
-// From the middle, in sixteenths of a pixel.
-constexpr SamplePosition at(int32_t x, int32_t y) {
+template <size_t kCount>
+constexpr std::array<SamplePosition, kCount> in_subpixels(
+    const shader::SampleOffset (&pattern)[kCount]) {
   constexpr int32_t kSixteenth = kSubpixels / 16;
-  return {kPixelCenter + x * kSixteenth, kPixelCenter + y * kSixteenth};
+  std::array<SamplePosition, kCount> out;
+  for (size_t i = 0; i < kCount; ++i) {
+    out[i] = {kPixelCenter + pattern[i].x * kSixteenth, kPixelCenter + pattern[i].y * kSixteenth};
+  }
+  return out;
 }
-inline constexpr SamplePosition kOne[1] = {at(0, 0)};
-inline constexpr SamplePosition kTwo[2] = {at(4, 4), at(-4, -4)};
-inline constexpr SamplePosition kFour[4] = {at(-2, -6), at(6, -2), at(-6, 2), at(2, 6)};
-inline constexpr SamplePosition kEight[8] = {at(1, -3), at(-1, 3),  at(5, 1), at(-3, -5),
-                                             at(-5, 5), at(-7, -1), at(3, 7), at(7, -7)};
+inline constexpr auto kOne = in_subpixels(shader::kOneSample);
+inline constexpr auto kTwo = in_subpixels(shader::kTwoSamples);
+inline constexpr auto kFour = in_subpixels(shader::kFourSamples);
+inline constexpr auto kEight = in_subpixels(shader::kEightSamples);
 
 }  // namespace sample_positions_detail
 

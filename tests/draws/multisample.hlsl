@@ -40,6 +40,19 @@ float4 Value(Vertex input) : SV_Target0 {
   return float4(input.value, input.position.xy);
 }
 
+// `value` at the sample of this number, and where that is.
+[shader("pixel")]
+float4 Evaluated(Vertex input) : SV_Target0 {
+  const uint number = uint(tint.x);
+  return float4(EvaluateAttributeAtSample(input.value, number), GetRenderTargetSamplePosition(number));
+}
+
+// The centroid, and how many samples there are.
+[shader("pixel")]
+float4 EvaluatedCentroid(Vertex input) : SV_Target0 {
+  return float4(EvaluateAttributeCentroid(input.value), float(GetRenderTargetSampleCount()), 1.0);
+}
+
 struct AtCentroid {
   float4 position : SV_Position;
   centroid float2 value : VALUE;

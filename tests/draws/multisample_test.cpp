@@ -319,6 +319,65 @@ TEST_P(Multisampling, CentroidInputsStayInTheTriangle) {
   });
 }
 
+// Whatever the triangle covers, a shader that runs once for a pixel finds each sample's value.
+TEST_P(Multisampling, RAS_162_ShadersEvaluateInputsAtSamples) {
+  each_count([&](uint32_t count) {
+    MultisampleCanvas canvas(device_, count);
+    const PipelineState pipeline = canvas.make(canvas.desc("Corners", "Evaluated"));
+    const Half triangle;
+    const auto pattern = standard_pattern(count);
+    for (uint32_t number = 0; number < count; ++number) {
+      canvas.run([&](CommandList& list) {
+        canvas.use(list, pipeline, {static_cast<float>(number), 0, 0, 0});
+        canvas.draw(list, triangle.vertices());
+      });
+      each_pixel([&](uint32_t x, uint32_t y) {
+        const uint32_t mask = triangle.mask(x, y, pattern);
+        if (mask == 0) return;
+        const auto first = static_cast<uint32_t>(__builtin_ctz(mask));
+        const Place at = place_of(x, y, pattern[number]);
+        EXPECT_NEAR(canvas.sample(x, y, first, 0), at.x, 1e-3) << x << ", " << y << ": " << number;
+        EXPECT_NEAR(canvas.sample(x, y, first, 1), at.y, 1e-3) << x << ", " << y << ": " << number;
+        EXPECT_EQ(canvas.sample(x, y, first, 2), static_cast<float>(pattern[number].x) / 16);
+        EXPECT_EQ(canvas.sample(x, y, first, 3), static_cast<float>(pattern[number].y) / 16);
+      });
+    }
+  });
+}
+
+TEST_P(Multisampling, RAS_162_EvaluatedCentroidsAreThoseOfCentroidInputs) {
+  each_count([&](uint32_t count) {
+    MultisampleCanvas canvas(device_, count);
+    const Half triangle;
+    const auto values = [&](const char* shader) {
+      const PipelineState pipeline = canvas.make(canvas.desc("Corners", shader));
+      canvas.run([&](CommandList& list) {
+        canvas.use(list, pipeline);
+        canvas.draw(list, triangle.vertices());
+      });
+      std::vector<float> out;
+      each_pixel([&](uint32_t x, uint32_t y) {
+        for (uint32_t s = 0; s < count; ++s) {
+          for (uint32_t c = 0; c < 2; ++c) out.push_back(canvas.sample(x, y, s, c));
+        }
+      });
+      return out;
+    };
+    const std::vector<float> declared = values("Centroid");
+    EXPECT_EQ(values("EvaluatedCentroid"), declared);
+    uint32_t covered = 0;
+    each_pixel([&](uint32_t x, uint32_t y) {
+      for (uint32_t s = 0; s < count; ++s) {
+        const float found = canvas.sample(x, y, s, 2);
+        if (found == 0) continue;
+        ++covered;
+        EXPECT_EQ(found, static_cast<float>(count));
+      }
+    });
+    EXPECT_GT(covered, 15u);
+  });
+}
+
 TEST_P(Multisampling, ShadersReadTheCoverage) {
   each_count([&](uint32_t count) {
     MultisampleCanvas canvas(device_, count);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kaamos/shader/sample_patterns.h"
 #include "runtime/hlsl/check/lower/lowerer.h"
 #include "runtime/hlsl/ir/builtin_types.h"
 
@@ -129,30 +130,43 @@ const ir::Expr* PixelIntrinsics::sample_count() {
   return body_.repeatable(build_.read(info->variable));
 }
 
-// Direct3D's standard patterns. Samples that the targets do not have are in the middle.
-// [D3D11.3: 19.2.4]
+namespace {
+
+// Four samples of a pattern from `first` on, a byte each, the lowest first: x and y in sixteenths
+// of a pixel, and 8. Where the pattern has no more, the middle.
+template <size_t kCount>
+constexpr uint32_t packed(const shader::SampleOffset (&pattern)[kCount], size_t first) {
+  uint32_t out = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const bool there = first + i < kCount;
+    const int x = there ? pattern[first + i].x : 0, y = there ? pattern[first + i].y : 0;
+    out |= static_cast<uint32_t>(x + 8 + (y + 8) * 16) << 8 * i;
+  }
+  return out;
+}
+
+}  // namespace
+
+// Samples that the targets do not have are in the middle.
 const ir::Expr* PixelIntrinsics::sample_position(const ir::Expr* number) {
   using Op = ir::BinaryOp;
-  // A byte for each sample, the lowest first: x and y in sixteenths of a pixel, and 8.
-  constexpr uint32_t kMiddle = 0x88888888u, kTwo = 0x888844CCu, kFour = 0xEAA26E26u,
-                     kEight[2] = {0x359DB759u, 0x1FFB71D3u};
   const ir::Expr* count = sample_count();
   number = body_.repeatable(number);
   const auto operation = [&](Op op, const ir::Expr* value, uint32_t constant) {
     return build_.binary(op, value, build_.uint32(constant));
   };
-  const auto pattern = [&](uint32_t two, uint32_t four, uint32_t eight) {
-    const ir::Expr* out = build_.uint32(kMiddle);
-    for (const auto& [samples, word] : {std::pair{2u, two}, {4u, four}, {8u, eight}}) {
+  const auto from = [&](size_t first) {
+    const ir::Expr* out = build_.uint32(packed(shader::kOneSample, first));
+    for (const auto& [samples, word] : {std::pair{2u, packed(shader::kTwoSamples, first)},
+                                        {4u, packed(shader::kFourSamples, first)},
+                                        {8u, packed(shader::kEightSamples, first)}}) {
       out = build_.conditional(operation(Op::kEqual, count, samples), build_.uint32(word), out);
     }
     return out;
   };
-  const ir::Expr* high =
-      build_.conditional(operation(Op::kLess, number, 8), pattern(kMiddle, kMiddle, kEight[1]),
-                         build_.uint32(kMiddle));
-  const ir::Expr* word =
-      build_.conditional(operation(Op::kLess, number, 4), pattern(kTwo, kFour, kEight[0]), high);
+  const ir::Expr* beyond = build_.uint32(packed(shader::kOneSample, 0));
+  const ir::Expr* high = build_.conditional(operation(Op::kLess, number, 8), from(4), beyond);
+  const ir::Expr* word = build_.conditional(operation(Op::kLess, number, 4), from(0), high);
   const ir::Expr* shift = operation(Op::kMultiply, operation(Op::kBitAnd, number, 3), 8);
   const ir::Expr* both = body_.repeatable(build_.binary(Op::kShiftRight, word, shift));
   const auto coordinate = [&](uint32_t first_bit) {
