@@ -204,38 +204,8 @@ void FrontEnd::count_vertices(uint32_t first, uint32_t count) {
 // ---------------------------------------------------------------------------------------------
 // Primitives
 
-void FrontEnd::add_primitives() {
-  const uint32_t* corner = corners_.data();
-  const uint32_t step = range_->strip ? 1 : range_->corners;
-  for (uint32_t i = 0; i < range_->count; ++i) {
-    const uint32_t* first = corner + size_t{i} * step;
-    Primitive primitive;
-    primitive.id = range_->primitive_id + i;
-    if (range_->corners == 3) {
-      const bool odd = range_->strip && ((i & 1) != 0) != range_->odd;
-      primitive.vertex[0] = first[0];
-      primitive.vertex[1] = first[odd ? 2 : 1];
-      primitive.vertex[2] = first[odd ? 1 : 2];
-      if (!begin_primitive(primitive)) continue;
-      if (plan_->wireframe) {
-        add_edges(primitive);
-      } else {
-        add_triangle(primitive);
-      }
-      continue;
-    }
-    primitive.vertex[0] = primitive.vertex[2] = first[0];
-    primitive.vertex[1] = first[range_->corners - 1];
-    if (!begin_primitive(primitive)) continue;
-    if (range_->corners == 2) {
-      add_line(primitive);
-    } else {
-      add_point(primitive);
-    }
-  }
-}
-
-bool FrontEnd::begin_primitive(Primitive& primitive) {
+// Once for each primitive.
+[[gnu::always_inline]] inline bool FrontEnd::begin_primitive(Primitive& primitive) {
   uint32_t all = ~0u;
   uint32_t any = 0;
   for (const uint32_t vertex : primitive.vertex) {
@@ -262,6 +232,36 @@ bool FrontEnd::begin_primitive(Primitive& primitive) {
   gather(primitive.vertex, primitive.screen, any);
   primitive.codes = any;
   return true;
+}
+
+void FrontEnd::add_primitives() {
+  const uint32_t* corner = corners_.data();
+  const uint32_t step = range_->strip ? 1 : range_->corners;
+  const bool triangles = range_->corners == 3;
+  for (uint32_t i = 0; i < range_->count; ++i) {
+    const uint32_t* first = corner + size_t{i} * step;
+    Primitive primitive;
+    primitive.id = range_->primitive_id + i;
+    primitive.vertex[0] = first[0];
+    if (triangles) {
+      const bool odd = range_->strip && ((i & 1) != 0) != range_->odd;
+      primitive.vertex[1] = first[odd ? 2 : 1];
+      primitive.vertex[2] = first[odd ? 1 : 2];
+    } else {
+      primitive.vertex[1] = first[range_->corners - 1];
+      primitive.vertex[2] = first[0];
+    }
+    if (!begin_primitive(primitive)) continue;
+    if (triangles && !plan_->wireframe) [[likely]] {
+      add_triangle(primitive);
+    } else if (triangles) {
+      add_edges(primitive);
+    } else if (range_->corners == 2) {
+      add_line(primitive);
+    } else {
+      add_point(primitive);
+    }
+  }
 }
 
 void FrontEnd::add_triangle(const Primitive& primitive) {

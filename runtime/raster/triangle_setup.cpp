@@ -63,8 +63,8 @@ Facing facing_of(const DrawPlan& plan, int64_t area) {
 }
 
 // Position, depth, and the flags that say what they are.
-void place(const DrawPlan& plan, const ScreenVertex v[3], int64_t area, Facing facing, bool biased,
-           Triangle& out) {
+[[gnu::always_inline]] inline void place(const DrawPlan& plan, const ScreenVertex v[3],
+                                         int64_t area, Facing facing, bool biased, Triangle& out) {
   const bool swap = area < 0;
   const int order[3] = {0, swap ? 2 : 1, swap ? 1 : 2};
   for (int i = 0; i < 3; ++i) {
@@ -84,14 +84,6 @@ void place(const DrawPlan& plan, const ScreenVertex v[3], int64_t area, Facing f
 }
 
 }  // namespace
-
-PixelRect set_box(const PixelRect& rect, const PixelRect& reach, Triangle& triangle) {
-  const PixelRect box{std::max(rect.left, reach.left), std::max(rect.top, reach.top),
-                      std::min(rect.right, reach.right), std::min(rect.bottom, reach.bottom)};
-  triangle.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
-                  static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
-  return box;
-}
 
 void set_depth_plane(Triangle& t, double area) {
   const double dz1 = static_cast<double>(t.z[1]) - static_cast<double>(t.z[0]);

@@ -4,6 +4,8 @@
 // [D3D11.3: 15.10, 15.11, 15.16]
 #pragma once
 
+#include <algorithm>
+
 #include "runtime/raster/draw_plan.h"
 #include "runtime/raster/triangle.h"
 
@@ -16,7 +18,13 @@ enum class SetUp : uint8_t { kDone, kZeroArea, kCulled, kNoPixel };
 enum class PartOf : uint8_t { kTriangle, kPointOrLine };
 
 // The part of `reach` in `rect` becomes the triangle's box; returns it.
-PixelRect set_box(const PixelRect& rect, const PixelRect& reach, Triangle& triangle);
+inline PixelRect set_box(const PixelRect& rect, const PixelRect& reach, Triangle& triangle) {
+  const PixelRect box{std::max(rect.left, reach.left), std::max(rect.top, reach.top),
+                      std::min(rect.right, reach.right), std::min(rect.bottom, reach.bottom)};
+  triangle.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
+                  static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
+  return box;
+}
 
 // Depths at a triangle's vertices, and a plane through them, by subpixel. `area` is not 0.
 void set_depth_plane(Triangle& triangle, double area);
