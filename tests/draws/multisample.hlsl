@@ -57,6 +57,12 @@ struct AtCentroid {
   float4 position : SV_Position;
   centroid float2 value : VALUE;
 };
+
+[shader("pixel")]
+float4 EvaluatedOfCentroid(AtCentroid input) : SV_Target0 {
+  const uint number = uint(tint.x);
+  return float4(EvaluateAttributeAtSample(input.value, number), GetRenderTargetSamplePosition(number));
+}
 [shader("pixel")]
 float4 Centroid(AtCentroid input) : SV_Target0 {
   return float4(input.value, 0.0, 1.0);

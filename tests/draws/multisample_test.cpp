@@ -323,24 +323,30 @@ TEST_P(Multisampling, CentroidInputsStayInTheTriangle) {
 TEST_P(Multisampling, RAS_162_ShadersEvaluateInputsAtSamples) {
   each_count([&](uint32_t count) {
     MultisampleCanvas canvas(device_, count);
-    const PipelineState pipeline = canvas.make(canvas.desc("Corners", "Evaluated"));
     const Half triangle;
     const auto pattern = standard_pattern(count);
-    for (uint32_t number = 0; number < count; ++number) {
-      canvas.run([&](CommandList& list) {
-        canvas.use(list, pipeline, {static_cast<float>(number), 0, 0, 0});
-        canvas.draw(list, triangle.vertices());
-      });
-      each_pixel([&](uint32_t x, uint32_t y) {
-        const uint32_t mask = triangle.mask(x, y, pattern);
-        if (mask == 0) return;
-        const auto first = static_cast<uint32_t>(__builtin_ctz(mask));
-        const Place at = place_of(x, y, pattern[number]);
-        EXPECT_NEAR(canvas.sample(x, y, first, 0), at.x, 1e-3) << x << ", " << y << ": " << number;
-        EXPECT_NEAR(canvas.sample(x, y, first, 1), at.y, 1e-3) << x << ", " << y << ": " << number;
-        EXPECT_EQ(canvas.sample(x, y, first, 2), static_cast<float>(pattern[number].x) / 16);
-        EXPECT_EQ(canvas.sample(x, y, first, 3), static_cast<float>(pattern[number].y) / 16);
-      });
+    // Inputs that are linear, and ones that are centroid.
+    for (const char* shader : {"Evaluated", "EvaluatedOfCentroid"}) {
+      SCOPED_TRACE(shader);
+      const PipelineState pipeline = canvas.make(canvas.desc("Corners", shader));
+      for (uint32_t number = 0; number < count; ++number) {
+        canvas.run([&](CommandList& list) {
+          canvas.use(list, pipeline, {static_cast<float>(number), 0, 0, 0});
+          canvas.draw(list, triangle.vertices());
+        });
+        each_pixel([&](uint32_t x, uint32_t y) {
+          const uint32_t mask = triangle.mask(x, y, pattern);
+          if (mask == 0) return;
+          const auto first = static_cast<uint32_t>(__builtin_ctz(mask));
+          const Place at = place_of(x, y, pattern[number]);
+          EXPECT_NEAR(canvas.sample(x, y, first, 0), at.x, 1e-3)
+              << x << ", " << y << ": " << number;
+          EXPECT_NEAR(canvas.sample(x, y, first, 1), at.y, 1e-3)
+              << x << ", " << y << ": " << number;
+          EXPECT_EQ(canvas.sample(x, y, first, 2), static_cast<float>(pattern[number].x) / 16);
+          EXPECT_EQ(canvas.sample(x, y, first, 3), static_cast<float>(pattern[number].y) / 16);
+        });
+      }
     }
   });
 }

@@ -30,6 +30,25 @@ std::string component_of(const SignatureElement& element, const std::string& nam
 
 }  // namespace
 
+// What EvaluateAttribute* reads of a declared input, which is one location with it; empty for other
+// inputs.
+std::string GlslEmitter::at_other_place(size_t index) {
+  const SignatureElement& element = entry_.inputs[index];
+  if (!element.is_implied || shader::is_flat(element.interpolation)) return "";
+  for (size_t i = 0; i < index; ++i) {
+    const SignatureElement& declared = entry_.inputs[i];
+    if (declared.is_implied || declared.semantic_index != element.semantic_index ||
+        declared.semantic != element.semantic) {
+      continue;
+    }
+    const std::string name = "g_in_" + std::to_string(i);
+    return shader::is_at_centroid(element.interpolation)
+               ? "interpolateAtCentroid(" + name + ")"
+               : "interpolateAtOffset(" + name + ", vec2(0.0))";
+  }
+  return "";
+}
+
 // Declares the variable of an input and returns its value, of the element's type.
 std::string GlslEmitter::graphics_input(size_t index) {
   const SignatureElement& element = entry_.inputs[index];
@@ -65,6 +84,7 @@ std::string GlslEmitter::graphics_input(size_t index) {
     default:
       break;
   }
+  if (const std::string value = at_other_place(index); !value.empty()) return value;
   const std::string name = "g_in_" + std::to_string(index);
   std::string mode;
   if (entry_.stage == kStagePixel) {
