@@ -14,11 +14,19 @@ constexpr uint32_t kPart = 0x30535452;  // "RTS0"
 constexpr uint32_t kHeaderBytes = 24;
 constexpr uint32_t kParameterBytes = 12;
 
-// rtapi's static sampler has the bytes of D3D12's; so has the part.
-static_assert(sizeof(rtapi::StaticSamplerDesc) == sizeof(D3D12_STATIC_SAMPLER_DESC));
+// rtapi's static sampler has the bytes of D3D12's; so has the part. Flags are new in version 1.2.
+static_assert(sizeof(rtapi::StaticSamplerDesc) == sizeof(D3D12_STATIC_SAMPLER_DESC1));
+static_assert(sizeof(D3D12_ROOT_SIGNATURE_DESC2) == sizeof(D3D12_ROOT_SIGNATURE_DESC1));
+constexpr uint32_t kSamplerBytes = sizeof(D3D12_STATIC_SAMPLER_DESC);
+constexpr uint32_t kSamplerBytes1 = sizeof(D3D12_STATIC_SAMPLER_DESC1);
+
+constexpr char kVersions[] = "1 (1.0), 2 (1.1) and 3 (1.2)";
 
 bool is_version(uint32_t version) {
-  return version == D3D_ROOT_SIGNATURE_VERSION_1_0 || version == D3D_ROOT_SIGNATURE_VERSION_1_1;
+  return version >= D3D_ROOT_SIGNATURE_VERSION_1_0 && version <= D3D_ROOT_SIGNATURE_VERSION_1_2;
+}
+uint32_t sampler_bytes(uint32_t version) {
+  return version >= D3D_ROOT_SIGNATURE_VERSION_1_2 ? kSamplerBytes1 : kSamplerBytes;
 }
 
 rtapi::Error bad(const std::string& detail) {
@@ -92,7 +100,8 @@ rtapi::Result<rtapi::RootSignatureDesc> desc_of(const Desc& desc) {
   }
   for (UINT i = 0; i < desc.NumStaticSamplers; ++i) {
     rtapi::StaticSamplerDesc sampler;
-    std::memcpy(static_cast<void*>(&sampler), &desc.pStaticSamplers[i], sizeof(sampler));
+    std::memcpy(static_cast<void*>(&sampler), &desc.pStaticSamplers[i],
+                sizeof(desc.pStaticSamplers[i]));
     out.StaticSamplers.push_back(sampler);
   }
   out.Flags = static_cast<rtapi::RootSignatureFlags>(desc.Flags);
@@ -217,16 +226,18 @@ rtapi::RootParameter read_parameter(Reader& in, uint32_t at, bool flags) {
 
 }  // namespace
 
+D3D12_ROOT_SIGNATURE_DESC2 desc_1_2(const D3D12_VERSIONED_ROOT_SIGNATURE_DESC& desc) {
+  D3D12_ROOT_SIGNATURE_DESC2 out;
+  std::memcpy(&out, &desc.Desc_1_1, sizeof(out));
+  return out;
+}
+
 rtapi::Result<rtapi::RootSignatureDesc> root_signature_desc(
     const D3D12_VERSIONED_ROOT_SIGNATURE_DESC& desc) {
-  switch (desc.Version) {
-    case D3D_ROOT_SIGNATURE_VERSION_1_0:
-      return desc_of(desc.Desc_1_0);
-    case D3D_ROOT_SIGNATURE_VERSION_1_1:
-      return desc_of(desc.Desc_1_1);
-    default:
-      return bad("Version is " + std::to_string(desc.Version) + "; it is 1 (1.0) or 2 (1.1).");
-  }
+  if (desc.Version == D3D_ROOT_SIGNATURE_VERSION_1_0) return desc_of(desc.Desc_1_0);
+  if (desc.Version == D3D_ROOT_SIGNATURE_VERSION_1_1) return desc_of(desc.Desc_1_1);
+  if (desc.Version == D3D_ROOT_SIGNATURE_VERSION_1_2) return desc_of(desc_1_2(desc));
+  return bad("Version is " + std::to_string(desc.Version) + "; known are " + kVersions + ".");
 }
 
 std::vector<std::byte> write_root_signature(const rtapi::RootSignatureDesc& desc,
@@ -250,8 +261,9 @@ std::vector<std::byte> write_root_signature(const rtapi::RootSignatureDesc& desc
     write_payload(out, desc.Parameters[i], flags);
   }
   out.put_at(16, out.size());
-  out.put(desc.StaticSamplers.data(),
-          desc.StaticSamplers.size() * sizeof(rtapi::StaticSamplerDesc));
+  for (const rtapi::StaticSamplerDesc& sampler : desc.StaticSamplers) {
+    out.put(&sampler, sampler_bytes(version));
+  }
   return out.take();
 }
 
@@ -260,7 +272,7 @@ rtapi::Result<rtapi::RootSignatureDesc> read_root_signature(std::span<const std:
   Reader in(part);
   const uint32_t number = in.get(0);
   if (!is_version(number)) {
-    return bad("it has version " + std::to_string(number) + "; known are 1 (1.0) and 2 (1.1).");
+    return bad("it has version " + std::to_string(number) + "; known are " + kVersions + ".");
   }
   const uint32_t parameters = in.get(4), parameters_at = in.get(8);
   const uint32_t samplers = in.get(12), samplers_at = in.get(16);
@@ -277,11 +289,12 @@ rtapi::Result<rtapi::RootSignatureDesc> read_root_signature(std::span<const std:
       }
     }
   }
-  if (in.holds(samplers_at, samplers, sizeof(rtapi::StaticSamplerDesc))) {
+  const uint32_t stride = sampler_bytes(number);
+  if (in.holds(samplers_at, samplers, stride)) {
     desc.StaticSamplers.resize(samplers);
-    if (samplers != 0) {
-      std::memcpy(static_cast<void*>(desc.StaticSamplers.data()), in.at(samplers_at),
-                  samplers * sizeof(rtapi::StaticSamplerDesc));
+    for (uint32_t i = 0; i < samplers; ++i) {
+      std::memcpy(static_cast<void*>(&desc.StaticSamplers[i]),
+                  in.at(samplers_at + uint64_t{i} * stride), stride);
     }
   }
   if (const auto failed = in.failed()) {
@@ -314,12 +327,10 @@ RootSignatureTree::RootSignatureTree(const rtapi::RootSignatureDesc& desc,
                                      D3D_ROOT_SIGNATURE_VERSION version,
                                      D3D_ROOT_SIGNATURE_VERSION source) {
   const bool adds_flags = source == D3D_ROOT_SIGNATURE_VERSION_1_0;
-  samplers_.resize(desc.StaticSamplers.size());
-  if (!samplers_.empty()) {
-    std::memcpy(static_cast<void*>(samplers_.data()), desc.StaticSamplers.data(),
-                samplers_.size() * sizeof(D3D12_STATIC_SAMPLER_DESC));
-  }
-  const auto fill = [&](auto& parameters, auto& ranges, auto& out) {
+  const auto fill = [&](auto& parameters, auto& ranges, auto& samplers, auto& out) {
+    for (const rtapi::StaticSamplerDesc& sampler : desc.StaticSamplers) {
+      std::memcpy(static_cast<void*>(&samplers.emplace_back()), &sampler, sizeof(samplers.back()));
+    }
     for (const rtapi::RootParameter& from : desc.Parameters) {
       auto& to = parameters.emplace_back();
       to = {};
@@ -364,15 +375,19 @@ RootSignatureTree::RootSignatureTree(const rtapi::RootSignatureDesc& desc,
     }
     out.NumParameters = static_cast<UINT>(parameters.size());
     out.pParameters = parameters.data();
-    out.NumStaticSamplers = static_cast<UINT>(samplers_.size());
-    out.pStaticSamplers = samplers_.data();
+    out.NumStaticSamplers = static_cast<UINT>(samplers.size());
+    out.pStaticSamplers = samplers.data();
     out.Flags = static_cast<D3D12_ROOT_SIGNATURE_FLAGS>(desc.Flags);
   };
   desc_.Version = version;
   if (version == D3D_ROOT_SIGNATURE_VERSION_1_0) {
-    fill(parameters_, ranges_, desc_.Desc_1_0);
+    fill(parameters_, ranges_, samplers_, desc_.Desc_1_0);
+  } else if (version == D3D_ROOT_SIGNATURE_VERSION_1_1) {
+    fill(parameters1_, ranges1_, samplers_, desc_.Desc_1_1);
   } else {
-    fill(parameters1_, ranges1_, desc_.Desc_1_1);
+    D3D12_ROOT_SIGNATURE_DESC2 newest = {};
+    fill(parameters1_, ranges1_, samplers1_, newest);
+    std::memcpy(&desc_.Desc_1_1, &newest, sizeof(newest));
   }
 }
 

@@ -7,14 +7,18 @@
 #include <span>
 #include <vector>
 
-#include <directx/d3d12.h>
+#include <d3d12.h>
 
 #include <rtapi/rtapi.h>
 
 namespace kaamos::d3d12 {
 
+/// The description of version 1.2 that `desc` is. It lies where Desc_1_1 does; an older d3d12.h has
+/// no member for it.
+D3D12_ROOT_SIGNATURE_DESC2 desc_1_2(const D3D12_VERSIONED_ROOT_SIGNATURE_DESC& desc);
+
 /// A description of any version as rtapi has it, and back from there. Version 1.0 has no flags of
-/// ranges and descriptors.
+/// ranges and descriptors, and only 1.2 those of static samplers.
 /// @errors KA4021 a version or a parameter type that does not exist, null arrays.
 rtapi::Result<rtapi::RootSignatureDesc> root_signature_desc(
     const D3D12_VERSIONED_ROOT_SIGNATURE_DESC& desc);
@@ -52,6 +56,7 @@ class RootSignatureTree {
   std::vector<std::vector<D3D12_DESCRIPTOR_RANGE>> ranges_;
   std::vector<std::vector<D3D12_DESCRIPTOR_RANGE1>> ranges1_;
   std::vector<D3D12_STATIC_SAMPLER_DESC> samplers_;
+  std::vector<D3D12_STATIC_SAMPLER_DESC1> samplers1_;
 };
 
 }  // namespace kaamos::d3d12

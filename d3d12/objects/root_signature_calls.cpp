@@ -34,36 +34,55 @@ HRESULT serialize(const D3D12_VERSIONED_ROOT_SIGNATURE_DESC* desc, ID3DBlob** bl
   return S_OK;
 }
 
-// Both versions' structures are made when the object is.
+// The interface and nothing else: not even IUnknown, as of Microsoft's.
+template <class Entries>
+class DeserializerObject : public ComObject<Entries> {
+ public:
+  HRESULT STDMETHODCALLTYPE QueryInterface(REFIID riid, void** object) override {
+    if (object == nullptr || riid != kIUnknown) {
+      return ComObject<Entries>::QueryInterface(riid, object);
+    }
+    *object = nullptr;
+    return E_NOINTERFACE;
+  }
+};
+
+// All versions' structures are made when the object is.
 class VersionedDeserializer final
-    : public ComObject<ID3D12VersionedRootSignatureDeserializerEntries> {
+    : public DeserializerObject<ID3D12VersionedRootSignatureDeserializerEntries> {
  public:
   VersionedDeserializer(const rtapi::RootSignatureDesc& desc, D3D_ROOT_SIGNATURE_VERSION version)
       : unconverted_(version),
         v1_0_(desc, D3D_ROOT_SIGNATURE_VERSION_1_0),
-        v1_1_(desc, D3D_ROOT_SIGNATURE_VERSION_1_1, version) {}
+        v1_1_(desc, D3D_ROOT_SIGNATURE_VERSION_1_1, version),
+        v1_2_(desc, D3D_ROOT_SIGNATURE_VERSION_1_2, version) {}
 
   HRESULT STDMETHODCALLTYPE
   GetRootSignatureDescAtVersion(D3D_ROOT_SIGNATURE_VERSION version,
                                 const D3D12_VERSIONED_ROOT_SIGNATURE_DESC** desc) override {
     if (desc == nullptr) return E_INVALIDARG;
-    *desc = nullptr;
-    if (version == D3D_ROOT_SIGNATURE_VERSION_1_0) *desc = &v1_0_.desc();
-    if (version == D3D_ROOT_SIGNATURE_VERSION_1_1) *desc = &v1_1_.desc();
+    *desc = at(version);
     return *desc != nullptr ? S_OK : E_INVALIDARG;
   }
   const D3D12_VERSIONED_ROOT_SIGNATURE_DESC* STDMETHODCALLTYPE
   GetUnconvertedRootSignatureDesc() override {
-    return unconverted_ == D3D_ROOT_SIGNATURE_VERSION_1_0 ? &v1_0_.desc() : &v1_1_.desc();
+    return at(unconverted_);
   }
 
  private:
+  const D3D12_VERSIONED_ROOT_SIGNATURE_DESC* at(D3D_ROOT_SIGNATURE_VERSION version) const {
+    if (version == D3D_ROOT_SIGNATURE_VERSION_1_0) return &v1_0_.desc();
+    if (version == D3D_ROOT_SIGNATURE_VERSION_1_1) return &v1_1_.desc();
+    return version == D3D_ROOT_SIGNATURE_VERSION_1_2 ? &v1_2_.desc() : nullptr;
+  }
+
   D3D_ROOT_SIGNATURE_VERSION unconverted_;
   RootSignatureTree v1_0_;
   RootSignatureTree v1_1_;
+  RootSignatureTree v1_2_;
 };
 
-class Deserializer final : public ComObject<ID3D12RootSignatureDeserializerEntries> {
+class Deserializer final : public DeserializerObject<ID3D12RootSignatureDeserializerEntries> {
  public:
   explicit Deserializer(const rtapi::RootSignatureDesc& desc)
       : v1_0_(desc, D3D_ROOT_SIGNATURE_VERSION_1_0) {}
@@ -87,12 +106,12 @@ extern "C" {
 HRESULT WINAPI D3D12SerializeRootSignature(const D3D12_ROOT_SIGNATURE_DESC* desc,
                                            D3D_ROOT_SIGNATURE_VERSION version, ID3DBlob** blob,
                                            ID3DBlob** error_blob) {
-  if (blob != nullptr) *blob = nullptr;
   if (error_blob != nullptr) *error_blob = nullptr;
   if (desc == nullptr) {
     return process_reporter().fail(ErrorId::kNullPointer,
                                    "D3D12SerializeRootSignature: pRootSignature.");
   }
+  // Like Microsoft's, this call leaves ppBlob as it is then.
   if (version != D3D_ROOT_SIGNATURE_VERSION_1_0) {
     const rtapi::Error error =
         make_error(ErrorId::kRootSignatureBlob,

@@ -165,7 +165,7 @@ void Draws::check_root_arguments(const runtime::DrawCommand& command,
               " shader " + in_quotes(shader.name) + " reads " +
               binding_name(shader.library->bindings[i]) + ", is not set" +
               (changed ? "; it was set before SetGraphicsRootSignature set another signature, "
-                         "which forgets all arguments. Set it again."
+                         "after which arguments are undefined. Set it again."
                        : " and reads as 0. Set it after SetGraphicsRootSignature."));
     }
   }

@@ -34,11 +34,11 @@ struct CommandListImpl;
 enum class InvalidCalls : uint32_t {
   kFailList = 0,  ///< Close() returns the error, and the list cannot be executed
   /// As D3D12's runtimes do without their debug layer: calls that they drop or ignore are told to
-  /// DeviceDesc::OnMessage as errors, and the rest of the list executes. These are KA0740-0743,
-  /// KA0802-0805, KA0807-0816, KA0822 and KA0824, those of acceleration structure builds and copies
-  /// (KA0700-0719) and of queries (KA0745). All others fail the list, as there: arguments of
-  /// copies, empty handles, what is not supported. A list that is executed open removes the device
-  /// with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
+  /// DeviceDesc::OnMessage as errors, and the rest of the list executes. These are KA0731,
+  /// KA0740-0743, KA0802-0805, KA0807-0816, KA0822 and KA0824, those of acceleration structure
+  /// builds and copies (KA0700-0719) and of queries (KA0745). All others fail the list, as there:
+  /// arguments of copies, empty handles, what is not supported. A list that is executed open
+  /// removes the device with KA0823. [D3D12: ID3D12GraphicsCommandList::Close]
   kDropCall = 1,
 };
 
@@ -139,9 +139,10 @@ class CommandList {
     SetDescriptorHeaps(std::span<const DescriptorHeap>(heaps.begin(), heaps.size()));
   }
 
-  /// Sets the root signature of Dispatch and the global one of DispatchRays. One of another
-  /// definition makes all root arguments zero (in D3D12 undefined); of the same definition it keeps
-  /// them. [DXR: Local root signatures vs global root signatures]
+  /// Sets the root signature of Dispatch and the global one of DispatchRays. One of the same
+  /// definition keeps all root arguments. One of another makes them undefined in D3D12: here,
+  /// parameters of the same index and type keep theirs, others are zero, and checked mode tells of
+  /// shaders that read them. [DXR: Local root signatures vs global root signatures]
   /// @errors KA0800; KA0536 a local root signature; KA0903 of another device; KA0904 empty handle.
   void SetComputeRootSignature(const RootSignature& root_signature);
   /// Sets one constant of a parameter: 32-bit value number `dest_offset_dwords`, from 0.

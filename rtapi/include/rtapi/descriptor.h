@@ -342,8 +342,18 @@ enum class StaticBorderColor : uint32_t {
   kOpaqueWhite = 2,
 };
 
+  kOpaqueBlackUint = 3,  ///< the integers 0, 0, 0, 1
+  kOpaqueWhiteUint = 4,  ///< the integers 1, 1, 1, 1
 /// The largest finite float: a MaxLOD without effect. [D3D12: D3D12_FLOAT32_MAX]
 inline constexpr float kFloat32Max = 3.402823466e+38f;
+/// How a static sampler reads. [D3D12: D3D12_SAMPLER_FLAGS]
+enum class SamplerFlags : uint32_t {
+  kNone = 0,
+  kUintBorderColor = 0x1,  ///< BorderColor is of integers, for textures of integers
+};
+template <>
+inline constexpr bool kIsFlags<SamplerFlags> = true;
+
 
 /// Describes a sampler for Device::CreateSampler. [D3D12: D3D12_SAMPLER_DESC]
 struct SamplerDesc {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Root signatures, version 1.1: what root arguments there are and which registers they feed.
+/// Root signatures, version 1.2: what root arguments there are and which registers they feed.
 #pragma once
 
 #include <cstdint>
@@ -75,7 +75,8 @@ inline constexpr bool kIsFlags<RootDescriptorFlags> = true;
 
 /// A root CBV, SRV or UAV: the argument is an address. It serves constant buffers, raw and
 /// structured buffers and acceleration structures; textures and typed buffers need a table
-/// (KA0529). [D3D12: D3D12_ROOT_DESCRIPTOR1]
+/// (KA0529). Of an array without a size it is element 0, and the others are null; one with a size
+/// needs a table (KA0529). [D3D12: D3D12_ROOT_DESCRIPTOR1]
 struct RootDescriptor {
   uint32_t ShaderRegister = 0;                             ///< b, t or u register
   uint32_t RegisterSpace = 0;                              ///< up to 0xFFFFFFEF (KA0605)
@@ -155,7 +156,9 @@ struct RootParameter {
 };
 
 /// A sampler that is part of the root signature and takes no argument (KA0610). The members are
-/// those of SamplerDesc, by its rules. [D3D12: D3D12_STATIC_SAMPLER_DESC]
+/// those of SamplerDesc, by its rules. An array without a size of samplers in a shader may start at
+/// its register: whatever the index, it reads this sampler. One with a size may not (KA0529).
+/// [D3D12: D3D12_STATIC_SAMPLER_DESC1]
 struct StaticSamplerDesc {
   rtapi::Filter Filter = rtapi::Filter::kAnisotropic;  ///< how texels are mixed
   /// The way in which the texture continues beyond its edges, along each axis.
@@ -178,6 +181,7 @@ struct StaticSamplerDesc {
   uint32_t RegisterSpace = 0;   ///< up to 0xFFFFFFEF (KA0605)
   /// The shaders that see it; in a local root signature kAll (KA0603).
   rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;
+  SamplerFlags Flags = SamplerFlags::kNone;  ///< version 1.2 of root signatures
 };
 
 /// Flags that say what a root signature is for. Those of stages that do not exist here are without

@@ -351,6 +351,31 @@ TEST_F(CommandListTest, ClearStateUnsetsWhatIsSet) {
   EXPECT_EQ(list_.GetErrors()[0].id.text(), "KA0800");
 }
 
+// Undefined in D3D12; drivers leave registers as they are.
+TEST_F(CommandListTest, AnotherRootSignatureKeepsWhatHasTheSameIndexAndType) {
+  const RootSignature one = Global("RootConstants(num32BitConstants=2, b0), UAV(u0), UAV(u1)");
+  const RootSignature other = Global("RootConstants(num32BitConstants=3, b0), UAV(u5), CBV(b1)");
+  const Buffer buffer = MakeBuffer(256);
+  const uint32_t values[] = {7, 8, 9};
+  list_.SetComputeRootSignature(one);
+  list_.SetComputeRoot32BitConstants(0, 2, values, 0);
+  list_.SetComputeRootUnorderedAccessView(1, buffer.GetGPUVirtualAddress());
+  list_.SetComputeRootUnorderedAccessView(2, buffer.GetGPUVirtualAddress());
+  list_.SetComputeRootSignature(other);
+  const auto& state = list_.impl()->compute;
+  uint32_t constants[3];
+  uint64_t views[2];
+  std::memcpy(constants, state.arguments->bytes.data(), sizeof constants);
+  std::memcpy(views, state.arguments->bytes.data() + 16, sizeof views);
+  EXPECT_EQ(constants[0], 7u);
+  EXPECT_EQ(constants[1], 8u);
+  EXPECT_EQ(constants[2], 0u);
+  EXPECT_EQ(views[0], buffer.GetGPUVirtualAddress());
+  EXPECT_EQ(views[1], 0u) << "another type";
+  EXPECT_EQ(state.views.size(), 1u);
+  EXPECT_EQ(state.set_parameters, 0u) << "checked mode tells of what was not set again";
+}
+
 TEST(InvalidCallsTest, DroppedCallsAreToldAndTheRestOfTheListRuns) {
   std::vector<Message> messages;
   const Device device =
@@ -381,6 +406,27 @@ TEST(InvalidCallsTest, DroppedCallsAreToldAndTheRestOfTheListRuns) {
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(messages[0].Id.text(), "KA0741");
   EXPECT_EQ(list.impl()->draw_state->vertex_buffers[3].SizeInBytes, 16u);
+  // The address of a root descriptor of another type is set.
+  messages.clear();
+  const RootSignature root =
+      device.CreateRootSignature("UAV(u0), DescriptorTable(SRV(t0))").value();
+  EXPECT_OK(list.Reset());
+  list.SetComputeRootSignature(root);
+  list.SetComputeRootShaderResourceView(0, upload.GetGPUVirtualAddress());
+  list.SetComputeRootShaderResourceView(1, upload.GetGPUVirtualAddress());
+  EXPECT_EQ(messages.size(), 2u);
+  uint64_t arguments[2];
+  std::memcpy(arguments, list.impl()->compute.arguments->bytes.data(), sizeof arguments);
+  EXPECT_EQ(arguments[0], upload.GetGPUVirtualAddress());
+  EXPECT_EQ(arguments[1], 0u) << "a table is no address";
+  // A target that nothing was written to is not set.
+  const DescriptorHeap rtvs =
+      device.CreateDescriptorHeap({.Type = DescriptorHeapType::kRtv, .NumDescriptors = 1}).value();
+  const CpuDescriptorHandle unwritten = rtvs.GetCPUDescriptorHandle(0);
+  list.OMSetRenderTargets(1, &unwritten);
+  ASSERT_EQ(messages.size(), 3u);
+  EXPECT_EQ(messages[2].Id.text(), "KA0731");
+  EXPECT_OK(list.Close());
   // Arguments of copies fail the list there too.
   EXPECT_OK(list.Reset());
   list.CopyBufferRegion(upload, 65, upload, 0, 1);

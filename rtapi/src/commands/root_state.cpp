@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtapi/src/commands/root_state.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "rtapi/src/commands/command_list_impl.h"
@@ -21,6 +22,24 @@ void RootState::clear(uint32_t offset, uint32_t bytes) {
   if (bytes <= sizeof kZeros) write(offset, kZeros, bytes);
 }
 
+void RootState::keep_arguments(const RootState& before) {
+  if (!before.signature) return;
+  const auto& old = before.signature.GetDesc().Parameters;
+  const auto& parameters = signature.GetDesc().Parameters;
+  for (uint32_t i = 0; i < std::min(old.size(), parameters.size()); ++i) {
+    const RootParameterType type = parameters[i].ParameterType;
+    if (type != old[i].ParameterType) continue;
+    uint32_t bytes = 8;
+    if (type == RootParameterType::k32BitConstants) {
+      bytes = 4 * std::min(old[i].Constants.Num32BitValues, parameters[i].Constants.Num32BitValues);
+    }
+    const uint32_t from = before.signature.GetArgumentOffset(i);
+    if (from + bytes > runtime::kRootArgumentBytes) continue;
+    write(signature.GetArgumentOffset(i), before.arguments->bytes.data() + from, bytes);
+    if (const auto view = before.views.find(i); view != before.views.end()) views.insert(*view);
+  }
+}
+
 const RootParameter* RootSetter::find(uint32_t index, RootParameterType type) {
   if (!list.check_open(call)) return nullptr;
   if (!root.signature) {
@@ -37,11 +56,15 @@ const RootParameter* RootSetter::find(uint32_t index, RootParameterType type) {
                          " parameters"));
     return nullptr;
   }
-  if (parameters[index].ParameterType != type) {
+  const RootParameterType declared = parameters[index].ParameterType;
+  if (declared != type) {
     list.fail(make_error(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
                          static_cast<uint32_t>(parameters[index].ParameterType),
                          ", but this call sets one of type ", static_cast<uint32_t>(type)));
-    return nullptr;
+    // Drivers take the address of any view.
+    const bool views = declared >= RootParameterType::kCbv && type >= RootParameterType::kCbv;
+    const bool goes_on = views && list.device->desc.InvalidCalls == InvalidCalls::kDropCall;
+    return goes_on ? &parameters[index] : nullptr;
   }
   return &parameters[index];
 }
@@ -57,10 +80,11 @@ void RootSetter::set_signature(const RootSignature& signature) {
                                 "arguments belong in shader records"));
   }
   if (root.signature && same_definition(root.signature, signature)) return;
-  const uint64_t forgotten = root.set_parameters | root.forgotten_parameters;
-  root = RootState();
-  root.signature = signature;
-  root.forgotten_parameters = forgotten;
+  RootState now;
+  now.signature = signature;
+  now.forgotten_parameters = root.set_parameters | root.forgotten_parameters;
+  now.keep_arguments(root);
+  root = std::move(now);
 }
 
 void RootSetter::set_constants(uint32_t parameter, uint32_t count, const void* values,

@@ -98,9 +98,11 @@ Status fill_root_descriptor(const BindingDesc& binding, const RegisterRange& ran
                       binding.type == BindingType::kRawBuffer ||
                       binding.type == BindingType::kStructuredBuffer ||
                       binding.type == BindingType::kAccelerationStructure;
-  if (!buffer || binding.count != 1) {
+  // Of an array without a size, the root descriptor is the first element.
+  const bool sized_array = binding.count != 1 && binding.count != shader::kUnbounded;
+  if (!buffer || sized_array) {
     return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding),
-                      binding.count != 1 ? " is an array" : " is a texture or typed buffer",
+                      sized_array ? " is an array" : " is a texture or typed buffer",
                       ", which root descriptor ", range.parameter,
                       " cannot hold; bind it through a descriptor table");
   }
@@ -128,9 +130,11 @@ Status fill_slot(const RootSignature& signature, const BindingDesc& binding,
     slot.stride_bytes = binding.size_bytes;
   }
   if (range.static_sampler) {
-    if (binding.count != 1) {
+    if (binding.count != 1 && binding.count != shader::kUnbounded) {
       return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding),
-                        " is an array, but a static sampler covers a single register");
+                        " is an array of ", binding.count,
+                        ", but a static sampler covers a single register; only an array without a "
+                        "size may start there");
     }
     slot.source = SlotSource::kStaticSampler;
     slot.static_sampler = &signature.impl()->static_samplers[range.parameter];

@@ -135,16 +135,27 @@ Status check_flags(RootSignatureFlags flags) {
   return {};
 }
 
+Status check_border(const StaticSamplerDesc& sampler, const std::string& where) {
+  const auto color = static_cast<uint32_t>(sampler.BorderColor);
+  if (color > static_cast<uint32_t>(StaticBorderColor::kOpaqueWhiteUint)) {
+    return make_error(Id::kStaticSamplerInvalid, where, ": BorderColor is ", color,
+                      "; it must be 0 to 4");
+  }
+  if ((sampler.Flags & ~SamplerFlags::kUintBorderColor) != SamplerFlags::kNone) {
+    return make_error(Id::kStaticSamplerInvalid, where, ": Flags are ",
+                      hex(static_cast<uint32_t>(sampler.Flags)),
+                      "; only kUintBorderColor (0x1) is known");
+  }
+  return {};
+}
+
 Status check_static_samplers(const RootSignatureDesc& desc) {
   for (size_t i = 0; i < desc.StaticSamplers.size(); ++i) {
     const StaticSamplerDesc& sampler = desc.StaticSamplers[i];
     const std::string where = concat("static sampler ", i);
     const bool local = HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature);
     if (Status s = check_visibility(sampler.ShaderVisibility, local, where); !s.ok()) return s;
-    if (sampler.BorderColor > StaticBorderColor::kOpaqueWhite) {
-      return make_error(Id::kStaticSamplerInvalid, where, ": BorderColor is ",
-                        static_cast<uint32_t>(sampler.BorderColor), "; it must be 0 to 2");
-    }
+    if (Status s = check_border(sampler, where); !s.ok()) return s;
     if (Status s = check_space(sampler.RegisterSpace, where); !s.ok()) return s;
     if (Status s = check_sampler(to_sampler_desc(sampler), Id::kStaticSamplerInvalid, where);
         !s.ok()) {
@@ -264,9 +275,20 @@ bool same_sampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b) {
   auto key = [](const StaticSamplerDesc& s) {
     return std::tie(s.Filter, s.AddressU, s.AddressV, s.AddressW, s.MipLODBias, s.MaxAnisotropy,
                     s.ComparisonFunc, s.BorderColor, s.MinLOD, s.MaxLOD, s.ShaderRegister,
-                    s.RegisterSpace, s.ShaderVisibility);
+                    s.RegisterSpace, s.ShaderVisibility, s.Flags);
   };
   return key(a) == key(b);
+}
+
+bool same_arguments(const RootSignature& a, const RootSignature& b) {
+  if (!a || !b) return false;
+  const auto& x = a.GetDesc().Parameters;
+  const auto& y = b.GetDesc().Parameters;
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const auto& p, const auto& q) {
+    return p.ParameterType == q.ParameterType &&
+           (p.ParameterType != RootParameterType::k32BitConstants ||
+            p.Constants.Num32BitValues == q.Constants.Num32BitValues);
+  });
 }
 
 bool same_definition(const RootSignature& a, const RootSignature& b) {

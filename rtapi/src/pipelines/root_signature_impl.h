@@ -24,6 +24,8 @@ struct RootSignatureImpl {
 
 // Compares parameters, samplers and flags.
 bool same_definition(const RootSignature& a, const RootSignature& b);
+// Compares the types and sizes of parameters: whether arguments for one lie right for the other.
+bool same_arguments(const RootSignature& a, const RootSignature& b);
 bool same_sampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b);
 
 // A range of registers that a signature defines, for overlap tests.

@@ -94,9 +94,12 @@ constexpr Keyword kComparisons[] = {
     {"COMPARISON_GREATER_EQUAL", 7}, {"COMPARISON_ALWAYS", 8},
 };
 constexpr Keyword kBorderColors[] = {
-    {"STATIC_BORDER_COLOR_TRANSPARENT_BLACK", 0},
-    {"STATIC_BORDER_COLOR_OPAQUE_BLACK", 1},
-    {"STATIC_BORDER_COLOR_OPAQUE_WHITE", 2},
+    {"STATIC_BORDER_COLOR_TRANSPARENT_BLACK", 0}, {"STATIC_BORDER_COLOR_OPAQUE_BLACK", 1},
+    {"STATIC_BORDER_COLOR_OPAQUE_WHITE", 2},      {"STATIC_BORDER_COLOR_OPAQUE_BLACK_UINT", 3},
+    {"STATIC_BORDER_COLOR_OPAQUE_WHITE_UINT", 4},
+};
+constexpr Keyword kSamplerFlags[] = {
+    {"UINT_BORDER_COLOR", 1},
 };
 
 bool same_word(std::string_view a, std::string_view b) {
@@ -409,6 +412,7 @@ class Parser {
 
   bool parse_static_sampler() {
     StaticSamplerDesc s;
+    uint32_t flags = 0;
     auto keyword = [&](std::span<const Keyword> words, const char* kind, auto& out, int index) {
       uint32_t value = 0;
       if (!parse_keyword(words, kind, value)) return -1;
@@ -434,8 +438,12 @@ class Parser {
       if (same_word(name, "visibility")) {
         return keyword(kVisibilities, "visibility", s.ShaderVisibility, 11);
       }
+      if (same_word(name, "flags")) {
+        return parse_flags(kSamplerFlags, "sampler flag", flags) ? 12 : -1;
+      }
       return -1;
     });
+    s.Flags = static_cast<SamplerFlags>(flags);
     desc_.StaticSamplers.push_back(s);
     return ok;
   }

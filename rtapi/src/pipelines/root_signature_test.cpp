@@ -180,6 +180,20 @@ TEST(RootSignatureText, ReadsEveryClause) {
   EXPECT_EQ(d->StaticSamplers[0].BorderColor, StaticBorderColor::kOpaqueWhite);
 }
 
+TEST(RootSignatureText, FlagsAndIntegerBordersOfStaticSamplers) {
+  const auto d = ParseRootSignature(
+      "StaticSampler(s0, borderColor=STATIC_BORDER_COLOR_OPAQUE_WHITE_UINT, "
+      "flags=UINT_BORDER_COLOR), StaticSampler(s1, flags=0)");
+  ASSERT_TRUE(d.ok()) << testing::MessageOf(d);
+  EXPECT_EQ(d->StaticSamplers[0].BorderColor, StaticBorderColor::kOpaqueWhiteUint);
+  EXPECT_EQ(d->StaticSamplers[0].Flags, SamplerFlags::kUintBorderColor);
+  EXPECT_EQ(d->StaticSamplers[1].Flags, SamplerFlags::kNone);
+  RootSignatureDesc unknown = *d;
+  EXPECT_OK(CheckRootSignature(unknown));
+  unknown.StaticSamplers[1].Flags = static_cast<SamplerFlags>(2);
+  EXPECT_ERROR(CheckRootSignature(unknown), "KA0610", "0x2");
+}
+
 TEST(RootSignatureText, EmptyAndZeroFlags) {
   EXPECT_OK(ParseRootSignature(""));
   EXPECT_OK(ParseRootSignature("  \n"));

@@ -65,7 +65,9 @@ SamplerDesc to_sampler_desc(const StaticSamplerDesc& desc) {
   out.MipLODBias = desc.MipLODBias;
   out.MaxAnisotropy = desc.MaxAnisotropy;
   out.ComparisonFunc = desc.ComparisonFunc;
-  const float color = desc.BorderColor == StaticBorderColor::kOpaqueWhite ? 1.0f : 0.0f;
+  const bool white = desc.BorderColor == StaticBorderColor::kOpaqueWhite ||
+                     desc.BorderColor == StaticBorderColor::kOpaqueWhiteUint;
+  const float color = white ? 1.0f : 0.0f;
   std::fill_n(out.BorderColor, 3, color);
   out.BorderColor[3] = desc.BorderColor == StaticBorderColor::kTransparentBlack ? 0.0f : 1.0f;
   out.MinLOD = desc.MinLOD;

@@ -86,8 +86,7 @@ k_Descriptor k_resolve(uint source, uint offset, uint index, uint count, uint ar
   uint kind = source >> 16 & 0xFFu;
   uint access = source >> 24;
   if (from == 0u) return k_null;
-  if (from == 4u) {  // static sampler
-    if (array_index != 0u) return k_null;
+  if (from == 4u) {  // static sampler, for any index
     return k_Descriptor(6u | 2u << 16, 0u, uint64_t(offset), 0UL, 0u, 0u);
   }
   bool local = (source & 0x100u) != 0u;

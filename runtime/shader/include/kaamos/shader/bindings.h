@@ -98,7 +98,7 @@ KAAMOS_INLINE Descriptor root_constants(const BindingSlot& slot, const uint8_t* 
                                                        const BindingSlot& slot, uint32_t index) {
   if (slot.source == SlotSource::kUnbound) return {};
   if (slot.source == SlotSource::kStaticSampler) {
-    return slot.static_sampler != nullptr && index == 0 ? *slot.static_sampler : Descriptor{};
+    return slot.static_sampler != nullptr ? *slot.static_sampler : Descriptor{};  // for any index
   }
   const uint8_t* arguments = arguments_of(invocation, slot);
   if (arguments == nullptr) return {};
