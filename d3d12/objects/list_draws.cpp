@@ -30,11 +30,8 @@ void GraphicsCommandList::IASetIndexBuffer(const D3D12_INDEX_BUFFER_VIEW* view) 
 
 void GraphicsCommandList::IASetVertexBuffers(UINT start_slot, UINT count,
                                              const D3D12_VERTEX_BUFFER_VIEW* views) {
-  // Null for the views unsets the slots.
-  const std::vector<rtapi::VertexBufferView> none(views == nullptr ? count : 0);
-  list_.IASetVertexBuffers(start_slot, views == nullptr
-                                           ? std::span<const rtapi::VertexBufferView>(none)
-                                           : same_bytes<rtapi::VertexBufferView>(views, count));
+  if (views == nullptr) return;  // like Microsoft's, which leaves the slots as they are
+  list_.IASetVertexBuffers(start_slot, same_bytes<rtapi::VertexBufferView>(views, count));
 }
 
 void GraphicsCommandList::RSSetViewports(UINT count, const D3D12_VIEWPORT* viewports) {

@@ -116,6 +116,17 @@ rtapi::Result<rtapi::RenderTargetViewDesc> view_desc(const D3D12_RENDER_TARGET_V
   switch (desc.ViewDimension) {
     case D3D12_RTV_DIMENSION_UNKNOWN:
       return out;
+    case D3D12_RTV_DIMENSION_TEXTURE1D:
+      out.Texture2DArray.MipSlice = desc.Texture1D.MipSlice;
+      return out;
+    case D3D12_RTV_DIMENSION_TEXTURE1DARRAY:
+      out.Texture2DArray = {desc.Texture1DArray.MipSlice, desc.Texture1DArray.FirstArraySlice,
+                            desc.Texture1DArray.ArraySize};
+      return out;
+    case D3D12_RTV_DIMENSION_TEXTURE3D:
+      out.Texture2DArray = {desc.Texture3D.MipSlice, desc.Texture3D.FirstWSlice,
+                            desc.Texture3D.WSize};
+      return out;
     case D3D12_RTV_DIMENSION_TEXTURE2D:
       out.Texture2DArray.MipSlice = desc.Texture2D.MipSlice;
       return out;

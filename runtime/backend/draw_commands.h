@@ -34,6 +34,7 @@ struct TargetView {
   uint32_t width = 0;  // of the mip, in texels
   uint32_t height = 0;
   uint32_t samples = 1;
+  bool is_volume = false;  // slices are of the mip's depth, in the only array element
   bool read_only_depth = false;
   bool read_only_stencil = false;
 

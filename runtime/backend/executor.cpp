@@ -47,7 +47,16 @@ class Executor {
   rtapi::Status operator()(const CopyTextureCommand& command) {
     return target_.copy_texture(command);
   }
-  rtapi::Status operator()(const ResolveCommand& command) { return target_.resolve(command); }
+  rtapi::Status operator()(const ResolveCommand& command) {
+    if (command.mode != rtapi::ResolveMode::kDecompress) return target_.resolve(command);
+    // Nothing is compressed: the samples go from one place to the other as they are.
+    CopyTextureCommand copy;
+    copy.dest = command.dest;
+    copy.source = command.source;
+    std::copy(command.extent, command.extent + 2, copy.extent);
+    copy.extent[2] = 1;
+    return target_.copy_texture(copy);
+  }
   rtapi::Status operator()(const ClearUavCommand& command) { return target_.clear(command); }
   rtapi::Status operator()(const DrawCommand& command) {
     const rtapi::DrawIndexedArguments& a = command.arguments;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "runtime/backend/copy_overlap.h"
 #include "runtime/backend/indirect.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
@@ -443,6 +444,8 @@ void Layer::check(const runtime::PredicationCommand& command) {
 void Layer::check(const runtime::ResolveCommand& command) {
   textures_.use(command.source.texture.get(), subresource_of(command.source),
                 ResourceStates::kResolveSource, "the resolve's source", label());
+  // Beside itself, it is in the state of the source.
+  if (runtime::same_subresource(command.dest, command.source)) return;
   textures_.use(command.dest.texture.get(), subresource_of(command.dest),
                 ResourceStates::kResolveDest, "the resolve's destination", label());
 }

@@ -8,6 +8,7 @@
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/layer.h"
 #include "runtime/checks/names.h"
+#include "runtime/checks/targets.h"
 
 namespace kaamos::checks {
 
@@ -56,7 +57,7 @@ void Layer::check_feedback(const runtime::DrawCommand& command, std::vector<Shad
   const auto drop = [&](const runtime::TargetView& view, const std::string& what,
                         uint32_t plane = 0) {
     if (view.texture == nullptr) return;
-    const Subresources bound = {view.mip, 1, view.first_slice, view.slice_count, plane, 1};
+    const Subresources bound = subresources_of(view, plane);
     std::erase_if(uses, [&](const ShaderUse& use) {
       if (!use.texture || !textures_.shows(use.address, view.texture.get(), bound)) return false;
       reporter_.report(Id::kTargetRead,

@@ -14,10 +14,6 @@ using rtapi::ComparisonFunc;
 using rtapi::ResourceStates;
 using runtime::TargetView;
 
-Subresources subresources_of(const TargetView& view, uint32_t plane = 0) {
-  return {view.mip, 1, view.first_slice, view.slice_count, plane, 1};
-}
-
 std::string slot_name(uint32_t slot) {
   return "render target " + std::to_string(slot);
 }

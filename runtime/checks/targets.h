@@ -17,6 +17,12 @@
 
 namespace kaamos::checks {
 
+// What a view of a target shows. A volume has a single array element.
+inline Subresources subresources_of(const runtime::TargetView& view, uint32_t plane = 0) {
+  if (view.is_volume) return {view.mip, 1, 0, 1, plane, 1};
+  return {view.mip, 1, view.first_slice, view.slice_count, plane, 1};
+}
+
 class Targets {
  public:
   Targets(Reporter& reporter, TextureStates& states) : reporter_(reporter), states_(states) {}

@@ -50,10 +50,12 @@ raster::Surface surface_of(const runtime::TargetView& view) {
   raster::Surface surface;
   if (view.texture == nullptr) return surface;
   const TextureMemory& memory = static_cast<const Texture&>(*view.texture).stored();
-  const TextureMemory::Subresource first = memory.subresource(view.mip, view.first_slice);
+  const uint32_t element = view.is_volume ? 0 : view.first_slice;
+  const TextureMemory::Subresource first = memory.subresource(view.mip, element);
   surface.texels = first.first;
   surface.row_pitch = first.row_pitch;
-  surface.slice_pitch = memory.array_pitch();
+  surface.slice_pitch = view.is_volume ? first.slice_pitch : memory.array_pitch();
+  if (view.is_volume) surface.texels += view.first_slice * first.slice_pitch;
   surface.width = view.width;
   surface.height = view.height;
   surface.slices = view.slice_count;

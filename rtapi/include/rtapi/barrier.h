@@ -119,7 +119,7 @@ struct BarrierSubresourceRange {
   uint32_t IndexOrFirstMipLevel = 0xFFFFFFFF;  ///< without NumMipLevels: one index, or ~0 for all
   uint32_t NumMipLevels = 0;                   ///< mips from the first; 0: an index
   uint32_t FirstArraySlice = 0;                ///< with NumMipLevels
-  uint32_t NumArraySlices = 0;                 ///< with NumMipLevels; not 0 then
+  uint32_t NumArraySlices = 0;                 ///< with NumMipLevels; 0: one
   uint32_t FirstPlane = 0;                     ///< with NumMipLevels: 0 depth or all, 1 stencil
   uint32_t NumPlanes = 0;                      ///< with NumMipLevels; 0: all from the first on
 };

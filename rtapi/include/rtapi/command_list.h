@@ -30,7 +30,10 @@ struct CommandListImpl;
 }
 
 /// What becomes of a list if one of its calls breaks a rule. The call is not recorded either way,
-/// but for a vertex buffer view that reaches past its buffer, which kDropCall cuts there.
+/// but for what drivers do with kDropCall: a vertex buffer view that reaches past its buffer is cut
+/// there, the address of a root descriptor of another type is set, and a pipeline runs under
+/// another root signature if the parameters' types and sizes are those of its own, whose registers
+/// count.
 enum class InvalidCalls : uint32_t {
   kFailList = 0,  ///< Close() returns the error, and the list cannot be executed
   /// As D3D12's runtimes do without their debug layer: calls that they drop or ignore are told to
@@ -408,16 +411,18 @@ class CommandList {
   /// buffer of another device; KA0904 an empty handle.
   void CopyBufferRegion(const Buffer& dest, uint64_t dest_offset_bytes, const Buffer& source,
                         uint64_t source_offset_bytes, uint64_t size_bytes);
-  /// Copies texels between subresources, or between a subresource and a buffer: those of
-  /// `source_box` (null: all) to (x, y, z) of the destination. Formats are of one family; values
-  /// are not converted. An empty box copies nothing. The list keeps both sides alive.
+  /// Copies texels between subresources, within one if they do not overlap, or between a
+  /// subresource and a buffer: those of `source_box` (null: all) to (x, y, z) of the destination,
+  /// with all samples of each. Formats are of one family; values are not converted. An empty box
+  /// copies nothing. The list keeps both sides alive.
   /// Block-compressed formats: coordinates are multiples of 4, or for right and bottom the size of
   /// the subresource. Their blocks can also go to and come from texels of integer or typeless
   /// formats with as many bytes: BC1 and BC4 of 8, the others of 16. [D3D12: CopyTextureRegion]
-  /// @errors KA0800; KA0572 parts of blocks; KA0817 a subresource that does not exist, texels
-  /// outside of a side, or a footprint outside of its buffer; KA0818 source and destination are one
-  /// subresource; KA0819 formats of different families, two buffers, or a Type that is not the
-  /// resource's; KA0820 the footprint; KA0903 a resource of another device; KA0904 an empty handle.
+  /// @errors KA0800; KA0572 parts of blocks; KA0574 counts of samples that differ; KA0817 a
+  /// subresource that does not exist, texels outside of a side, or a footprint outside of its
+  /// buffer; KA0818 texels of one subresource that overlap; KA0819 formats of different families,
+  /// two buffers, or a Type that is not the resource's; KA0820 the footprint; KA0903 a resource of
+  /// another device; KA0904 an empty handle.
   void CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x, uint32_t y, uint32_t z,
                          const TextureCopyLocation& source, const Box* source_box = nullptr);
   /// Copies a whole buffer to one of the same size, or every subresource of a texture to one of the
@@ -437,11 +442,12 @@ class CommandList {
                           uint32_t source_subresource, Format format);
   /// Reduces those pixels of `source_rect` (null: all) to (x, y) of the destination by `mode`: the
   /// average as ResolveSubresource, or the least or greatest sample, which integer and depth
-  /// formats may have, too. An empty rectangle resolves nothing.
-  /// [D3D12: ResolveSubresourceRegion]
+  /// formats may have, too. kDecompress takes every sample as it is to a texture with as many, or
+  /// to pixels of the same one that do not overlap, and is nothing where both are the same. An
+  /// empty rectangle resolves nothing. [D3D12: ResolveSubresourceRegion]
   /// @errors KA0800; KA0575 counts, formats, an unknown mode; KA0817 a subresource that does not
-  /// exist, or pixels outside of a side; KA0903 a texture of another device; KA0904 an empty
-  /// handle.
+  /// exist, or pixels outside of a side; KA0818 pixels that overlap; KA0903 a texture of another
+  /// device; KA0904 an empty handle.
   void ResolveSubresourceRegion(const Texture& dest, uint32_t dest_subresource, uint32_t x,
                                 uint32_t y, const Texture& source, uint32_t source_subresource,
                                 const Rect* source_rect, Format format, ResolveMode mode);

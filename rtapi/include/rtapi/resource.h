@@ -316,7 +316,7 @@ struct TextureCopyLocation {
 /// What CommandList::ResolveSubresourceRegion makes of a pixel's samples.
 /// [D3D12: D3D12_RESOLVE_MODE]
 enum class ResolveMode : uint32_t {
-  kDecompress = 0,  ///< refused (KA0575): no texture is compressed
+  kDecompress = 0,  ///< every sample as it is, to a texture with as many
   kMin = 1,         ///< the least of each component
   kMax = 2,         ///< the greatest of each component
   kAverage = 3,     ///< no integer and no depth formats

@@ -250,11 +250,12 @@ Result<Range> range_of(const std::string& name, const TextureBarrier& barrier) {
   const uint32_t planes = runtime::plane_count(desc.Format);
   const uint32_t wanted_planes =
       range.NumPlanes != 0 ? range.NumPlanes : planes - std::min(range.FirstPlane, planes);
+  const uint32_t wanted_layers = std::max(range.NumArraySlices, 1u);
   const auto outside = [](uint32_t first, uint32_t some, uint32_t all) {
     return some == 0 || first >= all || some > all - first;
   };
   if (outside(range.IndexOrFirstMipLevel, range.NumMipLevels, mips) ||
-      outside(range.FirstArraySlice, range.NumArraySlices, layers) ||
+      outside(range.FirstArraySlice, wanted_layers, layers) ||
       outside(range.FirstPlane, wanted_planes, planes)) {
     return make_error(Id::kEnhancedBarrier, name, ": mips ", range.IndexOrFirstMipLevel, " + ",
                       range.NumMipLevels, ", array slices ", range.FirstArraySlice, " + ",
@@ -262,8 +263,8 @@ Result<Range> range_of(const std::string& name, const TextureBarrier& barrier) {
                       "; there are ", mips, " mips, ", layers, " array slices and ", planes,
                       " planes");
   }
-  return Range{range.IndexOrFirstMipLevel, range.NumMipLevels, range.FirstArraySlice,
-               range.NumArraySlices,       range.FirstPlane,   wanted_planes};
+  return Range{range.IndexOrFirstMipLevel, range.NumMipLevels, range.FirstArraySlice, wanted_layers,
+               range.FirstPlane,           wanted_planes};
 }
 
 // One side of a texture barrier. An undefined layout allows no access, unless both are undefined.

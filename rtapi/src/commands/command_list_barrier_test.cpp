@@ -210,7 +210,8 @@ TEST_F(EnhancedBarriers, RangesOfSubresources) {
   EXPECT_OK(ranged({1, 2, 2, 2}));
   EXPECT_ERROR(ranged({1, 3, 2, 2}), "KA0858", "there are 3 mips, 4 array slices and 1 planes");
   EXPECT_ERROR(ranged({1, 2, 3, 2}), "KA0858");
-  EXPECT_ERROR(ranged({1, 2, 0, 0}), "KA0858");
+  EXPECT_OK(ranged({1, 2, 3, 0}));  // one array slice
+  EXPECT_ERROR(ranged({1, 2, 4, 0}), "KA0858");
   EXPECT_OK(ranged({1, 2, 2, 2, 0, 1}));
   EXPECT_ERROR(ranged({1, 2, 2, 2, 1, 1}), "KA0858", "planes 1 + 1");
   EXPECT_ERROR(ranged({1, 2, 2, 2, 1, 0}), "KA0858");

@@ -5,6 +5,7 @@
 
 #include "rtapi/src/commands/command_list_impl.h"
 #include "rtapi/src/resources/resource_impl.h"
+#include "runtime/backend/copy_overlap.h"
 
 namespace rtapi {
 
@@ -330,22 +331,11 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
                                     " (size ", to->size[i], ")"));
     }
   }
-  // [D3D12: CopyTextureRegion, pSrcBox]
-  const bool whole_copy = std::equal(target, target + 3, std::begin({0u, 0u, 0u})) &&
-                          std::equal(first, first + 3, std::begin({0u, 0u, 0u})) &&
-                          std::equal(last, last + 3, from->size) &&
-                          std::equal(last, last + 3, to->size);
-  if (from->samples > 1 && !whole_copy) {
-    return impl_->fail(make_error(Id::kCopyRange, "CopyTextureRegion: ", from->name, " has ",
-                                  from->samples,
-                                  " samples, so that it is copied as a whole, to a whole "
-                                  "subresource of the same size"));
-  }
-  if (to->place.texture && to->place.texture == from->place.texture &&
-      to->place.mip == from->place.mip && to->place.array_element == from->place.array_element &&
-      to->place.plane == from->place.plane) {
-    return impl_->fail(make_error(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
-                                  ": source and dest are the same subresource"));
+  if (runtime::overlap(to->place, from->place, command.extent)) {
+    return impl_->fail(make_error(Id::kCopyOverlap, "CopyTextureRegion: texels ", first[0], "..",
+                                  last[0], " x ", first[1], "..", last[1], " x ", first[2], "..",
+                                  last[2], " overlap those at ", x, ", ", y, ", ", z,
+                                  " of the same subresource of ", to->name));
   }
   command.dest = std::move(to->place);
   command.source = std::move(from->place);

@@ -130,6 +130,9 @@ TEST_F(TextureCopyTest, Errors) {
   EXPECT_ERROR(Copy({MakeTexture(Format::kR32Float), 0}, 0, 0, {texture, 0}), "KA0819", "family");
   EXPECT_OK(Copy({MakeTexture(Format::kR8G8B8A8UnormSrgb), 0}, 0, 0, {texture, 0}));
   EXPECT_ERROR(Copy({texture, 0}, 0, 0, {texture, 0}), "KA0818");
+  const Box left = {0, 0, 0, 4, 4, 1};
+  EXPECT_ERROR(Copy({texture, 0}, 3, 0, {texture, 0}, &left), "KA0818", "0..4 x 0..4");
+  EXPECT_OK(Copy({texture, 0}, 4, 0, {texture, 0}, &left));  // beside itself
   EXPECT_ERROR(Copy({Texture(), 0}, 0, 0, {texture, 0}), "KA0904");
   auto whole = [&](const Resource& d, const Resource& s) {
     return Record([&](CommandList& l) { l.CopyResource(d, s); });

@@ -369,8 +369,11 @@ TEST_F(DrawTest, ViewsAreChecked) {
                                               Rtv(0)),
                "KA0730", "array elements");
   EXPECT_ERROR(device_.CreateRenderTargetView(
-                   color, {.ViewDimension = static_cast<RtvDimension>(8)}, Rtv(0)),
-               "KA0730", "dimension 8");
+                   color, {.ViewDimension = static_cast<RtvDimension>(9)}, Rtv(0)),
+               "KA0730", "dimension 9");
+  EXPECT_ERROR(
+      device_.CreateRenderTargetView(color, {.ViewDimension = RtvDimension::kTexture1D}, Rtv(0)),
+      "KA0730", "2-D", "1-D");
   const Texture depth = MakeTarget(Format::kR32Typeless, ResourceFlags::kAllowDepthStencil);
   EXPECT_OK(device_.CreateDepthStencilView(depth, Dsv(0)));
   EXPECT_OK(device_.CreateDepthStencilView(
@@ -424,8 +427,10 @@ TEST_F(DrawTest, TexturesOfTargetsAreChecked) {
   EXPECT_ERROR(make(Format::kD32Float, F::kAllowDepthStencil | F::kAllowRenderTarget), "KA0909");
   EXPECT_ERROR(make(Format::kD32Float, F::kAllowDepthStencil | F::kAllowUnorderedAccess), "KA0909");
   EXPECT_ERROR(make(Format::kR8Unorm, F::kDenyShaderResource), "KA0909", "kDenyShaderResource");
-  EXPECT_ERROR(make(Format::kR8Unorm, F::kAllowRenderTarget, ResourceDimension::kTexture1D),
+  EXPECT_ERROR(make(Format::kD32Float, F::kAllowDepthStencil, ResourceDimension::kTexture3D),
                "KA0909", "2-D");
+  EXPECT_OK(make(Format::kR8Unorm, F::kAllowRenderTarget, ResourceDimension::kTexture1D));
+  EXPECT_OK(make(Format::kR8Unorm, F::kAllowRenderTarget, ResourceDimension::kTexture3D));
   EXPECT_ERROR(make(Format::kR9G9B9E5Sharedexp, F::kAllowRenderTarget), "KA0726");
   EXPECT_OK(make(Format::kR8G8B8A8Typeless, F::kAllowRenderTarget | F::kAllowUnorderedAccess));
 }

@@ -5,6 +5,7 @@
 
 #include "rtapi/src/commands/command_list_impl.h"
 #include "rtapi/src/resources/resource_impl.h"
+#include "runtime/backend/copy_overlap.h"
 
 namespace rtapi {
 
@@ -51,20 +52,23 @@ Status check_format(const DeviceImpl& device, const Resolve& resolve) {
 }
 
 Status check_mode(const DeviceImpl& device, const Resolve& resolve) {
-  const bool known = resolve.mode >= ResolveMode::kMin && resolve.mode <= ResolveMode::kAverage;
+  if (resolve.mode == ResolveMode::kDecompress) return {};
+  const bool known = resolve.mode <= ResolveMode::kAverage;
   if (known && device.backend->supports_resolve(resolve.mode)) return {};
-  return make_error(Id::kResolve, resolve.call, ": mode ", static_cast<uint32_t>(resolve.mode),
-                    known ? ", which this backend does not have; use kAverage (3)"
-                          : "; it must be kMin (1), kMax (2) or kAverage (3)");
+  return make_error(
+      Id::kResolve, resolve.call, ": mode ", static_cast<uint32_t>(resolve.mode),
+      known ? ", which this backend does not have; use kAverage (3)" : "; it must be 0 to 3");
 }
 
 Status check_samples(const Resolve& resolve) {
   const uint32_t from = resolve.source.GetDesc().SampleDesc.Count;
   const uint32_t to = resolve.dest.GetDesc().SampleDesc.Count;
-  if (from > 1 && to == 1) return {};
+  const bool keeps = resolve.mode == ResolveMode::kDecompress;
+  if (from > 1 && to == (keeps ? from : 1)) return {};
   return make_error(Id::kResolve, resolve.call, ": ", named("texture", resolve.source.name()),
                     " has ", from, " samples and ", named("texture", resolve.dest.name()), " has ",
-                    to, "; the source must have several and the destination one");
+                    to, "; the source must have several and the destination ",
+                    keeps ? "as many" : "one");
 }
 
 Status check_subresource(const Resolve& resolve, const Texture& texture, uint32_t subresource) {
@@ -140,6 +144,17 @@ void record(CommandListImpl& list, const Resolve& resolve) {
                static_cast<uint32_t>(pixels->top));
   command.extent[0] = static_cast<uint32_t>(pixels->right - pixels->left);
   command.extent[1] = static_cast<uint32_t>(pixels->bottom - pixels->top);
+  if (runtime::same_subresource(command.dest, command.source)) {
+    // Decompressed where they are. [D3D12: D3D12_RESOLVE_MODE]
+    if (std::equal(command.dest.origin, command.dest.origin + 2, command.source.origin)) return;
+    const uint32_t extent[3] = {command.extent[0], command.extent[1], 1};
+    if (runtime::overlap(command.dest, command.source, extent)) {
+      return list.fail(make_error(Id::kCopyOverlap, resolve.call, ": pixels at (", pixels->left,
+                                  ", ", pixels->top, ") overlap those at (", resolve.x, ", ",
+                                  resolve.y, ") of the same subresource of ",
+                                  named("texture", resolve.source.name())));
+    }
+  }
   command.format = resolve.format;
   command.mode = resolve.mode;
   list.record(std::move(command));

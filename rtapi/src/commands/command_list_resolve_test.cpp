@@ -87,7 +87,8 @@ TEST_F(MultisampleTest, ViewsSayWhetherThereAreSamples) {
   EXPECT_OK(rtv(many, RtvDimension::kTexture2DMSArray));
   EXPECT_ERROR(rtv(many, RtvDimension::kTexture2D), "KA0574", "\"many\" has 4 samples");
   EXPECT_ERROR(rtv(one, RtvDimension::kTexture2DMSArray), "KA0574", "\"one\" has 1 samples");
-  EXPECT_ERROR(rtv(one, static_cast<RtvDimension>(8)), "KA0730");
+  EXPECT_ERROR(rtv(one, RtvDimension::kTexture3D), "KA0730", "\"one\" is a 2-D texture");
+  EXPECT_ERROR(rtv(one, static_cast<RtvDimension>(9)), "KA0730", "2 to 8");
   const auto srv = [&](const Texture& texture, SrvDimension dimension) {
     ShaderResourceViewDesc desc;
     desc.ViewDimension = dimension;
@@ -103,7 +104,7 @@ TEST_F(MultisampleTest, ViewsSayWhetherThereAreSamples) {
   EXPECT_ERROR(srv(one, SrvDimension::kTexture2DMS), "KA0574", "one without MS");
 }
 
-TEST_F(MultisampleTest, CopiesAreOfWholeSubresourcesWithAsManySamples) {
+TEST_F(MultisampleTest, CopiesAreBetweenTexturesWithAsManySamples) {
   const Texture many = Make(Desc(4));
   const Texture other = Make(Desc(4));
   const Texture one = Make(Desc(1));
@@ -111,10 +112,9 @@ TEST_F(MultisampleTest, CopiesAreOfWholeSubresourcesWithAsManySamples) {
   EXPECT_ERROR(Record([&](CommandList& l) { l.CopyResource(one, many); }), "KA0574",
                "\"many\" has 4 samples", "\"one\" has 1");
   const Box box = {0, 0, 0, 4, 4, 1};
-  EXPECT_ERROR(Record([&](CommandList& l) {
-                 l.CopyTextureRegion({other, 0}, 0, 0, 0, {many, 0}, &box);
-               }),
-               "KA0817", "as a whole");
+  EXPECT_OK(Record([&](CommandList& l) {
+    l.CopyTextureRegion({other, 0}, 4, 0, 0, {many, 0}, &box);
+  }));
 }
 
 TEST_F(MultisampleTest, ResolvesReduceAnElementToOneSample) {
@@ -176,8 +176,25 @@ TEST_F(MultisampleTest, ResolvesThatMakeNoSenseAreRefused) {
   EXPECT_OK(region(4, &half, ResolveMode::kAverage));
   EXPECT_ERROR(region(5, &half, ResolveMode::kAverage), "KA0817", "do not fit at (5, 0)");
   EXPECT_ERROR(region(0, &outside, ResolveMode::kAverage), "KA0817", "(4, 0) to (9, 4)");
-  EXPECT_ERROR(region(0, nullptr, ResolveMode::kDecompress), "KA0575", "mode 0");
+  EXPECT_ERROR(region(0, nullptr, ResolveMode::kDecompress), "KA0575", "as many");
+  EXPECT_ERROR(region(0, nullptr, static_cast<ResolveMode>(4)), "KA0575", "mode 4");
   EXPECT_ERROR(region(0, nullptr, ResolveMode::kMin), "KA0575", "mode 1");  // as on Vulkan
+}
+
+TEST_F(MultisampleTest, SamplesAreDecompressedBesideThemselves) {
+  const Texture many = Make(Desc(4));
+  const Texture other = Make(Desc(4));
+  const auto decompress = [&](const Texture& dest, uint32_t x, const Rect* rect) {
+    return Record([&](CommandList& l) {
+      l.ResolveSubresourceRegion(dest, 0, x, 0, many, 0, rect, Format::kR8G8B8A8Unorm,
+                                 ResolveMode::kDecompress);
+    });
+  };
+  const Rect half = {0, 0, 4, 4};
+  EXPECT_OK(decompress(other, 0, nullptr));
+  EXPECT_OK(decompress(many, 0, nullptr));  // where it is
+  EXPECT_OK(decompress(many, 4, &half));
+  EXPECT_ERROR(decompress(many, 3, &half), "KA0818", "(0, 0) overlap those at (3, 0)");
 }
 
 TEST_F(MultisampleTest, PipelinesAndTargetsHaveOneCount) {

@@ -86,12 +86,11 @@ Status check_texture_flags(const TextureDesc& desc, const std::string& name) {
     return fail("undefined flags ", hex(static_cast<uint32_t>(desc.Flags)));
   }
   const bool depth = HasAny(desc.Flags, F::kAllowDepthStencil);
-  const bool color = HasAny(desc.Flags, F::kAllowRenderTarget);
   if (depth && HasAny(desc.Flags, F::kAllowRenderTarget | F::kAllowUnorderedAccess)) {
     return fail("kAllowDepthStencil, which does not go with render targets or unordered access");
   }
-  if ((depth || color) && desc.Dimension != ResourceDimension::kTexture2D) {
-    return fail("a flag of targets, which must be 2-D textures");
+  if (depth && desc.Dimension != ResourceDimension::kTexture2D) {
+    return fail("kAllowDepthStencil, which must be a 2-D texture");
   }
   if (HasAny(desc.Flags, F::kDenyShaderResource) && !depth) {
     return fail("kDenyShaderResource without kAllowDepthStencil");

@@ -16,8 +16,14 @@ struct AskedTarget {
   bool whole;        // all elements of mip 0
   bool one_element;  // element 0 of a mip
   bool multisampled;
+  ResourceDimension dimension;  // of the texture; not for a whole one
   TargetSlices slices;
 };
+
+const char* name_of(ResourceDimension dimension) {
+  if (dimension == ResourceDimension::kTexture1D) return "1-D";
+  return dimension == ResourceDimension::kTexture3D ? "3-D" : "2-D";
+}
 
 Status check_texture(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
                      bool depth_stencil) {
@@ -60,25 +66,32 @@ Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& a
                       desc.SampleDesc.Count, " samples and a view dimension ",
                       asked.multisampled ? "with" : "without", " MS");
   }
+  const std::string name = named("texture", desc.Name);
+  if (!asked.whole && asked.dimension != desc.Dimension) {
+    return make_error(Id::kTargetView, name, " is a ", name_of(desc.Dimension),
+                      " texture, and the view's dimension is of ", name_of(asked.dimension),
+                      " ones");
+  }
   TargetSlices slices = asked.whole ? TargetSlices() : asked.slices;
   if (asked.one_element) {
     slices.FirstArraySlice = 0;
     slices.ArraySize = 1;
   }
-  const std::string name = named("texture", desc.Name);
   if (slices.MipSlice >= desc.MipLevels) {
     return make_error(Id::kTargetView, "mip ", slices.MipSlice, " is outside ", name,
                       ", which has ", desc.MipLevels, " mips");
   }
-  const uint32_t total = detail::array_size(desc);
+  const MipExtent extent = get_mip_extent(desc, slices.MipSlice);
+  const bool is_volume = desc.Dimension == ResourceDimension::kTexture3D;
+  const uint32_t total = is_volume ? extent.depth : detail::array_size(desc);
   const uint32_t left = slices.FirstArraySlice < total ? total - slices.FirstArraySlice : 0;
   if (slices.ArraySize == 0xFFFFFFFFu) slices.ArraySize = left;
   if (slices.ArraySize == 0 || slices.ArraySize > left) {
-    return make_error(Id::kTargetView, "array elements ", slices.FirstArraySlice, "..",
+    return make_error(Id::kTargetView, is_volume ? "slices " : "array elements ",
+                      slices.FirstArraySlice, "..",
                       uint64_t{slices.FirstArraySlice} + slices.ArraySize, " are outside ", name,
-                      ", which has ", total);
+                      ", which has ", total, is_volume ? " in that mip" : "");
   }
-  const MipExtent extent = get_mip_extent(desc, slices.MipSlice);
   runtime::TargetView view;
   view.format = asked.format;
   view.mip = slices.MipSlice;
@@ -87,6 +100,7 @@ Result<runtime::TargetView> resolve(const Texture& texture, const AskedTarget& a
   view.width = extent.width;
   view.height = extent.height;
   view.samples = desc.SampleDesc.Count;
+  view.is_volume = is_volume;
   return view;
 }
 
@@ -158,17 +172,23 @@ using namespace detail;
 
 Status Device::CreateRenderTargetView(const Texture& texture, const RenderTargetViewDesc& desc,
                                       CpuDescriptorHandle dest) const {
-  if (desc.ViewDimension > RtvDimension::kTexture2DMSArray ||
-      (desc.ViewDimension != RtvDimension::kUnknown &&
-       desc.ViewDimension < RtvDimension::kTexture2D)) {
-    return make_error(Id::kTargetView, "view dimension ", static_cast<uint32_t>(desc.ViewDimension),
-                      "; it must be kUnknown, kTexture2D, kTexture2DArray, kTexture2DMS or "
-                      "kTexture2DMSArray");
+  using enum RtvDimension;
+  const RtvDimension dimension = desc.ViewDimension;
+  if (dimension > kTexture3D || (dimension != kUnknown && dimension < kTexture1D)) {
+    return make_error(Id::kTargetView, "view dimension ", static_cast<uint32_t>(dimension),
+                      "; it must be kUnknown or one of textures, 2 to 8");
   }
-  const AskedTarget asked = {desc.Format, desc.ViewDimension == RtvDimension::kUnknown,
-                             desc.ViewDimension == RtvDimension::kTexture2D ||
-                                 desc.ViewDimension == RtvDimension::kTexture2DMS,
-                             desc.ViewDimension >= RtvDimension::kTexture2DMS, desc.Texture2DArray};
+  AskedTarget asked = {
+      desc.Format,
+      dimension == kUnknown,
+      dimension == kTexture1D || dimension == kTexture2D || dimension == kTexture2DMS,
+      dimension == kTexture2DMS || dimension == kTexture2DMSArray,
+      ResourceDimension::kTexture2D,
+      desc.Texture2DArray};
+  if (dimension == kTexture1D || dimension == kTexture1DArray) {
+    asked.dimension = ResourceDimension::kTexture1D;
+  }
+  if (dimension == kTexture3D) asked.dimension = ResourceDimension::kTexture3D;
   return write_target(impl_, texture, asked, false, DsvFlags::kNone, dest);
 }
 
@@ -189,10 +209,13 @@ Status Device::CreateDepthStencilView(const Texture& texture, const DepthStencil
   if ((desc.Flags & ~kKnown) != DsvFlags::kNone) {
     return make_error(Id::kTargetView, "undefined flags ", hex(static_cast<uint32_t>(desc.Flags)));
   }
-  const AskedTarget asked = {desc.Format, desc.ViewDimension == DsvDimension::kUnknown,
+  const AskedTarget asked = {desc.Format,
+                             desc.ViewDimension == DsvDimension::kUnknown,
                              desc.ViewDimension == DsvDimension::kTexture2D ||
                                  desc.ViewDimension == DsvDimension::kTexture2DMS,
-                             desc.ViewDimension >= DsvDimension::kTexture2DMS, desc.Texture2DArray};
+                             desc.ViewDimension >= DsvDimension::kTexture2DMS,
+                             ResourceDimension::kTexture2D,
+                             desc.Texture2DArray};
   return write_target(impl_, texture, asked, true, desc.Flags, dest);
 }
 

@@ -101,6 +101,7 @@ VkImageCreateInfo Image::create_info() const {
   if (wants_storage(desc_)) info.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
   if (rtapi::HasAny(desc_.Flags, rtapi::ResourceFlags::kAllowRenderTarget)) {
     info.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (type_ == VK_IMAGE_TYPE_3D) info.flags |= VK_IMAGE_CREATE_2D_ARRAY_COMPATIBLE_BIT;
   }
   if (rtapi::HasAny(desc_.Flags, rtapi::ResourceFlags::kAllowDepthStencil)) {
     info.usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;

@@ -208,7 +208,11 @@ rtapi::Result<VkImageView> Image::target_view(const runtime::TargetView& target)
   VkImageViewCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.pNext = &usage;
   info.image = handle_;
+  // Of a volume, these are slices of its depth. [Vulkan: VK_IMAGE_CREATE_2D_ARRAY_COMPATIBLE_BIT]
   info.viewType = target.slice_count == 1 ? VK_IMAGE_VIEW_TYPE_2D : VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+  if (type_ == VK_IMAGE_TYPE_1D) {
+    info.viewType = target.slice_count == 1 ? VK_IMAGE_VIEW_TYPE_1D : VK_IMAGE_VIEW_TYPE_1D_ARRAY;
+  }
   info.format = format.format;
   info.subresourceRange = {aspects_, target.mip, 1, target.first_slice, target.slice_count};
   VkImageView view = VK_NULL_HANDLE;
