@@ -181,6 +181,9 @@ namespace {
 D3D12_RESOURCE_STATES state_of(D3D12_BARRIER_LAYOUT layout, const D3D12_HEAP_PROPERTIES& heap,
                                const D3D12_RESOURCE_DESC1& desc) {
   if (desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER) {
+    if ((desc.Flags & D3D12_RESOURCE_FLAG_RAYTRACING_ACCELERATION_STRUCTURE) != 0) {
+      return D3D12_RESOURCE_STATE_RAYTRACING_ACCELERATION_STRUCTURE;
+    }
     const auto type = heap_type(heap);
     if (type.ok() && *type == rtapi::HeapType::kUpload) return D3D12_RESOURCE_STATE_GENERIC_READ;
     if (type.ok() && *type == rtapi::HeapType::kReadback) return D3D12_RESOURCE_STATE_COPY_DEST;

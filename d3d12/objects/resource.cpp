@@ -195,6 +195,13 @@ rtapi::Status check_buffer_desc(const D3D12_RESOURCE_DESC1& desc) {
                           "; ALLOW_DEPTH_STENCIL (2) and ALLOW_SIMULTANEOUS_ACCESS (32) are for "
                           "textures.");
   }
+  if ((desc.Flags & D3D12_RESOURCE_FLAG_RAYTRACING_ACCELERATION_STRUCTURE) != 0 &&
+      (desc.Flags & D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS) == 0) {
+    return make_error(ErrorId::kResource,
+                      "a buffer's Flags are " + std::to_string(desc.Flags) +
+                          "; RAYTRACING_ACCELERATION_STRUCTURE (256) needs ALLOW_UNORDERED_ACCESS "
+                          "(4), too.");
+  }
   return {};
 }
 

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What D3D12's runtimes do beside the rules that programs obey: calls that they drop, descriptions
 // that they complete, codes of what they refuse. Each on every backend.
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <utility>
+
+#include <d3dcompiler.h>
+#include <directx/d3dx12.h>
 
 #include "d3d12/objects/d3d12_fixture.h"
 
@@ -21,6 +27,86 @@ class RuntimeRules : public D3d12BackendTest {
     std::vector<uint32_t> out(count);
     std::memcpy(out.data(), bytes, count * 4);
     return out;
+  }
+
+  ComPtr<ID3D12Resource> mip_texture(UINT mips) {
+    D3D12_RESOURCE_DESC desc =
+        texture_desc(1u << (mips - 1), 1u << (mips - 1), 1, DXGI_FORMAT_R32_FLOAT);
+    desc.MipLevels = static_cast<UINT16>(mips);
+    D3D12_HEAP_PROPERTIES heap = {};
+    heap.Type = D3D12_HEAP_TYPE_DEFAULT;
+    ComPtr<ID3D12Resource> out;
+    EXPECT_EQ(device_->CreateCommittedResource(&heap, D3D12_HEAP_FLAG_NONE, &desc,
+                                               D3D12_RESOURCE_STATE_COPY_DEST, nullptr,
+                                               IID_PPV_ARGS(out.GetAddressOf())),
+              S_OK);
+    for (UINT mip = 0; mip < mips; ++mip) {
+      const UINT side = 1u << (mips - 1 - mip);
+      const auto upload = buffer(UINT64{256} * side, D3D12_HEAP_TYPE_UPLOAD);
+      float* texels = nullptr;
+      EXPECT_EQ(upload->Map(0, nullptr, reinterpret_cast<void**>(&texels)), S_OK);
+      std::fill_n(texels, 64 * side, static_cast<float>(mip + 1));
+      upload->Unmap(0, nullptr);
+      const CD3DX12_TEXTURE_COPY_LOCATION to(out.Get(), mip);
+      const CD3DX12_TEXTURE_COPY_LOCATION from(upload.Get(),
+                                               {0, {DXGI_FORMAT_R32_FLOAT, side, side, 1, 256}});
+      list_->CopyTextureRegion(&to, 0, 0, 0, &from, nullptr);
+      run();
+    }
+    const auto barrier = CD3DX12_RESOURCE_BARRIER::Transition(
+        out.Get(), D3D12_RESOURCE_STATE_COPY_DEST, D3D12_RESOURCE_STATE_ALL_SHADER_RESOURCE);
+    list_->ResourceBarrier(1, &barrier);
+    return out;
+  }
+
+  // What a shader loads from a mip and samples, without filtering, at a level of detail.
+  std::pair<float, float> read_mips(ID3D12Resource* texture,
+                                    const D3D12_SHADER_RESOURCE_VIEW_DESC& view, float mip,
+                                    float lod) {
+    static constexpr char kShader[] =
+        "Texture2D<float> t : register(t0); SamplerState s : register(s0);"
+        "RWByteAddressBuffer o : register(u0); cbuffer c : register(b0) { float mip, lod; };"
+        "[RootSignature(\"DescriptorTable(SRV(t0)), UAV(u0), RootConstants(num32BitConstants = 2, "
+        "b0), StaticSampler(s0, filter = FILTER_MIN_MAG_MIP_POINT)\")]"
+        "[numthreads(1, 1, 1)] void main() { o.Store2(0, uint2(asuint(t.Load(int3(0, 0, mip))), "
+        "asuint(t.SampleLevel(s, 0.5, lod)))); }";
+    ComPtr<ID3DBlob> code;
+    EXPECT_EQ(D3DCompile(kShader, std::strlen(kShader), "mips.hlsl", nullptr, nullptr, "main",
+                         "cs_6_0", 0, 0, code.GetAddressOf(), nullptr),
+              S_OK);
+    ComPtr<ID3D12RootSignature> root;
+    EXPECT_EQ(device_->CreateRootSignature(0, code->GetBufferPointer(), code->GetBufferSize(),
+                                           IID_PPV_ARGS(root.GetAddressOf())),
+              S_OK);
+    D3D12_COMPUTE_PIPELINE_STATE_DESC desc = {};
+    desc.pRootSignature = root.Get();
+    desc.CS = {code->GetBufferPointer(), code->GetBufferSize()};
+    ComPtr<ID3D12PipelineState> pipeline;
+    EXPECT_EQ(device_->CreateComputePipelineState(&desc, IID_PPV_ARGS(pipeline.GetAddressOf())),
+              S_OK);
+    const D3D12_DESCRIPTOR_HEAP_DESC heap_desc = {D3D12_DESCRIPTOR_HEAP_TYPE_CBV_SRV_UAV, 1,
+                                                  D3D12_DESCRIPTOR_HEAP_FLAG_SHADER_VISIBLE, 0};
+    ComPtr<ID3D12DescriptorHeap> heap;
+    EXPECT_EQ(device_->CreateDescriptorHeap(&heap_desc, IID_PPV_ARGS(heap.GetAddressOf())), S_OK);
+    device_->CreateShaderResourceView(texture, &view, heap->GetCPUDescriptorHandleForHeapStart());
+    const auto out = buffer(8, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_UNORDERED_ACCESS,
+                            D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS);
+    ID3D12DescriptorHeap* heaps[] = {heap.Get()};
+    list_->SetDescriptorHeaps(1, heaps);
+    list_->SetComputeRootSignature(root.Get());
+    list_->SetPipelineState(pipeline.Get());
+    list_->SetComputeRootDescriptorTable(0, heap->GetGPUDescriptorHandleForHeapStart());
+    list_->SetComputeRootUnorderedAccessView(1, out->GetGPUVirtualAddress());
+    const float constants[] = {mip, lod};
+    list_->SetComputeRoot32BitConstants(2, 2, constants, 0);
+    list_->Dispatch(1, 1, 1);
+    const auto barrier = CD3DX12_RESOURCE_BARRIER::Transition(
+        out.Get(), D3D12_RESOURCE_STATE_UNORDERED_ACCESS, D3D12_RESOURCE_STATE_COPY_SOURCE);
+    list_->ResourceBarrier(1, &barrier);
+    const std::vector<uint32_t> words = read(out.Get(), 2);
+    float values[2];
+    std::memcpy(values, words.data(), sizeof(values));
+    return {values[0], values[1]};
   }
 };
 
@@ -163,6 +249,73 @@ TEST_P(RuntimeRules, AllocationInfoFollowsTheAlignmentAskedFor) {
   EXPECT_EQ(infos[1].Offset, 65536u);
   EXPECT_EQ(all.SizeInBytes, 2 * 65536u);
   EXPECT_EQ(all.Alignment, 65536u);
+}
+
+// Mip m of a texture holds m + 1. A minimum level of detail counts the texture's mips.
+TEST_P(RuntimeRules, ViewsReadNoMipBelowTheirMinimum) {
+  const auto texture = mip_texture(3);
+  struct Case {
+    UINT first_mip, mips;
+    float clamp, load_mip, lod;
+    float loaded, sampled;
+    bool any_backend;  // else lavapipe ignores the clamp
+  };
+  const Case cases[] = {
+      {0, 3, 0, 0, 0, 1, 1, true},          {0, 3, 1, 1, 0, 2, 2, false},
+      {0, 3, 1, 0, 2, 0, 3, false},         {1, 2, 1, 0, 0, 2, 2, true},
+      {1, 2, 2, 0, 0, 0, 3, false},         {0, 3, 1.9f, 1, 0, 2, 3, false},
+      {0, 2, 1.1f, 1, 1, 0, 0, true},       {0, 3, 9, 2, 2, 0, 0, true},
+      {0, 1, 1 / 512.0f, 0, 0, 0, 0, true}, {0, 1, 1 / 1024.0f, 0, 0, 1, 1, true},
+  };
+  for (const Case& c : cases) {
+    if (!c.any_backend && std::string(GetParam()) == "vulkan") continue;
+    D3D12_SHADER_RESOURCE_VIEW_DESC view = {};
+    view.Format = DXGI_FORMAT_R32_FLOAT;
+    view.ViewDimension = D3D12_SRV_DIMENSION_TEXTURE2D;
+    view.Shader4ComponentMapping = D3D12_DEFAULT_SHADER_4_COMPONENT_MAPPING;
+    view.Texture2D = {c.first_mip, c.mips, 0, c.clamp};
+    const auto [loaded, sampled] = read_mips(texture.Get(), view, c.load_mip, c.lod);
+    EXPECT_EQ(loaded, c.loaded) << c.first_mip << " + " << c.mips << ", clamp " << c.clamp;
+    EXPECT_EQ(sampled, c.sampled) << c.first_mip << " + " << c.mips << ", clamp " << c.clamp;
+  }
+  EXPECT_TRUE(messages().empty());
+}
+
+// Buffers have no layout, so that a flag says what they hold. [D3D12: enhanced barriers]
+TEST_P(RuntimeRules, AFlagMakesABufferOfAccelerationStructures) {
+  ComPtr<ID3D12Device10> device;
+  ASSERT_EQ(device_.As(&device), S_OK);
+  D3D12_HEAP_PROPERTIES heap = {};
+  heap.Type = D3D12_HEAP_TYPE_DEFAULT;
+  D3D12_RESOURCE_DESC1 desc = {};
+  desc.Dimension = D3D12_RESOURCE_DIMENSION_BUFFER;
+  desc.Width = 65536;
+  desc.Height = desc.DepthOrArraySize = desc.MipLevels = 1;
+  desc.SampleDesc.Count = 1;
+  desc.Layout = D3D12_TEXTURE_LAYOUT_ROW_MAJOR;
+  desc.Flags = D3D12_RESOURCE_FLAG_RAYTRACING_ACCELERATION_STRUCTURE;
+  ComPtr<ID3D12Resource> structure;
+  const auto create = [&] {
+    return device->CreateCommittedResource3(
+        &heap, D3D12_HEAP_FLAG_NONE, &desc, D3D12_BARRIER_LAYOUT_UNDEFINED, nullptr, nullptr, 0,
+        nullptr, IID_PPV_ARGS(structure.ReleaseAndGetAddressOf()));
+  };
+  EXPECT_EQ(create(), E_INVALIDARG) << "without ALLOW_UNORDERED_ACCESS";
+  ASSERT_EQ(messages().size(), 1u);
+  EXPECT_EQ(messages()[0].substr(0, 6), "KA4011");
+  desc.Flags |= D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS;
+  ASSERT_EQ(create(), S_OK);
+  EXPECT_EQ(structure->GetDesc().Flags, desc.Flags);
+  const auto scratch = buffer(65536, D3D12_HEAP_TYPE_DEFAULT, D3D12_RESOURCE_STATE_COMMON,
+                              D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS);
+  D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_DESC build = {};
+  build.Inputs.Type = D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL;
+  build.Inputs.DescsLayout = D3D12_ELEMENTS_LAYOUT_ARRAY;  // of no instances
+  build.DestAccelerationStructureData = structure->GetGPUVirtualAddress();
+  build.ScratchAccelerationStructureData = scratch->GetGPUVirtualAddress();
+  list_->BuildRaytracingAccelerationStructure(&build, 0, nullptr);
+  run();
+  EXPECT_EQ(messages().size(), 1u);
 }
 
 TEST_P(RuntimeRules, ResourcesStartInABarrierLayout) {

@@ -155,17 +155,19 @@ void Texture::fill(const runtime::TextureViewDesc& desc, const TextureMemory& me
                          ? shader::TextureDimension::k2DArray
                          : shader::TextureDimension::k2D;
   }
+  // Mips below the clamp are out of bounds for every access.
+  const auto first_there = static_cast<uint32_t>(desc.min_lod);
   for (uint32_t mip = 0; mip < mips; ++mip) {
     const TextureMemory::Subresource s =
         memory.subresource(desc.first_mip + mip, is_volume() ? 0 : desc.first_slice);
     shader::TextureMip& m = view.mips[mip];
-    m.texels = s.first;
+    m.texels = mip < first_there ? nullptr : s.first;
     m.width = s.extent[0];
     m.height = s.extent[1];
     m.depth = s.extent[2];
     m.row_pitch = static_cast<uint32_t>(s.row_pitch);
     m.slice_pitch = is_volume() ? s.slice_pitch : memory.array_pitch();
-    if (is_volume() && desc.unordered_access) {
+    if (is_volume() && desc.unordered_access) {  // which have no clamp
       m.texels += desc.first_slice * s.slice_pitch;
       m.depth = std::min(desc.slice_count, m.depth - std::min(desc.first_slice, m.depth));
     }

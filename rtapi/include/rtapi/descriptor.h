@@ -128,8 +128,10 @@ struct Tex2DSrv {
   uint32_t MostDetailedMip = 0;      ///< the level that shaders know as 0
   uint32_t MipLevels = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end of the chain
   uint32_t PlaneSlice = 0;           ///< ignored: the format says which plane
-  /// Sampling reads no finer level than this one, counted from MostDetailedMip. Ignored by Vulkan
-  /// devices without VK_EXT_image_view_min_lod, lavapipe among them.
+  /// The finest level that may be read, counted in the texture's mips, in steps of 1/256: sampling
+  /// stays at or above it, loads of a whole level below are out of bounds, and a level past the
+  /// view's last makes it a null view. The first two need VK_EXT_image_view_min_lod on Vulkan,
+  /// which lavapipe lacks.
   float ResourceMinLODClamp = 0;
 };
 /// Mip levels and elements of a 2-D texture array. [D3D12: D3D12_TEX2D_ARRAY_SRV]
@@ -340,12 +342,10 @@ enum class StaticBorderColor : uint32_t {
   kTransparentBlack = 0,
   kOpaqueBlack = 1,
   kOpaqueWhite = 2,
-};
-
   kOpaqueBlackUint = 3,  ///< the integers 0, 0, 0, 1
   kOpaqueWhiteUint = 4,  ///< the integers 1, 1, 1, 1
-/// The largest finite float: a MaxLOD without effect. [D3D12: D3D12_FLOAT32_MAX]
-inline constexpr float kFloat32Max = 3.402823466e+38f;
+};
+
 /// How a static sampler reads. [D3D12: D3D12_SAMPLER_FLAGS]
 enum class SamplerFlags : uint32_t {
   kNone = 0,
@@ -354,6 +354,8 @@ enum class SamplerFlags : uint32_t {
 template <>
 inline constexpr bool kIsFlags<SamplerFlags> = true;
 
+/// The largest finite float: a MaxLOD without effect. [D3D12: D3D12_FLOAT32_MAX]
+inline constexpr float kFloat32Max = 3.402823466e+38f;
 
 /// Describes a sampler for Device::CreateSampler. [D3D12: D3D12_SAMPLER_DESC]
 struct SamplerDesc {

@@ -109,14 +109,15 @@ void HostTextures::fill(Copy& copy, const runtime::TextureViewDesc& desc,
     const Subresource& layout = layout_of_copy.mips[mip];
     const MipExtent extent = get_mip_extent(copy.desc, mip);
     shader::TextureMip& to = view.mips[i];
-    to.texels = memory + layout.offset;
+    const bool is_there = i >= static_cast<uint32_t>(desc.min_lod);
+    to.texels = is_there ? memory + layout.offset : nullptr;
     to.width = extent.width;
     to.height = extent.height;
     to.depth = extent.depth;
     to.row_pitch = static_cast<uint32_t>(layout.row_pitch);
     to.slice_pitch = volume ? layout.slice_pitch : layout_of_copy.element_bytes;
     if (!volume) {
-      to.texels += desc.first_slice * layout_of_copy.element_bytes;
+      if (is_there) to.texels += desc.first_slice * layout_of_copy.element_bytes;
     } else if (desc.unordered_access) {
       to.texels += desc.first_slice * layout.slice_pitch;
       to.depth =

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "rtapi/src/resources/texture_view.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "rtapi/src/resources/resource_impl.h"
 
 namespace rtapi::detail {
@@ -102,6 +105,11 @@ uint32_t number_class(Format format) {
   }
 }
 
+// ResourceMinLODClamp has eight bits of fraction, as other levels of detail. [D3D11.3: LOD]
+float mip_clamp(float asked) {
+  return asked > 0 ? std::floor(std::min(asked, 255.0f) * 256 + 0.5f) / 256 : 0.0f;
+}
+
 }  // namespace
 
 Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceImpl>& device,
@@ -145,7 +153,12 @@ Result<shader::Descriptor> make_texture_descriptor(const std::shared_ptr<DeviceI
   resolved.mip_count = view.mips;
   resolved.first_slice = view.first_slice;
   resolved.slice_count = view.slices;
-  resolved.min_lod = view.min_lod;
+  const float clamp = mip_clamp(view.min_lod);
+  if (clamp > static_cast<float>(view.first_mip + view.mips - 1)) {
+    // No mip is left, and reads of none are out of bounds. [D3D12: D3D12_TEX2D_SRV]
+    return shader::Descriptor();
+  }
+  resolved.min_lod = std::max(clamp - static_cast<float>(view.first_mip), 0.0f);
   for (int i = 0; i < 4; ++i) {
     resolved.swizzle[i] = static_cast<uint8_t>((mapping >> (3 * i)) & 7);
     if (resolved.swizzle[i] > 5) {
