@@ -74,6 +74,7 @@ class ArgumentParser {
   std::string set_profile(const std::string& value);
   std::string set_version(const std::string& value);
   std::string add_exports(const std::string& value);
+  std::string set_denormals(const std::string& value);
   void finish();
 
   DxcArguments out_;
@@ -112,11 +113,21 @@ std::string ArgumentParser::add_exports(const std::string& value) {
   return {};
 }
 
+std::string ArgumentParser::set_denormals(const std::string& value) {
+  if (value == "preserve") {
+    out_.notes.push_back("warning: -denorm preserve has no effect: denormals are flushed to zero");
+  }
+  return value == "any" || value == "ftz" || value == "preserve"
+             ? ""
+             : "it must be any, ftz or preserve";
+}
+
 std::string ArgumentParser::apply(std::string_view name, const std::string& value) {
   rtapi::ShaderCompileOptions& options = out_.options;
   if (name == "-T") return set_profile(value);
   if (name == "-HV") return set_version(value);
   if (name == "-exports") return add_exports(value);
+  if (name == "-denorm") return set_denormals(value);
   if (name == "-E") {
     options.EntryPoint = value;
   } else if (name == "-D") {

@@ -112,6 +112,17 @@ TEST(DxcArguments, LayoutOfConstantBuffersStays) {
   }
 }
 
+// Shaders run with denormals flushed, which "any" allows and "ftz" asks for.
+TEST(DxcArguments, DenormalsAreFlushed) {
+  for (const char* mode : {"any", "ftz"}) {
+    EXPECT_TRUE(parse({"-denorm", mode, "-T", "cs_6_2", "a.hlsl"}).notes.empty()) << mode;
+  }
+  const DxcArguments kept = parse({"/denorm", "preserve", "-T", "cs_6_2", "a.hlsl"});
+  ASSERT_EQ(kept.notes.size(), 1u);
+  EXPECT_THAT(kept.notes[0], HasSubstr("-denorm preserve has no effect"));
+  EXPECT_THAT(error_of({"-denorm", "none", "a.hlsl"}), HasSubstr("any, ftz or preserve"));
+}
+
 TEST(DxcArguments, OldProfilesArePromoted) {
   const DxcArguments parsed = parse({"-T", "cs_5_1", "a.hlsl"});
   EXPECT_EQ(parsed.options.Target, "cs_6_0");
@@ -173,6 +184,7 @@ TEST(DxcArguments, EveryOptionIsTakenIgnoredOrRefused) {
     if (row.form == kValue || row.form == kJoined) {
       words.push_back(row.name == "-HV"                ? "2018"
                       : row.name == "-default-linkage" ? "external"
+                      : row.name == "-denorm"          ? "any"
                                                        : "1");
     }
     words.push_back("a.hlsl");

@@ -169,11 +169,6 @@ Value PackedNumbers::pack_bytes(std::string_view name, const Value& argument,
 Value PackedNumbers::unpack_bytes(std::string_view name, const Value& argument,
                                   SourceLocation location) {
   const bool is_signed = name.starts_with("unpack_s8");
-  const bool is_short = name.ends_with("16");
-  if (is_short && !names_.options().native_16bit) {
-    report(CheckId::kNeeds16Bit, location, {std::string(name)});
-    return error_value();
-  }
   const Scalar wide = is_signed ? Scalar::kInt32 : Scalar::kUint32;
   const ir::Expr* packed =
       lower_.conversions.convert(argument, types_.scalar(Scalar::kUint32), argument.location);
@@ -190,9 +185,13 @@ Value PackedNumbers::unpack_bytes(std::string_view name, const Value& argument,
     bytes.push_back(build_.binary(ir::BinaryOp::kShiftRight, top, number(24)));
   }
   const ir::Expr* four = build_.construct(types_.vector(wide, 4)->ir, std::move(bytes));
-  if (!is_short) return rvalue(four, types_.vector(wide, 4));
-  const Scalar narrow = is_signed ? Scalar::kInt16 : Scalar::kUint16;
-  return rvalue(build_.convert(four, narrow), types_.vector(narrow, 4));
+  if (!name.ends_with("16")) return rvalue(four, types_.vector(wide, 4));
+  Scalar narrow = is_signed ? Scalar::kInt16 : Scalar::kUint16;
+  if (!names_.options().native_16bit) {
+    narrow = is_signed ? Scalar::kMin16Int : Scalar::kMin16Uint;
+  }
+  const Type* type = types_.vector(narrow, 4);
+  return rvalue(build_.convert(four, type->ir->scalar), type);
 }
 
 }  // namespace kaamos::hlsl
