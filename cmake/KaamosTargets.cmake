@@ -75,8 +75,12 @@ endfunction()
 # build compiles, and each runs only once: they are compiled without optimisation, in two thirds of
 # the time; what they test is optimised. MANY_PIPELINES is for Vulkan tests that make many pipelines and
 # trace few rays: lavapipe does not optimise those pipelines, which takes it less than half the time.
-# All other tests run what users run.
+# All other tests run what users run. The first test of each process has a COST, so that ctest starts
+# it before all others: the rest then find their results, and no job waits for one that another runs.
 set(KAAMOS_TESTS_PER_PROCESS 16)
+set(KAAMOS_COST_OF_A_PROCESS 100)
+# Of a test that takes a minute by itself.
+set(KAAMOS_COST_OF_A_LONG_TEST 200)
 function(kaamos_add_test name)
   cmake_parse_arguments(arg "MANY_PIPELINES" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT KAAMOS_BUILD_TESTS)
@@ -107,7 +111,19 @@ function(kaamos_add_test name)
   # gtest_discover_tests splits lists of labels, so they are set once ctest knows the tests.
   set(labels_file "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
   file(WRITE "${labels_file}"
+    "set(count_other 0)\n"
+    "set(count_vulkan 0)\n"
     "foreach(test IN LISTS ${name}_TESTS)\n"
+    "  string(REGEX REPLACE \"  #.*\" \"\" plain \"\${test}\")\n"
+    "  set(kind other)\n"
+    "  if(plain MATCHES \"[Vv][Uu][Ll][Kk][Aa][Nn]\")\n"
+    "    set(kind vulkan)\n"
+    "  endif()\n"
+    "  math(EXPR place \"\${count_\${kind}} % ${KAAMOS_TESTS_PER_PROCESS}\")\n"
+    "  math(EXPR count_\${kind} \"\${count_\${kind}} + 1\")\n"
+    "  if(place EQUAL 0)\n"
+    "    set_tests_properties(\"\${test}\" PROPERTIES COST ${KAAMOS_COST_OF_A_PROCESS})\n"
+    "  endif()\n"
     "  set(labels ${arg_LABELS})\n"
     "  if(test MATCHES \"[Vv]ulkan\")\n"
     "    list(APPEND labels vulkan)\n"
