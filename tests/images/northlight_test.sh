@@ -220,8 +220,7 @@ grep -Eq '^denoise [0-9] signals' "$work/log" || fail "the whole frame's table l
 for file in frame.png reflection.png indirect_denoised.png local_lights.png contact.png; do
   [ -s "$work/whole/$file" ] || fail "the whole frame's $file is missing"
 done
-"$northlight" "${whole[@]}" --out "$work/again" > /dev/null || fail "the whole frame from a kept volume"
-cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the kept volume gives another picture"
+cmp -s "$work/whole/frame.png" "$work/bare_whole/frame.png" || fail "the kept volume gives another picture"
 for threads in 1 4; do
   "$northlight" "${whole[@]}" --layers all --threads $threads --out "$work/again" > /dev/null || fail "the whole frame on $threads threads"
   for file in "$work/whole"/*.png "$work/whole/frame.exr"; do
@@ -234,16 +233,16 @@ expect_error 1 'KA3045 .*lounge.gi.*bake it again' "${whole[@]}"
 # A sequence: the same on any number of threads, a line for each frame, and no frames of a longer
 # one left.
 moving=(--scene runner --effects all --taa --gi-bake-samples 1 --gi-cell 2 --size 64x36)
-"$northlight" "${moving[@]}" --frames 6 --threads 1 --out "$work/one" > "$work/log" || fail "a sequence: $(cat "$work/log")"
+"$northlight" "${moving[@]}" --frames 4 --threads 1 --out "$work/one" > "$work/log" || fail "a sequence: $(cat "$work/log")"
 grep -q '^frame .*[0-9] .*[0-9]$' <<< "$(grep -A9 '^flicker' "$work/log")" || fail "no flicker: $(cat "$work/log")"
 grep -Eq '^structures: .* updated, .* rebuilt' "$work/log" || fail "no structures: $(cat "$work/log")"
-"$northlight" "${moving[@]}" --frames 6 --threads 3 --out "$work/three" > /dev/null || fail "a sequence on 3 threads"
-for i in 0 1 2 3 4 5; do
+"$northlight" "${moving[@]}" --frames 4 --threads 3 --out "$work/three" > /dev/null || fail "a sequence on 3 threads"
+for i in 0 1 2 3; do
   cmp -s "$work/one/frame_000$i.png" "$work/three/frame_000$i.png" || fail "frame $i depends on the threads"
 done
-cmp -s "$work/one/frame.png" "$work/one/frame_0005.png" || fail "frame.png is not the last frame"
-cmp -s "$work/one/frame_0000.png" "$work/one/frame_0005.png" && fail "nothing moves"
-[ "$(grep -c '"frame":' "$work/one/stats.json")" -ge 6 ] || fail "stats.json lacks frames: $(cat "$work/one/stats.json")"
+cmp -s "$work/one/frame.png" "$work/one/frame_0003.png" || fail "frame.png is not the last frame"
+cmp -s "$work/one/frame_0000.png" "$work/one/frame_0003.png" && fail "nothing moves"
+[ "$(grep -c '"frame":' "$work/one/stats.json")" -ge 4 ] || fail "stats.json lacks frames: $(cat "$work/one/stats.json")"
 "$northlight" "${moving[@]}" --frames 2 --out "$work/one" > /dev/null || fail "a shorter sequence"
 [ ! -e "$work/one/frame_0002.png" ] || fail "a frame of the longer sequence is left"
 cmp -s "$work/one/frame_0001.png" "$work/three/frame_0001.png" || fail "frame 1 depends on how many follow"

@@ -204,7 +204,8 @@ check_told() {
   held=$(list_files -name '*_test.cpp' -o -path './tests/conformance/err*.cpp' |
     xargs -r -d '\n' grep -ohE '"KA[0-9]{4}' | sort -u)
   grep -nE '^KAAMOS_MESSAGE\(' "$file" | while IFS=: read -r line text; do
-    id=$(printf 'KA%04d' "$(sed 's/^KAAMOS_MESSAGE(\([0-9]*\),.*/\1/' <<<"$text")")
+    text=${text#'KAAMOS_MESSAGE('}
+    printf -v id 'KA%04d' "${text%%,*}"
     [[ $held == *"\"$id"* ]] || echo "$file:$line: no test holds $id"
   done
 }
@@ -220,13 +221,14 @@ check_ids() {
 
 # No package is installed that nothing uses.
 check_used() {
-  local package pattern
+  local package pattern sources
+  mapfile -t sources < <(list_files \( -name CMakeLists.txt -o -name '*.cmake' -o -name 'CMakePresets.json' \
+    -o -name '*.cpp' -o -name '*.h' \))
   awk '!/^#/ && NF { sub(/>=.*/, "", $1); print $1 }' scripts/packages.txt | while read -r package; do
     pattern=$(list_uses | awk -v package="$package" '$1 == package { sub(/^[^ ]+ +[^ ]+ +/, ""); print; exit }')
     if [[ -z $pattern ]]; then
       echo "scripts/packages.txt:1: tests/style/package_uses.txt does not say what uses $package"
-    elif ! list_files \( -name CMakeLists.txt -o -name '*.cmake' -o -name 'CMakePresets.json' -o -name '*.cpp' \
-      -o -name '*.h' \) | xargs -r -d '\n' grep -qE -- "$pattern"; then
+    elif ! grep -qsE -- "$pattern" /dev/null "${sources[@]}"; then
       echo "scripts/packages.txt:1: nothing uses $package: no source matches \"$pattern\""
     fi
   done

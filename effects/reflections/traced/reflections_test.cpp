@@ -22,6 +22,7 @@ constexpr std::uint32_t kSize = 16;
 Scene furnace(double angle, float alpha) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   scene.instances.resize(1);
+  scene.meshes.resize(1);
   for (Material& material : scene.materials) {
     material.constants.base_color = glm::vec4(1);
     material.constants.metallic = 1;
@@ -150,8 +151,10 @@ TEST(Reflections, MirrorsHitWhereTheyMust) {
 // it is as bright as the sky beside it. The volume stores nothing here and returns the sky.
 TEST(Reflections, MirrorsInMirrorsAreNotBlack) {
   Scene scene = furnace(0, 0);
-  scene.instances = make_sphere_oracle(1.0, 1.5).instances;
-  scene.cameras = make_sphere_oracle(1.0, 1.5).cameras;
+  const Scene ball = make_sphere_oracle(1.0, 1.5);
+  scene.meshes = ball.meshes;
+  scene.instances = ball.instances;
+  scene.cameras = ball.cameras;
   const Reflected result = reflect(scene, 1, {});
   int hits = 0;
   for (std::uint32_t y = 0; y < kSize; ++y) {
