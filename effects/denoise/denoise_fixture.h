@@ -15,6 +15,7 @@
 #include "effects/engine/picture.h"
 #include "effects/engine/ray_pass.h"
 #include "effects/surfaces/gbuffer/gbuffer.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 
@@ -25,7 +26,7 @@ class DenoiseFixture : public testing::Test {
       : kWidth(width), kHeight(height), scene_(make_sphere_oracle(1.0, 1.5)) {
     rtapi::DeviceDesc device_desc;
     device_desc.Backend = backend;
-    device_ = rtapi::CreateDevice(device_desc).value();
+    device_ = test::device_for(device_desc);
     queue_ = device_.CreateCommandQueue().value();
     const Camera& camera = scene_.cameras.front();
     gpu_ = create_gpu_scene(device_, queue_, scene_, camera.position()).value();

@@ -59,8 +59,7 @@ double error_after_eight_frames(const std::string& backend, const Scene& scene, 
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   for (std::uint32_t i = 0; i < 8; ++i) {
     Camera camera = scene.cameras.front();
     const glm::dvec3 eye(step * i, 1.2, 0);

@@ -13,6 +13,7 @@
 #include "effects/assets/scene/shapes.h"
 #include "effects/denoise/denoise.h"
 #include "effects/northlight/frame_renderer.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 
@@ -96,7 +97,7 @@ class Show {
     if (options.change) options.change(settings);
     rtapi::DeviceDesc device;
     device.Backend = options.backend;
-    renderer_ = FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+    renderer_ = FrameRenderer::create(test::device_for(device), scene, settings).value();
   }
 
   // `seconds`: on the scene's clock; none: it goes on.

@@ -9,6 +9,7 @@
 #include "effects/engine/frame.h"
 #include "effects/engine/gpu_scene.h"
 #include "effects/engine/ray_pass.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 
@@ -17,7 +18,7 @@ struct FrameStage {
   FrameStage(Scene given, std::uint32_t width, std::uint32_t height,
              const rtapi::DeviceDesc& device_desc = {})
       : scene(std::move(given)) {
-    device = rtapi::CreateDevice(device_desc).value();
+    device = test::device_for(device_desc);
     queue = device.CreateCommandQueue().value();
     const Camera& camera = scene.cameras.front();
     gpu = create_gpu_scene(device, queue, scene, camera.position()).value();

@@ -51,7 +51,7 @@ std::unique_ptr<FrameRenderer> make_renderer(const std::string& backend, const S
   rtapi::DeviceDesc desc;
   desc.Backend = backend;
   desc.OnMessage = [](const rtapi::Message& m) { ADD_FAILURE() << m.Text; };
-  return FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+  return FrameRenderer::create(test::device_for(desc), scene, settings).value();
 }
 
 FrameSettings surfaces_alone(Primary primary, bool moving = false) {
@@ -151,7 +151,7 @@ TEST_P(OrthographicTest, WhatNeedsPerspectiveSaysSo) {
     settings.effects = {{name, find_effect(northlight_effects(), name)->defaults}};
     rtapi::DeviceDesc desc;
     desc.Backend = GetParam();
-    const auto refused = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings);
+    const auto refused = FrameRenderer::create(test::device_for(desc), scene, settings);
     ASSERT_FALSE(refused.ok()) << name;
     EXPECT_NE(refused.error().message.find("effect \"" + std::string(name) +
                                            "\" needs a perspective camera, and \"plan\" is "

@@ -47,7 +47,7 @@ class MaterialVariants : public test::OnBackends {
     scene_ = make_portrait();
     rtapi::DeviceDesc desc;
     desc.Backend = GetParam();
-    device_ = rtapi::CreateDevice(desc).value();
+    device_ = test::device_for(desc);
     FrameSettings settings;
     settings.width = settings.height = 8;
     settings.whole_frame = false;
@@ -248,8 +248,7 @@ TEST_P(MaterialVariants, TheFrameHasTheDifference) {
   settings.denoise.method = DenoiseMethod::kNone;
   rtapi::DeviceDesc device;
   device.Backend = GetParam();
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   renderer->render().value();
   const FloatImage difference = renderer->read("material_variants").value();
   for (std::uint32_t c = 0; c < 3; ++c) {

@@ -43,8 +43,7 @@ Pictures render(const Scene& scene, const std::string& backend) {
   settings.denoise.method = DenoiseMethod::kNone;
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   renderer->render().value();
   return {renderer->read("particles").value(), renderer->read("radiance").value()};
 }

@@ -24,7 +24,7 @@ inline std::unique_ptr<PathReference> trace_reference(const Scene& scene,
   rtapi::DeviceDesc device;
   device.Backend = backend;
   device.Threads = threads;
-  auto reference = PathReference::create(rtapi::CreateDevice(device).value(), scene, desc).value();
+  auto reference = PathReference::create(test::device_for(device), scene, desc).value();
   EXPECT_EQ(reference->accumulate(samples, {}).value(), Outcome::kDone);
   return reference;
 }

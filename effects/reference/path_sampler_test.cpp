@@ -13,6 +13,7 @@
 #include "effects/reference/host_bsdf_fixture.h"
 #include "effects/reference/path_emitters.h"
 #include "effects/reference/path_fixture.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -47,7 +48,7 @@ class PathSamplers : public OnBackends {
     add_thing(scene_, "other", patch({1, 0.5, 1}, {0, 1, 0.3}, {0.4, 0, 1}, 1, 1), bright);
     rtapi::DeviceDesc desc;
     desc.Backend = GetParam();
-    device_ = rtapi::CreateDevice(desc).value();
+    device_ = test::device_for(desc);
     FrameSettings settings;
     settings.width = settings.height = 8;
     settings.whole_frame = false;

@@ -9,6 +9,7 @@
 
 #include "effects/northlight/frame_renderer.h"
 #include "effects/reference/path_fixture.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -70,8 +71,7 @@ TEST_P(Reflectance, FramesMirrorByFresnelsLaw) {
       settings.volume.given = std::make_shared<IndirectVolume>();
       rtapi::DeviceDesc desc;
       desc.Backend = GetParam();
-      const auto renderer =
-          FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+      const auto renderer = FrameRenderer::create(test::device_for(desc), scene, settings).value();
       renderer->render().value();
       const FloatImage radiance = renderer->read("radiance").value();
       for (int c = 0; c < 3; ++c) {

@@ -44,7 +44,7 @@ inline std::unique_ptr<FrameRenderer> make_view_renderer(const Scene& scene,
   settings.volume.given = frame.volume;
   rtapi::DeviceDesc device;
   device.Backend = frame.backend;
-  return FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  return FrameRenderer::create(test::device_for(device), scene, settings).value();
 }
 
 inline FloatImage see(FrameRenderer& renderer, const std::string& view,

@@ -25,7 +25,7 @@ rtapi::Device device_of(const std::string& backend, std::uint32_t threads = 0) {
   rtapi::DeviceDesc desc;
   desc.Backend = backend;
   desc.Threads = threads;
-  return rtapi::CreateDevice(desc).value();
+  return device_for(desc);
 }
 
 class DemandedVolumeFrames : public testing::TestWithParam<std::string> {

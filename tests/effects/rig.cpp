@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "effects/northlight/frame_renderer.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::test {
 
@@ -65,8 +66,7 @@ std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const RigOption
   rtapi::DeviceDesc desc;
   desc.Backend = options.backend;
   desc.Threads = options.threads;
-  return FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings_of(options),
-                               filtered_effects())
+  return FrameRenderer::create(device_for(desc), scene, settings_of(options), filtered_effects())
       .value();
 }
 

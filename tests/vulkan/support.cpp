@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 
 #if KAAMOS_HAS_VULKAN
 #include "runtime/vulkan/gpu/gpu.h"
@@ -34,6 +35,28 @@ std::string find_vulkan() {
 std::string why_no_vulkan() {
   static const std::string why = find_vulkan();
   return why;
+}
+
+rtapi::Device device_for(const rtapi::DeviceDesc& desc) {
+  const rtapi::DeviceDesc plain;
+  const bool is_plain = desc.Tier == plain.Tier && desc.ShaderModel == plain.ShaderModel &&
+                        desc.IndirectRtasOperations == plain.IndirectRtasOperations &&
+                        desc.CollectStatistics == plain.CollectStatistics &&
+                        desc.InvalidCalls == plain.InvalidCalls && desc.Checked == plain.Checked &&
+                        !desc.PrintThread;
+  if (desc.Backend != "vulkan" || !is_plain) return rtapi::CreateDevice(desc).value();
+  // Both live as long as the process, like the instance.
+  static auto* const told = new std::function<void(const rtapi::Message&)>;
+  static auto* const shared = new rtapi::Device;
+  *told = desc.OnMessage;
+  if (!*shared || !shared->GetDeviceRemovedReason()) {
+    rtapi::DeviceDesc telling = desc;
+    telling.OnMessage = [](const rtapi::Message& message) {
+      if (*told) (*told)(message);
+    };
+    *shared = rtapi::CreateDevice(telling).value();
+  }
+  return *shared;
 }
 
 bool vulkan_is_required() {

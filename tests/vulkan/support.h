@@ -23,6 +23,12 @@ bool vulkan_is_required();
 // loops (runtime/vulkan/draws/README.md, LICM).
 std::string why_driver_cannot_compile(const std::string& program);
 
+// A device of that description for a test; the test fails without one. On Vulkan it is the same for
+// all tests of the process that ask for nothing but an OnMessage, so that what one test has
+// compiled serves the others (PipelineCache); the OnMessage that was given last is told. A device
+// of other properties is the test's own, and so is each on Embree.
+rtapi::Device device_for(const rtapi::DeviceDesc& desc);
+
 // Collects the layers' messages during its lifetime and fails the test for each.
 class ValidationGuard {
  public:

@@ -18,6 +18,7 @@
 #include "effects/occlusion/ambient_occlusion/ambient_occlusion.h"
 #include "effects/shadows/sun_shadow/sun_shadow.h"
 #include "effects/surfaces/gbuffer/gbuffer.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 
@@ -29,7 +30,7 @@ class SequenceStage {
     rtapi::DeviceDesc device_desc;
     device_desc.Backend = backend;
     device_desc.Threads = threads;
-    device = rtapi::CreateDevice(device_desc).value();
+    device = test::device_for(device_desc);
     queue = device.CreateCommandQueue().value();
     manager = StructureManager::create(device, queue, scene).value();
     FrameDesc desc;

@@ -32,7 +32,7 @@ struct Stage {
       : scene(std::move(given)), camera(scene.cameras.front()), previous_camera(camera) {
     rtapi::DeviceDesc device_desc;
     device_desc.Backend = backend;
-    device = rtapi::CreateDevice(device_desc).value();
+    device = test::device_for(device_desc);
     queue = device.CreateCommandQueue().value();
     manager = StructureManager::create(device, queue, scene, options).value();
     desc.width = width;

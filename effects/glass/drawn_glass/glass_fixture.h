@@ -34,7 +34,7 @@ class GlassFrame {
     settings.effects["drawn-glass"].set_constants(DrawnGlassConstants{.fallback = fallback});
     for (auto& [name, effect] : settings.effects) effect.keep = true;  // scenes without glass too
     settings.volume.given = std::make_shared<IndirectVolume>();
-    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
+    renderer = FrameRenderer::create(test::device_for(desc), scene_, settings).value();
     renderer->render().value();
   }
 

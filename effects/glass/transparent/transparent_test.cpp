@@ -41,8 +41,7 @@ std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstant
   EffectSettings& glass = frame_settings.effects.at("transparent");
   glass.keep = true;  // scenes without glass are looked at too
   const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device_desc).value(), scene, frame_settings)
-          .value();
+      FrameRenderer::create(test::device_for(device_desc), scene, frame_settings).value();
   renderer->run("transparent", glass).value();
   const CompositePass composite =
       CompositePass::create(renderer->device(), renderer->frame(), composite_library().value(), {})

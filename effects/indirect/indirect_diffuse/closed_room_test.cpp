@@ -80,8 +80,7 @@ double reflected(const std::string& backend, bool lit) {
   settings.volume.given = std::make_shared<IndirectVolume>(hall_volume(lit));
   rtapi::DeviceDesc desc;
   desc.Backend = backend;
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(desc), scene, settings).value();
   constexpr std::uint32_t kRays = 32;
   renderer->run("reflections", kRays).value();
   return mean_of(renderer->read(renderer->effects().sum("reflection")).value(),

@@ -26,7 +26,7 @@ class Atlas : public test::OnBackends {
     settings.volume.given = std::make_shared<IndirectVolume>();
     rtapi::DeviceDesc device;
     device.Backend = GetParam();
-    auto out = FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+    auto out = FrameRenderer::create(test::device_for(device), scene, settings).value();
     out->render().value();
     return out;
   }

@@ -58,7 +58,7 @@ Rendered render(const Scene& scene, const std::string& backend, LightMaps maps,
   rtapi::DeviceDesc desc;
   desc.Backend = backend;
   desc.OnMessage = [](const rtapi::Message& m) { ADD_FAILURE() << m.Text; };
-  const auto device = rtapi::CreateDevice(desc).value();
+  const auto device = test::device_for(desc);
   FrameSettings settings;
   settings.width = 32;
   settings.height = 18;

@@ -29,7 +29,7 @@ std::unique_ptr<FrameRenderer> both_ways(const Scene& scene, const std::string& 
   settings.denoise = default_denoise(DenoiseMethod::kNone);
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  auto out = FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  auto out = FrameRenderer::create(test::device_for(device), scene, settings).value();
   out->render().value();
   return out;
 }

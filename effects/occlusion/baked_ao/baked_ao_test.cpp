@@ -85,7 +85,7 @@ rtapi::Result<std::unique_ptr<FrameRenderer>> try_render(const std::string& back
   rtapi::DeviceDesc device;
   device.Backend = backend;
   device.OnMessage = [](const rtapi::Message& m) { ADD_FAILURE() << m.Text; };
-  auto renderer = FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings);
+  auto renderer = FrameRenderer::create(test::device_for(device), scene, settings);
   if (!renderer) return renderer.error();
   if (const auto rendered = (*renderer)->render(); !rendered) return rendered.error();
   return renderer;

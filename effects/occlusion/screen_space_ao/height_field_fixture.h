@@ -15,6 +15,7 @@
 #include "effects/engine/picture.h"
 #include "effects/occlusion/screen_space_ao/line_sweep_ao.h"
 #include "effects/occlusion/screen_space_ao/screen_space_ao.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 
@@ -28,7 +29,7 @@ class HeightField {
       : width_(width), height_(height), scene_(make_wall_oracle(1)) {
     rtapi::DeviceDesc device;
     device.Backend = backend;
-    device_ = rtapi::CreateDevice(device).value();
+    device_ = test::device_for(device);
     queue_ = device_.CreateCommandQueue().value();
     Camera& camera = scene_.cameras.front();
     camera.camera_to_world = glm::dmat4(1.0);

@@ -73,8 +73,7 @@ std::unique_ptr<FrameRenderer> render(const std::string& backend, const Scene& s
   rtapi::DeviceDesc device;
   device.Backend = backend;
   device.OnMessage = [](const rtapi::Message& m) { ADD_FAILURE() << m.Text; };
-  auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   renderer->render().value();
   return renderer;
 }

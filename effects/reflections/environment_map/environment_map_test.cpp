@@ -9,6 +9,7 @@
 
 #include "effects/reflections/environment_map/probe_places.h"
 #include "effects/reflections/screen_space/screen_fixture.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -24,8 +25,7 @@ std::unique_ptr<FrameRenderer> render(const std::string& backend, const Scene& s
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   renderer->render().value();
   return renderer;
 }

@@ -9,6 +9,7 @@
 
 #include "effects/reflections/environment_map/environment_map.h"
 #include "effects/reflections/screen_space/screen_fixture.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -25,7 +26,7 @@ std::unique_ptr<FrameRenderer> make_renderer(const std::string& backend, const S
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  return FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  return FrameRenderer::create(test::device_for(device), scene, settings).value();
 }
 
 std::vector<EnvironmentProbe> find(const std::string& backend, const Scene& scene,

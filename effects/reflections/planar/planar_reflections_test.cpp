@@ -8,6 +8,7 @@
 
 #include "effects/assets/built_in/mirror_hall.h"
 #include "effects/reflections/screen_space/screen_fixture.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -31,8 +32,7 @@ TEST_P(PlanarReflections, MirrorsInAPlaneAreThoseOfRays) {
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = GetParam();
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), hall, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(device), hall, settings).value();
   renderer->render().value();
   const FloatImage plane = renderer->read("planar").value();
   const FloatImage traced = renderer->read("reflection").value();
@@ -83,8 +83,7 @@ Planar render(const std::string& backend, const Scene& scene, const PlanarConsta
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   renderer->render().value();
   return {renderer->read("planar").value(), renderer->read("reflection").value(),
           renderer->read("ids").value()};

@@ -99,7 +99,7 @@ inline std::unique_ptr<FrameRenderer> make_screen_renderer(
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  return FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  return FrameRenderer::create(test::device_for(device), scene, settings).value();
 }
 
 // Root mean square difference of two pictures' colours.

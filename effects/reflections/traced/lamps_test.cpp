@@ -34,8 +34,7 @@ FloatImage look(const std::string& backend, Scene scene, const glm::dvec3& eye,
   settings.volume.given = std::make_shared<IndirectVolume>();
   rtapi::DeviceDesc device;
   device.Backend = backend;
-  const auto renderer =
-      FrameRenderer::create(rtapi::CreateDevice(device).value(), scene, settings).value();
+  const auto renderer = FrameRenderer::create(test::device_for(device), scene, settings).value();
   renderer->render().value();
   return renderer->read("radiance").value();
 }

@@ -37,7 +37,7 @@ struct Sequence {
     settings.denoise = default_denoise(DenoiseMethod::kNone);
     settings.moving = true;
     scene.sky = {};
-    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+    renderer = FrameRenderer::create(test::device_for(desc), scene, settings).value();
   }
 
   // Renders the next frame; returns its rays per pixel.

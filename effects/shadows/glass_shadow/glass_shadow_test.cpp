@@ -16,6 +16,7 @@
 #include "effects/reference/path_reference.h"
 #include "effects/shadows/glass_shadow/glass_shadow_map.h"
 #include "effects/shadows/shadow_map/map_fixture.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -142,7 +143,7 @@ TEST(GlassShadow, NoOrderChangesABit) {
     settings.denoise = default_denoise(DenoiseMethod::kNone);
     rtapi::DeviceDesc desc;
     desc.Threads = threads;
-    auto renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), of, settings).value();
+    auto renderer = FrameRenderer::create(test::device_for(desc), of, settings).value();
     renderer->render().value();
     return renderer->read("glass_shadow").value().values;
   };
@@ -216,8 +217,7 @@ TEST_P(GlassShadows, TheTruthHasTheProductOfTheSun) {
     desc.sun_angular_radius = 0.3f;  // wide enough to be found by directions
     rtapi::DeviceDesc device;
     device.Backend = GetParam();
-    auto reference =
-        PathReference::create(rtapi::CreateDevice(device).value(), scene, desc).value();
+    auto reference = PathReference::create(test::device_for(device), scene, desc).value();
     EXPECT_EQ(reference->accumulate(256, {}).value(), Outcome::kDone);
     const PathSums& sums = reference->sums();
     EXPECT_EQ(sums.find("sun_tint") != nullptr, tint >= 0);

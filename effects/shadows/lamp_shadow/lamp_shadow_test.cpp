@@ -57,8 +57,7 @@ struct LampScene {
     settings.volume.given = std::make_shared<IndirectVolume>();
     settings.denoise = default_denoise(DenoiseMethod::kNone);
     scene.sun = Sun{};  // adaptive-sun is of use
-    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings, registry())
-                   .value();
+    renderer = FrameRenderer::create(test::device_for(desc), scene, settings, registry()).value();
   }
 
   // Share of the lamp that is to be seen from the floor at x: its disk is cut by the sheet's edge

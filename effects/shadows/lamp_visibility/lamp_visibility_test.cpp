@@ -55,7 +55,7 @@ std::unique_ptr<FrameRenderer> render(const std::string& backend, const Scene& s
   settings.effects = choose_effects({effect});
   settings.volume.given = std::make_shared<IndirectVolume>();
   settings.denoise = default_denoise(DenoiseMethod::kNone);
-  auto renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+  auto renderer = FrameRenderer::create(test::device_for(desc), scene, settings).value();
   renderer->render().value();
   return renderer;
 }

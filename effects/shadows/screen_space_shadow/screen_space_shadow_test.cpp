@@ -70,7 +70,7 @@ class ContactFrame {
       settings.effects.at("contact").set_constants(ContactShadowConstants{kLength});
     }
     settings.denoise = default_denoise(DenoiseMethod::kNone);
-    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
+    renderer = FrameRenderer::create(test::device_for(desc), scene_, settings).value();
     renderer->render().value();
   }
 

@@ -56,7 +56,7 @@ class MapFrame {
       change(name, effect);
     }
     settings.denoise = default_denoise(DenoiseMethod::kNone);
-    renderer = FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
+    renderer = FrameRenderer::create(test::device_for(desc), scene_, settings).value();
     renderer->render().value();
     ids_ = read("ids");
     at_ = read("position");

@@ -155,7 +155,7 @@ TEST_P(DrawnOrigins, HaveNoAcneAndNoLeaks) {
                           {"40 m large, seen from 200 m", 40, 200, {0, 0, 0}, Moved::kInstance}};
   rtapi::DeviceDesc desc;
   desc.Backend = GetParam();
-  const rtapi::Device device = rtapi::CreateDevice(desc).value();
+  const rtapi::Device device = test::device_for(desc);
   // A software Vulkan driver takes seconds for each: the places far away say most there.
   const bool is_quick = GetParam() == "embree";
   for (const Place& p : places) {

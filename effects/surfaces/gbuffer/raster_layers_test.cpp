@@ -43,7 +43,7 @@ std::unique_ptr<FrameRenderer> make_renderer(const std::string& backend, const S
   rtapi::DeviceDesc desc;
   desc.Backend = backend;
   desc.OnMessage = [](const rtapi::Message& m) { ADD_FAILURE() << m.Text; };
-  return FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene, settings).value();
+  return FrameRenderer::create(test::device_for(desc), scene, settings).value();
 }
 
 Layers read_layers(FrameRenderer& renderer) {

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, SnappedTriangles, testing::Values("embree", "
 TEST_P(SnappedTriangles, AreTheSameForDrawsAndRays) {
   DeviceDesc device_desc;
   device_desc.Backend = GetParam();
-  const Device device = CreateDevice(device_desc).value();
+  const Device device = test::device_for(device_desc);
   CommandQueue queue = device.CreateCommandQueue().value();
   const std::vector<glm::vec3> triangles = make_triangles();
   const Buffer vertices = CreateUploadBuffer(device, triangles, "triangles").value();

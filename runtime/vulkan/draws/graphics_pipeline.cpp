@@ -171,9 +171,9 @@ rtapi::Result<VkPipeline> GraphicsPipeline::create_variant(const GraphicsVariant
   }
   if (!geometry_code_.empty()) {
     const StageConstant layers = {0, wanted.layers};
-    auto added = stages.add(geometry_code_, VK_SHADER_STAGE_GEOMETRY_BIT, std::span(&layers, 1));
-    if (!added) return added.error();
+    stages.add(geometry_code_, VK_SHADER_STAGE_GEOMETRY_BIT, std::span(&layers, 1));
   }
+  if (auto s = stages.create_modules(); !s) return s.error();
   const VertexInputState vertices(inputs_, wanted);
   const FixedState fixed(gpu, *linked_, wanted);
   std::array<VkFormat, rtapi::kSimultaneousRenderTargetCount> formats = {};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "runtime/vulkan/testing/harness.h"
 
 namespace kaamos::vulkan {
@@ -62,6 +65,30 @@ void main() {
     expected = 3 * expected + 1;
     EXPECT_EQ(words_of(to)[255], expected);
   }
+}
+
+// Equal code is compiled once; the pipelines that were made last are kept, whoever uses them.
+TEST(Compute, PipelinesThatAreMadeAgainAreNotCompiledAgain) {
+  KAAMOS_NEED_GPU(gpu);
+  Bench bench(gpu);
+  PipelineBuilder builder;
+  const auto handle_of = [&](size_t number) {
+    const auto pipeline = ComputePipeline::create(
+        bench.layout, builder.compute("layout(local_size_x = 1) in;\nvoid main() { if "
+                                      "(gl_GlobalInvocationID.x == " +
+                                      std::to_string(number) + "u) barrier(); }\n"));
+    return static_cast<const ComputePipeline&>(**pipeline).handle();
+  };
+  const VkPipeline first = handle_of(0), second = handle_of(1);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(handle_of(0), first);
+  // Now the second is the one that was asked for least recently.
+  std::set<VkPipeline> others;
+  for (size_t i = 2; i <= PipelineCache::kKept; ++i) others.insert(handle_of(i));
+  EXPECT_EQ(others.size(), PipelineCache::kKept - 1);
+  EXPECT_EQ(others.count(first), 0u);
+  EXPECT_EQ(handle_of(0), first);
+  EXPECT_EQ(handle_of(PipelineCache::kKept), handle_of(PipelineCache::kKept));
 }
 
 }  // namespace

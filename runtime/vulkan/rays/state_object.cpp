@@ -98,22 +98,21 @@ rtapi::Result<std::vector<const runtime::LinkedShader*>> add_twins(
 
 // Where micromaps are allowed, gives hit groups of triangles without an any-hit shader one that
 // lets them decide.
-rtapi::Status add_micromap_any_hit(const Gpu& gpu, StageList& stages, Groups& groups) {
+void add_micromap_any_hit(const Gpu& gpu, StageList& stages, Groups& groups) {
   const auto lacks_one = [](const VkRayTracingShaderGroupCreateInfoKHR& info) {
     return info.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR &&
            info.anyHitShader == VK_SHADER_UNUSED_KHR;
   };
-  if (std::none_of(groups.infos.begin(), groups.infos.end(), lacks_one)) return {};
+  if (std::none_of(groups.infos.begin(), groups.infos.end(), lacks_one)) return;
   const auto code = shader::spirv::spirv_pair(kaamos_shaders_micromap_any_hit()->exports[0]);
   const StageConstant constants[] = {
       {shader::spirv::kWorkaroundsConstant, gpu.workarounds().shader_bits()},
       {shader::spirv::kAllowMicromapsConstant, 1}};
-  auto stage = stages.add({code.words, code.count}, VK_SHADER_STAGE_ANY_HIT_BIT_KHR, constants);
-  if (!stage) return stage.error();
+  const uint32_t stage =
+      stages.add({code.words, code.count}, VK_SHADER_STAGE_ANY_HIT_BIT_KHR, constants);
   for (auto& info : groups.infos) {
-    if (lacks_one(info)) info.anyHitShader = *stage;
+    if (lacks_one(info)) info.anyHitShader = stage;
   }
-  return {};
 }
 
 bool uses_hit_objects(const runtime::LinkedPipeline& linked) {
@@ -139,6 +138,30 @@ VkPipelineCreateFlags create_flags(rtapi::RaytracingPipelineFlags flags) {
     result |= VK_PIPELINE_CREATE_RAY_TRACING_SKIP_AABBS_BIT_KHR;
   }
   return result;
+}
+
+template <typename T>
+void append_value(std::string& text, const T& value) {
+  text.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+// All that a pipeline is compiled from.
+std::string text_of(const StageList& stages, const Groups& groups,
+                    const VkRayTracingPipelineCreateInfoKHR& info) {
+  std::string text = "rays";
+  append_value(text, info.flags);
+  append_value(text, info.maxPipelineRayRecursionDepth);
+  append_value(text, info.pDynamicState != nullptr);
+  append_value(text, groups.infos.size());
+  for (const auto& group : groups.infos) {
+    append_value(text, group.type);
+    append_value(text, group.generalShader);
+    append_value(text, group.closestHitShader);
+    append_value(text, group.anyHitShader);
+    append_value(text, group.intersectionShader);
+  }
+  stages.append_to(text);
+  return text;
 }
 
 }  // namespace
@@ -236,20 +259,14 @@ rtapi::Status RaytracingPipeline::start() {
   }
   if (frame.words != 0) {
     const StageConstant words = {0, frame.words};
-    auto stage =
-        stages.add(callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, std::span(&words, 1));
-    if (!stage) return stage.error();
-    groups.infos.push_back(general_group(*stage));
+    groups.infos.push_back(general_group(stages.add(
+        callable_frame_spirv(), VK_SHADER_STAGE_CALLABLE_BIT_KHR, std::span(&words, 1))));
   }
-  if (allow_micromaps) {
-    if (auto s = add_micromap_any_hit(gpu, stages, groups); !s) return s;
-  }
+  if (allow_micromaps) add_micromap_any_hit(gpu, stages, groups);
   stage_shaders_ = stages.shaders();
   if (!runs) return {};
   VkRayTracingPipelineCreateInfoKHR info = {VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
   info.flags = create_flags(linked_->flags);
-  info.stageCount = static_cast<uint32_t>(stages.stages().size());
-  info.pStages = stages.stages().data();
   info.groupCount = static_cast<uint32_t>(groups.infos.size());
   info.pGroups = groups.infos.data();
   info.maxPipelineRayRecursionDepth = max_trace_depth_;
@@ -260,19 +277,27 @@ rtapi::Status RaytracingPipeline::start() {
   dynamic.pDynamicStates = &stack_state;
   const bool own_stack = has_twins_ || needs_own_stack(*linked_);
   if (own_stack) info.pDynamicState = &dynamic;
-  const VkResult r = gpu.vk().vkCreateRayTracingPipelinesKHR(
-      gpu.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &handle_);
-  if (r != VK_SUCCESS) return gpu.error(r, "ray tracing pipeline \"" + linked_->name + "\"");
+  auto compiled = layout_->pipelines().find_or_make(
+      gpu, text_of(stages, groups, info), "ray tracing pipeline \"" + linked_->name + "\"",
+      [&](VkPipeline* handle) -> rtapi::Result<VkResult> {
+        if (auto s = stages.create_modules(); !s) return s.error();
+        info.stageCount = static_cast<uint32_t>(stages.stages().size());
+        info.pStages = stages.stages().data();
+        return gpu.vk().vkCreateRayTracingPipelinesKHR(gpu.device(), VK_NULL_HANDLE, VK_NULL_HANDLE,
+                                                       1, &info, nullptr, handle);
+      });
+  if (!compiled) return compiled.error();
+  compiled_ = std::move(*compiled);
   if (own_stack) {
     stack_bytes_ =
-        pipeline_stack_bytes(gpu, handle_, groups.infos, groups.records, twin_shaders.size(),
+        pipeline_stack_bytes(gpu, handle(), groups.infos, groups.records, twin_shaders.size(),
                              max_trace_depth_, max_callable_depth + twins.count);
   }
   return read_handles(groups.records, twin_shaders);
 }
 
 void RaytracingPipeline::bind(VkCommandBuffer commands) const {
-  layout_->bind(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, handle_);
+  layout_->bind(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, handle());
   if (stack_bytes_ != 0) {
     layout_->gpu().vk().vkCmdSetRayTracingPipelineStackSizeKHR(commands, stack_bytes_);
   }
@@ -286,17 +311,13 @@ rtapi::Status RaytracingPipeline::read_handles(
   const size_t count = records.size() + twins.size();
   std::vector<uint8_t> bytes(size * count);
   const VkResult r = gpu.vk().vkGetRayTracingShaderGroupHandlesKHR(
-      gpu.device(), handle_, 0, static_cast<uint32_t>(count), bytes.size(), bytes.data());
+      gpu.device(), handle(), 0, static_cast<uint32_t>(count), bytes.size(), bytes.data());
   if (r != VK_SUCCESS) return gpu.error(r, "reading shader group handles");
   for (size_t i = 0; i < records.size(); ++i) groups_.add(records[i], bytes.data() + i * size);
   for (size_t i = 0; i < twins.size(); ++i) {
     groups_.add_twin(twins[i], bytes.data() + (records.size() + i) * size);
   }
   return {};
-}
-
-RaytracingPipeline::~RaytracingPipeline() {
-  layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
 }
 
 namespace {
@@ -330,25 +351,32 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> ComputePipeline::create
   StageList stages(gpu, {});
   if (auto added = stages.add(shader); !added) return added.error();
   VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  info.stage = stages.stages()[0];
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size = {
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
   const VkPhysicalDeviceVulkan13Properties& sizes = gpu.properties().vulkan13;
   const bool chooses = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
   if (const uint32_t least = shader.code->compute->least_wave_lanes; least != 0 && chooses) {
     size.requiredSubgroupSize = std::max(least, sizes.minSubgroupSize);
-    size.pNext = const_cast<void*>(info.stage.pNext);
-    info.stage.pNext = &size;
   }
   info.layout = pipeline->layout_->handle();
-  const VkResult r = gpu.vk().vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info,
-                                                       nullptr, &pipeline->handle_);
-  if (r != VK_SUCCESS) return gpu.error(r, "compute pipeline \"" + shader.name + "\"");
+  std::string text = "compute";
+  append_value(text, size.requiredSubgroupSize);
+  stages.append_to(text);
+  auto compiled = pipeline->layout_->pipelines().find_or_make(
+      gpu, std::move(text), "compute pipeline \"" + shader.name + "\"",
+      [&](VkPipeline* handle) -> rtapi::Result<VkResult> {
+        if (auto s = stages.create_modules(); !s) return s.error();
+        info.stage = stages.stages()[0];
+        if (size.requiredSubgroupSize != 0) {
+          size.pNext = const_cast<void*>(info.stage.pNext);
+          info.stage.pNext = &size;
+        }
+        return gpu.vk().vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr,
+                                                 handle);
+      });
+  if (!compiled) return compiled.error();
+  pipeline->compiled_ = std::move(*compiled);
   return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
-}
-
-ComputePipeline::~ComputePipeline() {
-  layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
 }
 
 }  // namespace kaamos::vulkan

@@ -9,6 +9,7 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/vulkan/gpu/gpu.h"
+#include "runtime/vulkan/rays/pipeline_cache.h"
 #include "runtime/vulkan/rays/shader_table.h"
 #include "runtime/vulkan/textures/descriptor_set.h"
 
@@ -28,6 +29,8 @@ class PipelineLayout {
   VkPipelineLayout handle() const { return handle_; }
   Gpu& gpu() const { return *gpu_; }
   bool collect_statistics() const { return collect_statistics_; }
+  // Those with this layout.
+  PipelineCache& pipelines() { return pipelines_; }
   // Bind a pipeline and the set; push the address of a block.
   void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
   void push(VkCommandBuffer commands, uint64_t block_address) const;
@@ -40,6 +43,7 @@ class PipelineLayout {
   std::shared_ptr<DescriptorSet> descriptors_;
   bool collect_statistics_ = false;
   VkPipelineLayout handle_ = VK_NULL_HANDLE;
+  PipelineCache pipelines_;
 };
 
 class RaytracingPipeline final : public runtime::BackendPipeline {
@@ -47,12 +51,11 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   static rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create(
       std::shared_ptr<PipelineLayout> layout,
       std::shared_ptr<const runtime::LinkedPipeline> linked);
-  ~RaytracingPipeline() override;
 
   const runtime::LinkedPipeline& linked() const { return *linked_; }
   const PipelineLayout& layout() const { return *layout_; }
   // Null if the pipeline has no ray generation shader, so that nothing can run.
-  VkPipeline handle() const { return handle_; }
+  VkPipeline handle() const { return compiled_ ? compiled_->handle() : VK_NULL_HANDLE; }
   const GroupHandles& groups() const { return groups_; }
   // Binds it; the caller still has to push a block.
   void bind(VkCommandBuffer commands) const;
@@ -74,7 +77,7 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
 
   std::shared_ptr<PipelineLayout> layout_;
   std::shared_ptr<const runtime::LinkedPipeline> linked_;
-  VkPipeline handle_ = VK_NULL_HANDLE;
+  std::shared_ptr<const CompiledPipeline> compiled_;
   std::vector<const runtime::LinkedShader*> stage_shaders_;
   uint32_t max_trace_depth_ = 0;
   bool has_twins_ = false;
@@ -86,10 +89,9 @@ class ComputePipeline final : public runtime::BackendPipeline {
  public:
   static rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create(
       std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedCompute> linked);
-  ~ComputePipeline() override;
 
   const PipelineLayout& layout() const { return *layout_; }
-  VkPipeline handle() const { return handle_; }
+  VkPipeline handle() const { return compiled_->handle(); }
   const runtime::LinkedShader& shader() const { return linked_->shader; }
 
  private:
@@ -99,7 +101,7 @@ class ComputePipeline final : public runtime::BackendPipeline {
 
   std::shared_ptr<PipelineLayout> layout_;
   std::shared_ptr<const runtime::LinkedCompute> linked_;
-  VkPipeline handle_ = VK_NULL_HANDLE;
+  std::shared_ptr<const CompiledPipeline> compiled_;
 };
 
 // The depth to which callable shaders may nest. In DXR only the stack limits them, and drivers

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/spirv/shader_stage.h"
 
+#include <utility>
+
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/backend/errors.h"
 
@@ -111,7 +113,7 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
 }
 
 StageList::~StageList() {
-  for (const VkShaderModule module : all_modules_) {
+  for (const VkShaderModule module : modules_) {
     gpu_.vk().vkDestroyShaderModule(gpu_.device(), module, nullptr);
   }
 }
@@ -136,39 +138,28 @@ rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
   return {};
 }
 
-rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
-  if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
-  if (auto s = check_code(shader); !s) return s.error();
-  const shader::spirv::SpirvPair pair = shader::spirv::spirv_pair(*shader.code);
-  auto made =
-      create_module({pair.words, pair.count}, "the module of shader \"" + shader.name + "\"");
-  if (made) modules_[shader.code] = *made;
-  return made;
+size_t StageList::keep(std::span<const uint32_t> words, std::string name) {
+  codes_.push_back({words, std::move(name)});
+  return codes_.size() - 1;
 }
 
-rtapi::Result<VkShaderModule> StageList::create_module(std::span<const uint32_t> spirv,
-                                                       const std::string& name) {
-  VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  info.codeSize = spirv.size_bytes();
-  info.pCode = spirv.data();
-  VkShaderModule made = VK_NULL_HANDLE;
-  const VkResult r = gpu_.vk().vkCreateShaderModule(gpu_.device(), &info, nullptr, &made);
-  if (r != VK_SUCCESS) return gpu_.error(r, name);
-  all_modules_.push_back(made);
-  return made;
+StageOptions StageList::next_options(const runtime::LinkedShader& shader) {
+  StageOptions options = options_;
+  options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  shaders_.push_back(&shader);
+  return options;
 }
 
-uint32_t StageList::push(VkShaderStageFlagBits stage, VkShaderModule module,
-                         StageConstants constants) {
+uint32_t StageList::push(VkShaderStageFlagBits stage, size_t code, StageConstants constants) {
   const StageConstants& kept = constants_.emplace_back(std::move(constants));
   infos_.push_back({static_cast<uint32_t>(kept.entries.size()), kept.entries.data(),
                     kept.values.size() * sizeof(uint32_t), kept.values.data()});
   VkPipelineShaderStageCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
   info.stage = stage;
-  info.module = module;
   info.pName = "main";
   info.pSpecializationInfo = &infos_.back();
   stages_.push_back(info);
+  stage_codes_.push_back(code);
   return static_cast<uint32_t>(stages_.size() - 1);
 }
 
@@ -176,12 +167,17 @@ rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool
   if (!own) {
     if (const auto it = indices_.find(&shader); it != indices_.end()) return it->second;
   }
-  auto made = module(shader);
-  if (!made) return made.error();
-  StageOptions options = options_;
-  options.shader = static_cast<uint32_t>(stages_.size() + 1);
-  shaders_.push_back(&shader);
-  const uint32_t index = push(stage_of(shader.code->stage), *made,
+  auto code = export_codes_.find(shader.code);
+  if (code == export_codes_.end()) {
+    if (auto s = check_code(shader); !s) return s.error();
+    const shader::spirv::SpirvPair pair = shader::spirv::spirv_pair(*shader.code);
+    code = export_codes_
+               .emplace(shader.code, keep({pair.words, pair.count},
+                                          "the module of shader \"" + shader.name + "\""))
+               .first;
+  }
+  const StageOptions options = next_options(shader);
+  const uint32_t index = push(stage_of(shader.code->stage), code->second,
                               stage_constants(shader, gpu_.workarounds().shader_bits(), options));
   if (!own) indices_[&shader] = index;
   return index;
@@ -191,12 +187,9 @@ rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader,
                                        std::span<const uint32_t> code,
                                        std::span<const StageConstant> more) {
   if (auto s = check_code(shader); !s) return s.error();
-  auto made = create_module(code, "the module of shader \"" + shader.name + "\"");
-  if (!made) return made.error();
-  StageOptions options = options_;
-  options.shader = static_cast<uint32_t>(stages_.size() + 1);
-  shaders_.push_back(&shader);
-  return push(stage_of(shader.code->stage), *made,
+  const size_t kept = keep(code, "the module of shader \"" + shader.name + "\"");
+  const StageOptions options = next_options(shader);
+  return push(stage_of(shader.code->stage), kept,
               stage_constants(shader, gpu_.workarounds().shader_bits(), options, more));
 }
 
@@ -211,22 +204,48 @@ rtapi::Result<uint32_t> StageList::add_twin(const runtime::LinkedShader& shader)
             " cannot be run by it on Vulkan, because it was not compiled for Shader Model 6.9; "
             "compile it with -T lib_6_9.");
   }
-  auto made = create_module({pair.twin, pair.twin_count}, "the twin of \"" + shader.name + "\"");
-  if (!made) return made.error();
-  StageOptions options = options_;
-  options.shader = static_cast<uint32_t>(stages_.size() + 1);
-  shaders_.push_back(&shader);
-  return push(VK_SHADER_STAGE_CALLABLE_BIT_KHR, *made,
+  const size_t kept = keep({pair.twin, pair.twin_count}, "the twin of \"" + shader.name + "\"");
+  const StageOptions options = next_options(shader);
+  return push(VK_SHADER_STAGE_CALLABLE_BIT_KHR, kept,
               stage_constants(shader, gpu_.workarounds().shader_bits(), options));
 }
 
-rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
-                                       std::span<const StageConstant> given) {
-  auto made = create_module(spirv, "a module of the backend's own");
-  if (!made) return made.error();
+uint32_t StageList::add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
+                        std::span<const StageConstant> given) {
   Constants constants;
   for (const StageConstant& constant : given) constants.add(constant.id, constant.value);
-  return push(stage, *made, std::move(constants.result));
+  return push(stage, keep(spirv, "a module of the backend's own"), std::move(constants.result));
+}
+
+void StageList::append_to(std::string& text) const {
+  const auto append = [&](const void* bytes, size_t size) {
+    text.append(reinterpret_cast<const char*>(&size), sizeof(size));
+    text.append(static_cast<const char*>(bytes), size);
+  };
+  append(stage_codes_.data(), stage_codes_.size() * sizeof(size_t));
+  for (const Code& code : codes_) append(code.words.data(), code.words.size_bytes());
+  for (size_t i = 0; i < stages_.size(); ++i) {
+    const StageConstants& constants = constants_[i];
+    append(&stages_[i].stage, sizeof(stages_[i].stage));
+    append(constants.values.data(), constants.values.size() * sizeof(uint32_t));
+    for (const VkSpecializationMapEntry& entry : constants.entries) {
+      append(&entry.constantID, sizeof(entry.constantID));
+    }
+  }
+}
+
+rtapi::Status StageList::create_modules() {
+  for (const Code& code : codes_) {
+    VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    info.codeSize = code.words.size_bytes();
+    info.pCode = code.words.data();
+    VkShaderModule made = VK_NULL_HANDLE;
+    const VkResult r = gpu_.vk().vkCreateShaderModule(gpu_.device(), &info, nullptr, &made);
+    if (r != VK_SUCCESS) return gpu_.error(r, code.name);
+    modules_.push_back(made);
+  }
+  for (size_t i = 0; i < stages_.size(); ++i) stages_[i].module = modules_[stage_codes_[i]];
+  return {};
 }
 
 }  // namespace kaamos::vulkan

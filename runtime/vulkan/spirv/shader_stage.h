@@ -47,8 +47,8 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
                                const StageOptions& options,
                                std::span<const StageConstant> more = {});
 
-// The stages of one pipeline while it is being created. Modules are destroyed with it; pipelines do
-// not need them.
+// The stages of one pipeline while it is being created. The code that is added must stay until
+// then. Modules are destroyed with the list; pipelines do not need them.
 class StageList {
  public:
   StageList(Gpu& gpu, const StageOptions& options) : gpu_(gpu), options_(options) {}
@@ -57,7 +57,7 @@ class StageList {
   StageList& operator=(const StageList&) = delete;
 
   // The index of the shader's stage; repeated calls share the stage unless `own`. Errors: KA0954
-  // the shader has no SPIR-V, KA0952.
+  // the shader has no SPIR-V, KA0952 it uses ray queries, which the device lacks.
   rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
   // Adds a stage whose code was changed for this pipeline, with constants besides its own. Errors:
   // as above.
@@ -67,27 +67,39 @@ class StageList {
   // has none, and as above.
   rtapi::Result<uint32_t> add_twin(const runtime::LinkedShader& shader);
   // Adds one of the backend's own shaders, after all others.
-  rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
-                              std::span<const StageConstant> constants);
+  uint32_t add(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage,
+               std::span<const StageConstant> constants);
+  // Appends all that the stages consist of, so that equal texts mean equal stages.
+  void append_to(std::string& text) const;
+  // Makes the modules of all stages; only then do stages() have them.
+  rtapi::Status create_modules();
   const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
   // The shader of each stage, without the backend's own stages.
   const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
 
  private:
-  rtapi::Result<VkShaderModule> module(const runtime::LinkedShader& shader);
+  struct Code {
+    std::span<const uint32_t> words;
+    std::string name;  // for messages
+  };
+
   rtapi::Status check_code(const runtime::LinkedShader& shader) const;
-  rtapi::Result<VkShaderModule> create_module(std::span<const uint32_t> spirv,
-                                              const std::string& name);
-  uint32_t push(VkShaderStageFlagBits stage, VkShaderModule module, StageConstants constants);
+  size_t keep(std::span<const uint32_t> words, std::string name);
+  uint32_t push(VkShaderStageFlagBits stage, size_t code, StageConstants constants);
+  // Of the next stage, which is that of a shader.
+  StageOptions next_options(const runtime::LinkedShader& shader);
 
   Gpu& gpu_;
   StageOptions options_;
   std::vector<VkPipelineShaderStageCreateInfo> stages_;
+  std::vector<size_t> stage_codes_;  // of each stage
   std::vector<const runtime::LinkedShader*> shaders_;
-  std::deque<StageConstants> constants_;  // in a deque, because the infos point to them
+  std::deque<StageConstants>
+      constants_;  // of each stage; in a deque, because the infos point to them
   std::deque<VkSpecializationInfo> infos_;
-  std::vector<VkShaderModule> all_modules_;
-  std::map<const shader::ExportDesc*, VkShaderModule> modules_;
+  std::vector<Code> codes_;
+  std::vector<VkShaderModule> modules_;  // of codes_, once they are made
+  std::map<const shader::ExportDesc*, size_t> export_codes_;
   std::map<const runtime::LinkedShader*, uint32_t> indices_;
 };
 
