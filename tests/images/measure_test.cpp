@@ -51,8 +51,9 @@ double number(const Row& row, const std::string& column) {
   return std::strtod(row.at(column).c_str(), nullptr);
 }
 
+// The path-traced truth takes most of the time, and few tests look at it.
 std::vector<Row> measure(const std::string& effect, const std::string& more = "",
-                         const std::string& runs = "--repeats 3 --measure-truth 64") {
+                         const std::string& runs = "--repeats 3 --measure-truth 0") {
   std::vector<Row> out;
   const int code = northlight("--measure " + effect + " --size 48x27 --measure-reference 512 " +
                               runs + " " + more);
@@ -181,14 +182,15 @@ TEST(Measure, IndirectLightConvergesAndLitHitsRestoreEnergy) {
 // The truth shares no code with the effects: rays to the sun and about a surface agree with it,
 // shadow maps let light past things.
 TEST(Measure, TruthIsBesideTheEffectsOwnReference) {
+  const std::string with_truth = "--repeats 3 --measure-truth 64";
   for (const std::string effect : {"ao", "sun"}) {
-    for (const Row& row : measure(effect)) {
+    for (const Row& row : measure(effect, "", with_truth)) {
       if (number(row, "rays") < 16) continue;
       EXPECT_NEAR(number(row, "truth_energy_ratio"), 1, 0.02) << effect << row.at("setting");
       EXPECT_LT(number(row, "truth_bias_squared"), 2e-4) << effect << row.at("setting");
     }
   }
-  const auto lengths = group(measure("contact"), "by length");
+  const auto lengths = group(measure("contact", "", with_truth), "by length");
   EXPECT_GT(number(lengths.front(), "truth_energy_ratio"),
             number(lengths.back(), "truth_energy_ratio") + 0.05);
   EXPECT_NEAR(number(lengths.back(), "truth_energy_ratio"), 1, 0.1);
