@@ -88,6 +88,8 @@ const char* stage_name(rtapi::ShaderStage stage) {
       return "pixel";
     case rtapi::ShaderStage::kVertex:
       return "vertex";
+    case rtapi::ShaderStage::kGeometry:
+      return "geometry";
     case rtapi::ShaderStage::kCompute:
       return "compute";
     case rtapi::ShaderStage::kRayGeneration:

@@ -121,8 +121,8 @@ rtapi::Status check_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc) {
   const auto refuse = [](const std::string& detail) {
     return rtapi::Status(make_error(ErrorId::kPipeline, detail));
   };
-  if (desc.HS.BytecodeLength != 0 || desc.DS.BytecodeLength != 0 || desc.GS.BytecodeLength != 0) {
-    return refuse("HS, DS and GS: hull, domain and geometry shaders are not supported.");
+  if (desc.HS.BytecodeLength != 0 || desc.DS.BytecodeLength != 0) {
+    return refuse("HS and DS: hull and domain shaders are not supported.");
   }
   if (desc.StreamOutput.NumEntries != 0 || desc.StreamOutput.NumStrides != 0) {
     return refuse("StreamOutput: there is no stream output here.");
@@ -179,7 +179,8 @@ HRESULT Device::create_graphics(const D3D12_GRAPHICS_PIPELINE_STATE_DESC& desc,
   const HRESULT cached = check_cached_pipeline(device_, desc.CachedPSO, identity, reporter());
   if (FAILED(cached)) return cached;
   rtapi::GraphicsPipelineStateDesc out;
-  for (auto [bytecode, shader] : {std::pair{&desc.VS, &out.VS}, std::pair{&desc.PS, &out.PS}}) {
+  for (auto [bytecode, shader] :
+       {std::pair{&desc.VS, &out.VS}, std::pair{&desc.GS, &out.GS}, std::pair{&desc.PS, &out.PS}}) {
     if (bytecode->BytecodeLength == 0) continue;
     auto library = load_shader(bytecode->pShaderBytecode, bytecode->BytecodeLength, reporter());
     if (!library) return fail(library.error());

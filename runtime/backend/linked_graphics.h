@@ -28,16 +28,23 @@ struct LinkedElement {
   uint8_t components = 0;
 };
 
-// Columns of the pixel shader that columns of the vertex shader feed.
+// Columns of the pixel shader that columns of the last shader before it feed.
 struct LinkedVarying {
-  uint32_t vertex_column = 0;  // of the vertex shader's outputs
+  uint32_t vertex_column = 0;  // of the outputs of LinkedGraphics::vertices_desc()
   uint32_t pixel_column = 0;   // of the pixel shader's inputs
   uint8_t components = 0;
   shader::Interpolation interpolation = shader::Interpolation::kLinear;
 };
 
+// Columns of the geometry shader's inputs that columns of the vertex shader feed.
+struct LinkedCorner {
+  uint32_t vertex_column = 0;
+  uint32_t geometry_column = 0;
+  uint8_t components = 0;
+};
+
 // First columns of what the pipeline itself reads or writes; kNoColumn: the shader does not have
-// it.
+// it. Out: of the vertex shader, or of the geometry shader if there is one.
 struct VertexSystemColumns {
   uint32_t vertex_id = kNoColumn;             // in
   uint32_t instance_id = kNoColumn;           // in
@@ -48,6 +55,12 @@ struct VertexSystemColumns {
   uint32_t viewport_array_index = kNoColumn;  // out
   std::vector<uint32_t> clip_distances;       // out: a column each
   std::vector<uint32_t> cull_distances;       // out: a column each
+  uint32_t primitive_id = kNoColumn;          // out, of a geometry shader
+};
+// Of a geometry shader's inputs.
+struct GeometrySystemColumns {
+  uint32_t primitive_id = kNoColumn;
+  uint32_t instance = kNoColumn;
 };
 struct PixelSystemColumns {
   uint32_t position = kNoColumn;       // in, 4 columns, by the components below
@@ -74,10 +87,13 @@ struct PixelSystemColumns {
 struct LinkedGraphics {
   std::string name;
   LinkedShader vertex;
-  LinkedShader pixel;  // code is null: none
+  LinkedShader geometry;  // code is null: none
+  LinkedShader pixel;     // code is null: none
   VertexSystemColumns vertex_columns;
+  GeometrySystemColumns geometry_columns;
   PixelSystemColumns pixel_columns;
   std::vector<LinkedElement> elements;
+  std::vector<LinkedCorner> corners;
   std::vector<LinkedVarying> varyings;
   // Fixed state, checked. One blend desc for each target, whatever IndependentBlendEnable was.
   rtapi::RenderTargetBlendDesc blend[rtapi::kSimultaneousRenderTargetCount];
@@ -94,7 +110,26 @@ struct LinkedGraphics {
   rtapi::Format depth_format = rtapi::Format::kUnknown;
 
   bool has_pixel() const { return pixel.code != nullptr; }
+  bool has_geometry() const { return geometry.code != nullptr; }
   const shader::GraphicsDesc& vertex_desc() const { return *vertex.code->graphics; }
+  const shader::GraphicsDesc& geometry_desc() const { return *geometry.code->graphics; }
+  // Those that there are. Backends number them in this order.
+  std::vector<const LinkedShader*> shaders() const {
+    std::vector<const LinkedShader*> out = {&vertex};
+    if (has_pixel()) out.push_back(&pixel);
+    if (has_geometry()) out.push_back(&geometry);
+    return out;
+  }
+  // The last shader before the rasterizer, whose vertices it takes.
+  const LinkedShader& vertices() const { return has_geometry() ? geometry : vertex; }
+  const shader::GraphicsDesc& vertices_desc() const { return *vertices().code->graphics; }
+  // What is drawn.
+  rtapi::PrimitiveTopologyType drawn() const {
+    constexpr rtapi::PrimitiveTopologyType kTypes[] = {rtapi::PrimitiveTopologyType::kPoint,
+                                                       rtapi::PrimitiveTopologyType::kLine,
+                                                       rtapi::PrimitiveTopologyType::kTriangle};
+    return has_geometry() ? kTypes[geometry_desc().shape.output_corners - 1] : topology;
+  }
   const shader::GraphicsDesc& pixel_desc() const { return *pixel.code->graphics; }
 };
 

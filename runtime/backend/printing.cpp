@@ -204,8 +204,7 @@ PrintingLibraries printing_libraries(const LinkedCompute& pipeline) {
 }
 PrintingLibraries printing_libraries(const LinkedGraphics& pipeline) {
   PrintingLibraries out;
-  add_library(pipeline.vertex, out);
-  add_library(pipeline.pixel, out);
+  for (const LinkedShader* shader : pipeline.shaders()) add_library(*shader, out);
   return out;
 }
 

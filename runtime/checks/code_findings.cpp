@@ -283,6 +283,7 @@ std::string where(const CodePlace& place, const CheckReport& r) {
     out = "a shader";
   }
   const bool draws = shader != nullptr && (shader->stage == shader::Stage::kVertex ||
+                                           shader->stage == shader::Stage::kGeometry ||
                                            shader->stage == shader::Stage::kPixel);
   if (place.tables != nullptr) {
     out += " at " + pixel_name(place.index, place.dimensions[2]);

@@ -86,8 +86,9 @@ void Draws::check(const runtime::DrawCommand& command, const std::string& label)
   targets_.check(command, who_, label);
   check_rectangles(command);
   check_vertex_inputs(addresses_, reporter_, command, who_);
-  check_root_arguments(command, command.linked->vertex);
-  if (command.linked->has_pixel()) check_root_arguments(command, command.linked->pixel);
+  for (const runtime::LinkedShader* shader : command.linked->shaders()) {
+    check_root_arguments(command, *shader);
+  }
 }
 
 // [RAS-40, RAS-41, RAS-44]

@@ -32,8 +32,7 @@ void Layer::check(const runtime::DrawCommand& command) {
   arguments.global = command.bindings.root_arguments->bytes.data();
   arguments.state = &command.bindings;
   std::vector<ShaderUse> uses;
-  for (const runtime::LinkedShader* shader : {&command.linked->vertex, &command.linked->pixel}) {
-    if (shader->code == nullptr) continue;
+  for (const runtime::LinkedShader* shader : command.linked->shaders()) {
     const std::string where =
         draws_.who() + ": " + stage_name(shader->stage) + " shader " + in_quotes(shader->name);
     check_arguments(inputs(), *shader, arguments, where);

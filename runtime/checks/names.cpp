@@ -65,6 +65,8 @@ const char* stage_name(shader::Stage stage) {
       return "pixel";
     case shader::Stage::kVertex:
       return "vertex";
+    case shader::Stage::kGeometry:
+      return "geometry";
     case shader::Stage::kCompute:
       return "compute";
     case shader::Stage::kLibrary:

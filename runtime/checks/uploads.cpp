@@ -49,8 +49,9 @@ class Reader {
       add(state.index_buffer.BufferLocation, state.index_buffer.SizeInBytes,
           who + ": the index buffer");
     }
-    add(command.linked->vertex, command, who);
-    if (command.linked->has_pixel()) add(command.linked->pixel, command, who);
+    for (const runtime::LinkedShader* shader : command.linked->shaders()) {
+      add(*shader, command, who);
+    }
   }
 
   std::vector<UploadRange> out;

@@ -53,6 +53,15 @@ class DrawThread final : public raster::ShaderThread {
     linked.vertex_desc().vertex(invocation, lanes);
   }
 
+  void primitive(uint32_t draw, const shader::GeometryInputs& inputs,
+                 shader::GeometryStream& stream) override {
+    begin(draw);
+    const runtime::LinkedGraphics& linked = current_->pipeline().linked();
+    worker_.running = &current_->pipeline().geometry();
+    shader::Invocation invocation = invoke(linked.geometry, current_->geometry_bound);
+    linked.geometry_desc().geometry(invocation, inputs, stream);
+  }
+
   void pixels(uint32_t draw, shader::PixelLanes& lanes) override {
     begin(draw);
     const runtime::LinkedGraphics& linked = current_->pipeline().linked();
@@ -131,6 +140,7 @@ void begin_draw(const DispatchEnvironment& environment, RunningDraw& draw) {
   draw.dispatch.label = draw.label.c_str();
   const runtime::LinkedGraphics& linked = draw.pipeline().linked();
   bind_shader(linked.vertex, draw.dispatch.abi, draw.vertex_bound);
+  bind_shader(linked.geometry, draw.dispatch.abi, draw.geometry_bound);
   bind_shader(linked.pixel, draw.dispatch.abi, draw.pixel_bound);
   draw.dispatch.begun.store(true, std::memory_order_release);
 }

@@ -26,6 +26,7 @@ struct RunningDraw {
   }
   // The resources that the shaders have bound; empty unless they read them.
   std::vector<shader::BoundResource> vertex_bound;
+  std::vector<shader::BoundResource> geometry_bound;
   std::vector<shader::BoundResource> pixel_bound;
 };
 

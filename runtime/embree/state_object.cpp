@@ -53,7 +53,9 @@ ComputePipeline::ComputePipeline(std::shared_ptr<const runtime::LinkedCompute> l
 
 GraphicsPipeline::GraphicsPipeline(std::shared_ptr<const runtime::LinkedGraphics> linked)
     : linked_(std::move(linked)), vertex_(flatten(linked_->vertex, 0)) {
-  if (linked_->has_pixel()) pixel_ = flatten(linked_->pixel, 1);
+  uint32_t number = 1;
+  if (linked_->has_pixel()) pixel_ = flatten(linked_->pixel, number++);
+  if (linked_->has_geometry()) geometry_ = flatten(linked_->geometry, number);
 }
 
 }  // namespace kaamos::embree

@@ -53,11 +53,13 @@ class GraphicsPipeline final : public runtime::BackendPipeline {
   const runtime::LinkedGraphics& linked() const { return *linked_; }
   const Shader& vertex() const { return vertex_; }
   const Shader& pixel() const { return pixel_; }  // runs nothing if there is none
+  const Shader& geometry() const { return geometry_; }
 
  private:
   std::shared_ptr<const runtime::LinkedGraphics> linked_;
   Shader vertex_;
   Shader pixel_;
+  Shader geometry_;
 };
 
 }  // namespace kaamos::embree

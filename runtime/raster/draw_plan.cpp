@@ -139,6 +139,8 @@ DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uin
   const shader::GraphicsDesc& vertex = linked.vertex_desc();
   plan.vertex_inputs = vertex.input_columns;
   plan.vertex_outputs = vertex.output_columns;
+  plan.has_geometry = linked.has_geometry();
+  plan.numbers_primitives = linked.vertex_columns.primitive_id != kNoColumn;
   plan.depth_clip = linked.rasterizer.DepthClipEnable;
   plan.clip_count = static_cast<uint32_t>(linked.vertex_columns.clip_distances.size());
   plan.cull_count = static_cast<uint32_t>(linked.vertex_columns.cull_distances.size());

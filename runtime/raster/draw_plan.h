@@ -56,17 +56,19 @@ struct DrawPlan {
   bool has_shading = false;   // triangles come with their TriangleShading
   bool keeps_culled = false;  // for a log of a pixel: triangles go on, marked kCulled
 
-  // Vertices. Column row_columns[i] of the vertex shader's outputs becomes word i of the row:
-  // first what is linear, then what is linear on the screen, then what is flat.
+  // Vertices. Column row_columns[i] of the outputs of the last shader before the rasterizer becomes
+  // word i of the row: first what is linear, then what is linear on the screen, then what is flat.
   std::vector<uint32_t> row_columns;
   uint32_t vertex_inputs = 0;   // columns
   uint32_t vertex_outputs = 0;  // columns
+  bool has_geometry = false;
   bool depth_clip = true;
   uint32_t clip_count = 0;
   uint32_t cull_count = 0;
   bool picks_viewport = false;
   bool picks_slice = false;
-  bool shades_each_once = false;  // vertices that no triangle uses must not be shaded
+  bool numbers_primitives = false;  // the geometry shader, in a column
+  bool shades_each_once = false;    // vertices that no triangle uses must not be shaded
   uint32_t slices = 1;
   std::array<ViewportState, rtapi::kViewportAndScissorRectCount> viewports;
 

@@ -59,10 +59,11 @@ void FrontEnd::run(const PrimitiveRange& range, const Draw& draw, const DrawPlan
   }
   collect_vertices();
   shade_vertices(thread);
+  if (plan.has_geometry) run_geometry(thread);
   bins_.begin(grid, plan.samples > 1);
   triangles_.clear();
-  triangles_.reserve(range.count);
-  if (plan.has_shading) batch.shading.reserve(range.count);
+  triangles_.reserve(range_->count);
+  if (plan.has_shading) batch.shading.reserve(range_->count);
   add_primitives();
   bins_.finish(triangles_.data(), plan.has_shading, batch);
 }
@@ -132,14 +133,12 @@ void FrontEnd::collect_by_hash() {
 
 void FrontEnd::shade_vertices(ShaderThread& thread) {
   const auto count = static_cast<uint32_t>(ids_.size());
-  const uint32_t groups = (count + kGroup - 1) / kGroup;
   fetch_.bind(*draw_);
-  clip_.resize(groups);
-  screen_.resize(groups);
-  distances_.resize(size_t{groups} * kGroup * plan_->clip_count);
-  if (plan_->picks_viewport) viewports_.resize(groups * kGroup);
-  if (plan_->picks_slice) slices_.resize(groups * kGroup);
-  batch_->rows.resize(size_t{count} * plan_->row_columns.size());
+  if (plan_->has_geometry) {
+    rows_in_.resize(size_t{count} * plan_->vertex_outputs);
+  } else {
+    reserve_vertices(count);
+  }
   columns_.resize((plan_->vertex_inputs + plan_->vertex_outputs) * kGroup);
   auto* inputs = reinterpret_cast<shader::Column*>(columns_.data());
   shader::Column* outputs = inputs + plan_->vertex_inputs;
@@ -147,8 +146,23 @@ void FrontEnd::shade_vertices(ShaderThread& thread) {
     const uint32_t active = std::min(kGroup, count - first);
     fetch_.read(range_->instance, ids_.data() + first, active, inputs);
     thread.vertices(range_->draw, {inputs, outputs, (1u << active) - 1});
-    take_outputs(first, active, outputs);
+    if (plan_->has_geometry) {
+      keep_rows(first, active, outputs);
+    } else {
+      take_outputs(first, active, outputs);
+    }
   }
+}
+
+void FrontEnd::reserve_vertices(uint32_t count) {
+  const uint32_t groups = (count + kGroup - 1) / kGroup;
+  clip_.resize(groups);
+  screen_.resize(groups);
+  distances_.resize(size_t{groups} * kGroup * plan_->clip_count);
+  if (plan_->picks_viewport) viewports_.resize(groups * kGroup);
+  if (plan_->picks_slice) slices_.resize(groups * kGroup);
+  if (plan_->numbers_primitives) primitive_ids_.resize(groups * kGroup);
+  batch_->rows.resize(size_t{count} * plan_->row_columns.size());
 }
 
 void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column* outputs) {
@@ -179,6 +193,9 @@ void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column
   }
   if (plan_->picks_slice) {
     std::memcpy(&slices_[first], outputs[columns.target_array_index], sizeof(shader::Column));
+  }
+  if (plan_->numbers_primitives) {
+    std::memcpy(&primitive_ids_[first], outputs[columns.primitive_id], sizeof(shader::Column));
   }
   const auto words = static_cast<uint32_t>(plan_->row_columns.size());
   uint32_t* rows = batch_->rows.data() + size_t{first} * words;
@@ -229,29 +246,19 @@ void FrontEnd::count_vertices(uint32_t first, uint32_t count) {
   viewport_flags_ = number << kViewportShift;
   slice_ = plan_->picks_slice ? slices_[leading] : 0;
   if (slice_ >= plan_->slices) slice_ = 0;
+  if (plan_->numbers_primitives) primitive.id = primitive_ids_[leading];
   gather(primitive.vertex, primitive.screen, any);
   primitive.codes = any;
   return true;
 }
 
 void FrontEnd::add_primitives() {
-  const uint32_t* corner = corners_.data();
-  const uint32_t step = range_->strip ? 1 : range_->corners;
   const bool triangles = range_->corners == 3;
-  for (uint32_t i = 0; i < range_->count; ++i) {
-    const uint32_t* first = corner + size_t{i} * step;
+  each_primitive(*range_, corners_.data(), [&](const uint32_t vertex[3], uint32_t id) {
     Primitive primitive;
-    primitive.id = range_->primitive_id + i;
-    primitive.vertex[0] = first[0];
-    if (triangles) {
-      const bool odd = range_->strip && ((i & 1) != 0) != range_->odd;
-      primitive.vertex[1] = first[odd ? 2 : 1];
-      primitive.vertex[2] = first[odd ? 1 : 2];
-    } else {
-      primitive.vertex[1] = first[range_->corners - 1];
-      primitive.vertex[2] = first[0];
-    }
-    if (!begin_primitive(primitive)) continue;
+    primitive.id = id;
+    for (int i = 0; i < 3; ++i) primitive.vertex[i] = vertex[i];
+    if (!begin_primitive(primitive)) return;
     if (triangles && !plan_->wireframe) [[likely]] {
       add_triangle(primitive);
     } else if (triangles) {
@@ -261,7 +268,7 @@ void FrontEnd::add_primitives() {
     } else {
       add_point(primitive);
     }
-  }
+  });
 }
 
 void FrontEnd::add_triangle(const Primitive& primitive) {

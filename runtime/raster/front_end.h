@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// From a range of a draw's primitives to a batch: fetches and shades its vertices, cuts, snaps and
-// sets up its triangles and lines, and sorts them into tiles. One for each thread.
+// From a range of a draw's primitives to a batch: fetches and shades its vertices, runs the
+// geometry shader, cuts, snaps and sets up triangles and lines, and sorts them into tiles. One for
+// each thread.
 #pragma once
 
 #include <array>
@@ -31,6 +32,8 @@ class FrontEnd {
   void collect_by_range(uint32_t lowest, uint32_t size);
   void collect_by_hash();
   void shade_vertices(ShaderThread& thread);
+  // Makes room for so many vertices of the last shader before the rasterizer.
+  void reserve_vertices(uint32_t count);
   void take_outputs(uint32_t first, uint32_t count, const shader::Column* outputs);
   // A primitive that is being added. Points have one vertex three times, lines the first one twice.
   struct Primitive {
@@ -56,6 +59,24 @@ class FrontEnd {
       }
     }
   };
+  // Calls each(vertex, id) with the three vertices of each primitive as Primitive has them.
+  template <class Each>
+  [[gnu::always_inline]] static void each_primitive(const PrimitiveRange& range,
+                                                    const uint32_t* corners, const Each& each) {
+    const uint32_t step = range.strip ? 1 : range.corners;
+    const bool triangles = range.corners == 3;
+    for (uint32_t i = 0; i < range.count; ++i) {
+      const uint32_t* first = corners + size_t{i} * step;
+      if (triangles) {
+        const bool odd = range.strip && ((i & 1) != 0) != range.odd;
+        const uint32_t vertex[3] = {first[0], first[odd ? 2 : 1], first[odd ? 1 : 2]};
+        each(vertex, range.primitive_id + i);
+      } else {
+        const uint32_t vertex[3] = {first[0], first[range.corners - 1], first[0]};
+        each(vertex, range.primitive_id + i);
+      }
+    }
+  }
   void add_primitives();
   // Fills in the rest; false if nothing can be seen of it.
   bool begin_primitive(Primitive& primitive);
@@ -74,6 +95,13 @@ class FrontEnd {
   // The same of a part of a primitive.
   void add_part_shading(const ScreenVertex screen[3], const Primitive& primitive,
                         const ClipWeights& weights);
+
+  // front_end_geometry.cpp
+  void keep_rows(uint32_t first, uint32_t count, const shader::Column* outputs);
+  void run_geometry(ShaderThread& thread);
+  void call_geometry(ShaderThread& thread, const uint32_t vertex[3], uint32_t id);
+  void assemble(const shader::GeometryStream& stream, uint32_t first);
+  void take_emitted();
 
   // front_end_lines.cpp
   struct LineEnd {
@@ -94,7 +122,9 @@ class FrontEnd {
 
   void count_vertices(uint32_t first, uint32_t count);
 
+  // What is drawn: the draw's primitives, or those that the geometry shader makes of them.
   const PrimitiveRange* range_ = nullptr;
+  PrimitiveRange made_;
   const Draw* draw_ = nullptr;
   const DrawPlan* plan_ = nullptr;
   Batch* batch_ = nullptr;
@@ -118,6 +148,15 @@ class FrontEnd {
   Storage<uint32_t> viewports_;
   Storage<uint32_t> slices_;
   Storage<uint32_t> columns_;  // of the vertex shader
+  Storage<uint32_t> primitive_ids_;
+
+  // Of the geometry shader: what `corners_` was, rows of vertices that go in, of the corners of one
+  // primitive, and of vertices that come out.
+  Storage<uint32_t> corners_in_;
+  Storage<uint32_t> rows_in_;
+  Storage<uint32_t> corner_rows_;
+  Storage<uint32_t> rows_out_;
+  Storage<bool> begins_;
 };
 
 }  // namespace kaamos::raster

@@ -15,6 +15,8 @@ class ShaderThread {
  public:
   virtual ~ShaderThread() = default;
   virtual void vertices(uint32_t draw, const shader::VertexLanes& lanes) = 0;
+  virtual void primitive(uint32_t draw, const shader::GeometryInputs& inputs,
+                         shader::GeometryStream& stream) = 0;
   virtual void pixels(uint32_t draw, shader::PixelLanes& lanes) = 0;
 };
 

@@ -204,6 +204,7 @@ std::vector<RuleTest> ras_clip_tests();
 std::vector<RuleTest> ras_viewport_tests();
 std::vector<RuleTest> ras_coverage_tests();
 std::vector<RuleTest> ras_line_tests();
+std::vector<RuleTest> ras_geometry_tests();
 std::vector<RuleTest> ras_source_tests();
 std::vector<RuleTest> ras_depth_tests();
 std::vector<RuleTest> ras_attribute_tests();

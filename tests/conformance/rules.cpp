@@ -24,7 +24,7 @@ constexpr Rule kRules[] = {
 };
 
 static_assert(std::count_if(std::begin(kRules), std::end(kRules),
-                            [](const Rule& rule) { return rule.tag == 'R'; }) == 598);
+                            [](const Rule& rule) { return rule.tag == 'R'; }) == 603);
 
 // Calls `take` with each beginning of a filter until it returns false.
 template <class Take>

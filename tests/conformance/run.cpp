@@ -66,6 +66,7 @@ std::vector<Section> all_sections() {
           {"ras_coverage", ras_coverage_tests()},
           {"ras_lines", ras_line_tests()},
           {"ras_sources", ras_source_tests()},
+          {"ras_geometry", ras_geometry_tests()},
           {"ras_depth", ras_depth_tests()},
           {"ras_attribute", ras_attribute_tests()},
           {"ras_quad", ras_quad_tests()},

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "canvas.h"
+#include "on_backends.h"
 #include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 
@@ -47,19 +48,12 @@ const std::vector<Corner> kRectangle = {
     {{ndc_x(8), ndc_y(24), 0.5f}, {1, 0, 0}},  {{ndc_x(24), ndc_y(8), 0.5f}, {0, 1, 0}},
     {{ndc_x(24), ndc_y(24), 0.5f}, {0, 1, 0}}, {{ndc_x(8), ndc_y(24), 0.5f}, {1, 0, 0}}};
 
-class Draws : public ::testing::TestWithParam<std::string> {
+class Draws : public OnBackends {
  protected:
   void SetUp() override {
-    if (on_vulkan()) {
-      if (const std::string why = test::why_no_vulkan(); !why.empty()) {
-        if (test::vulkan_is_required()) FAIL() << why;
-        GTEST_SKIP() << why;
-      }
-      validation_.emplace();
-    }
-    canvas_.emplace(GetParam());
+    OnBackends::SetUp();
+    if (can_run()) canvas_.emplace(GetParam());
   }
-  bool on_vulkan() const { return GetParam() == "vulkan"; }
   Buffer upload(const auto& elements) {
     return CreateUploadBuffer(canvas_->device, elements, "vertices").value();
   }
@@ -73,7 +67,6 @@ class Draws : public ::testing::TestWithParam<std::string> {
     return out;
   }
 
-  std::optional<test::ValidationGuard> validation_;
   std::optional<Canvas> canvas_;
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Draws, ::testing::Values("embree", "vulkan"),

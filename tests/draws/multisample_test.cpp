@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "multisample_canvas.h"
+#include "on_backends.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::draws {
@@ -19,16 +20,11 @@ using namespace rtapi;
 
 constexpr uint32_t kSide = MultisampleCanvas::kSide;
 
-class Multisampling : public ::testing::TestWithParam<std::string> {
+class Multisampling : public OnBackends {
  protected:
   void SetUp() override {
-    if (GetParam() == "vulkan") {
-      if (const std::string why = test::why_no_vulkan(); !why.empty()) {
-        if (test::vulkan_is_required()) FAIL() << why;
-        GTEST_SKIP() << why;
-      }
-      validation_.emplace();
-    }
+    OnBackends::SetUp();
+    if (!can_run()) return;
     DeviceDesc desc;
     desc.Backend = GetParam();
     desc.OnMessage = [](const Message& m) { ADD_FAILURE() << m.Text; };
@@ -50,7 +46,6 @@ class Multisampling : public ::testing::TestWithParam<std::string> {
     EXPECT_GE(tested, 1u);
   }
 
-  std::optional<test::ValidationGuard> validation_;
   Device device_;
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Multisampling, ::testing::Values("embree", "vulkan"),

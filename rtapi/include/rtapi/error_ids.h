@@ -214,7 +214,7 @@ inline constexpr ErrorId kGraphicsDesc{720};  ///< invalid graphics pipeline des
 inline constexpr ErrorId kGraphicsUnsupported{721};  ///< graphics feature is not supported
 inline constexpr ErrorId kGraphicsShader{722};  ///< no such vertex or pixel shader
 inline constexpr ErrorId kInputLayout{723};  ///< input layout does not fit the vertex shader
-inline constexpr ErrorId kStageLinkage{724};  ///< pixel shader does not fit the vertex shader
+inline constexpr ErrorId kStageLinkage{724};  ///< a shader does not fit the one before it
 inline constexpr ErrorId kTargetOutput{725};  ///< pixel shader does not fit the render targets
 inline constexpr ErrorId kTargetFormat{726};  ///< format cannot be drawn to
 inline constexpr ErrorId kStageRootAccess{727};  ///< root signature does not allow this stage
@@ -569,6 +569,7 @@ inline constexpr ErrorId kAtomicTarget{2511};  ///< the target of '{0}' must be 
 inline constexpr ErrorId kImplicitLevel{2512};  ///< '{0}' needs derivatives, which this stage does not have; mip level 0 is used: write SampleLevel
 inline constexpr ErrorId kUserStruct{2513};  ///< {0} must be a struct without resources, not '{1}'
 inline constexpr ErrorId kAmbiguousStrict{2514};  ///< the call to '{0}' with {1} takes the function, which DXC calls ambiguous with a template's instance
+inline constexpr ErrorId kGeometryShader{2515};  ///< geometry shader '{0}' {1}
 inline constexpr ErrorId kStrayJump{2520};  ///< '{0}' must be inside {1}
 inline constexpr ErrorId kSwitchType{2521};  ///< switch needs an integer, not '{0}'
 inline constexpr ErrorId kDuplicateCase{2522};  ///< duplicate case label '{0}'

@@ -260,10 +260,13 @@ struct GraphicsShader {
 /// Describes a graphics pipeline for Device::CreateGraphicsPipelineState.
 /// [D3D12: D3D12_GRAPHICS_PIPELINE_STATE_DESC]
 struct GraphicsPipelineStateDesc {
-  RootSignature pRootSignature = {};  ///< a global one that feeds every resource of both shaders
-  GraphicsShader VS = {};             ///< the vertex shader; it writes SV_Position
-  GraphicsShader PS = {};             ///< the pixel shader; without one only depth and stencil
-  rtapi::BlendDesc BlendState = {};   ///< blending and write masks
+  RootSignature pRootSignature = {};  ///< a global one that feeds every resource of all shaders
+  GraphicsShader VS = {};             ///< the vertex shader
+  /// The geometry shader, or empty. The primitive that it takes is of PrimitiveTopologyType. The
+  /// last shader before the pixel shader writes SV_Position. [D3D11.3: 13]
+  GraphicsShader GS = {};
+  GraphicsShader PS = {};            ///< the pixel shader; without one only depth and stencil
+  rtapi::BlendDesc BlendState = {};  ///< blending and write masks
   /// A bit for each sample, the lowest for sample 0: those that are drawn.
   uint32_t SampleMask = 0xFFFFFFFFu;
   rtapi::RasterizerDesc RasterizerState = {};      ///< culling, bias, clipping

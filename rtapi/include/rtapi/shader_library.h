@@ -24,6 +24,7 @@ struct ShaderLibraryImpl;
 enum class ShaderStage : uint32_t {
   kPixel = 0,
   kVertex = 1,
+  kGeometry = 2,
   kCompute = 5,
   kLibrary = 6,  ///< a function that is no entry point
   kRayGeneration = 7,

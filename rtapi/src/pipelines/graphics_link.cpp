@@ -7,6 +7,7 @@
 #include <span>
 
 #include "rtapi/src/device/device_impl.h"
+#include "rtapi/src/pipelines/hit_attributes.h"
 
 namespace rtapi::detail {
 
@@ -183,10 +184,20 @@ void append_columns(const SignatureElement& e, std::vector<uint32_t>& columns) {
   for (uint32_t c = 0; c < e.components; ++c) columns.push_back(e.first_column + c);
 }
 
-Status link_vertex_outputs(LinkedGraphics& linked) {
+// "vertex shader "main""
+std::string name_of(const runtime::LinkedShader& s) {
+  return concat(stage_name(s.stage), " shader ", in_quotes(s.name));
+}
+
+// What the rasterizer reads of the last shader before it.
+Status link_vertices(LinkedGraphics& linked) {
   auto& columns = linked.vertex_columns;
-  for (const SignatureElement& e : outputs_of(linked.vertex)) {
+  const std::string writes = concat(name_of(linked.vertices()), " writes ");
+  for (const SignatureElement& e : outputs_of(linked.vertices())) {
     switch (e.system_value) {
+      case SystemValue::kPrimitiveId:
+        columns.primitive_id = e.first_column;
+        break;
       case SystemValue::kPosition:
         columns.position = e.first_column;
         break;
@@ -207,19 +218,61 @@ Status link_vertex_outputs(LinkedGraphics& linked) {
     }
   }
   if (columns.position == runtime::kNoColumn) {
-    return make_error(Id::kStageLinkage, "vertex shader ", in_quotes(linked.vertex.name),
-                      " writes no SV_Position, which rasterization needs");
+    return make_error(Id::kStageLinkage, writes, "no SV_Position, which rasterization needs");
   }
   const size_t distances = columns.clip_distances.size() + columns.cull_distances.size();
   if (distances > kMaxClipAndCullDistances) {
-    return make_error(Id::kStageLinkage, "vertex shader ", in_quotes(linked.vertex.name),
-                      " writes ", columns.clip_distances.size(), " clip and ",
+    return make_error(Id::kStageLinkage, writes, columns.clip_distances.size(), " clip and ",
                       columns.cull_distances.size(), " cull distances; together at most 8");
   }
-  const uint32_t vectors = linked.vertex.code->graphics->output_count;
+  const uint32_t vectors = linked.vertices_desc().output_count;
   if (vectors > kMaxInterstageVectors) {
-    return make_error(Id::kStageLinkage, "vertex shader ", in_quotes(linked.vertex.name),
-                      " writes ", vectors, " vectors; at most 32");
+    return make_error(Id::kStageLinkage, writes, vectors, " vectors; at most 32");
+  }
+  return {};
+}
+
+// The output of `from` with the semantic of an input of `to`; null: there is none.
+Result<const SignatureElement*> find_output(const runtime::LinkedShader& from,
+                                            const runtime::LinkedShader& to,
+                                            const SignatureElement& input) {
+  for (const SignatureElement& output : outputs_of(from)) {
+    if (!same_semantic(output, input)) continue;
+    if (output.type != input.type || output.components < input.components) {
+      return make_error(Id::kStageLinkage, name_of(to), " reads ", describe(input), "; ",
+                        name_of(from), " writes ", describe(output));
+    }
+    return &output;
+  }
+  return nullptr;
+}
+
+Status not_written(const runtime::LinkedShader& from, const runtime::LinkedShader& to,
+                   const SignatureElement& input) {
+  return make_error(Id::kStageLinkage, name_of(to), " reads ", describe(input), ", which ",
+                    name_of(from), " does not write");
+}
+
+// Vertices on their way into a geometry shader. [D3D11.3: 13]
+Status link_geometry(LinkedGraphics& linked) {
+  const shader::GeometryShape& shape = linked.geometry_desc().shape;
+  if (shape.corners != static_cast<uint32_t>(linked.topology)) {
+    constexpr const char* kNames[] = {"", "a point", "a line", "a triangle"};
+    return make_error(Id::kStageLinkage, name_of(linked.geometry), " takes ", kNames[shape.corners],
+                      ", but PrimitiveTopologyType is ", static_cast<uint32_t>(linked.topology),
+                      ", of ", kNames[static_cast<uint32_t>(linked.topology)]);
+  }
+  for (const SignatureElement& input : inputs_of(linked.geometry)) {
+    if (input.system_value == SystemValue::kPrimitiveId) {
+      linked.geometry_columns.primitive_id = input.first_column;
+    } else if (input.system_value == SystemValue::kGeometryInstance) {
+      linked.geometry_columns.instance = input.first_column;
+    } else {
+      const auto output = find_output(linked.vertex, linked.geometry, input);
+      if (!output.ok()) return output.error();
+      if (*output == nullptr) return not_written(linked.vertex, linked.geometry, input);
+      linked.corners.push_back({(*output)->first_column, input.first_column, input.components});
+    }
   }
   return {};
 }
@@ -259,17 +312,17 @@ bool link_pixel_system_value(const SignatureElement& input, runtime::PixelSystem
 }
 
 Status link_pixel_input(const SignatureElement& input, LinkedGraphics& linked) {
+  // Behind a geometry shader the pipeline knows no number of a primitive.
+  if (input.system_value == SystemValue::kPrimitiveId && linked.has_geometry() &&
+      linked.vertex_columns.primitive_id == runtime::kNoColumn) {
+    return not_written(linked.geometry, linked.pixel, input);
+  }
   if (link_pixel_system_value(input, linked.pixel_columns)) return {};
-  const std::string reads =
-      concat("pixel shader ", in_quotes(linked.pixel.name), " reads ", describe(input));
-  for (const SignatureElement& output : outputs_of(linked.vertex)) {
-    if (!same_semantic(output, input)) continue;
-    if (output.type != input.type || output.components < input.components) {
-      return make_error(Id::kStageLinkage, reads, "; vertex shader ", in_quotes(linked.vertex.name),
-                        " writes ", describe(output));
-    }
+  const auto output = find_output(linked.vertices(), linked.pixel, input);
+  if (!output.ok()) return output.error();
+  if (*output != nullptr) {
     linked.varyings.push_back(
-        {output.first_column, input.first_column, input.components, input.interpolation});
+        {(*output)->first_column, input.first_column, input.components, input.interpolation});
     return {};
   }
   // Without a vertex shader's output these two are 0. [D3D11.3: 15.8.1, 15.15]
@@ -277,8 +330,7 @@ Status link_pixel_input(const SignatureElement& input, LinkedGraphics& linked) {
       input.system_value == SystemValue::kViewportArrayIndex) {
     return {};
   }
-  return make_error(Id::kStageLinkage, reads, ", which vertex shader ",
-                    in_quotes(linked.vertex.name), " does not write");
+  return not_written(linked.vertices(), linked.pixel, input);
 }
 
 // Native D3D12 links by registers, which follow the order of declaration. [RAS-21]
@@ -292,13 +344,13 @@ void warn_of_order(const DeviceImpl& device, const LinkedGraphics& linked) {
       linked.varyings.begin(), declared_end,
       [](const auto& a, const auto& b) { return a.vertex_column < b.vertex_column; });
   if (in_order) return;
-  device.report(MessageSeverity::kWarning,
-                make_error(Id::kGraphicsWarning, named("graphics pipeline", linked.name),
-                           ": pixel shader ", in_quotes(linked.pixel.name),
-                           " declares its inputs in another order than vertex shader ",
-                           in_quotes(linked.vertex.name),
-                           " its outputs; Direct3D 12 itself links them by position and refuses "
-                           "that"));
+  device.report(
+      MessageSeverity::kWarning,
+      make_error(Id::kGraphicsWarning, named("graphics pipeline", linked.name), ": pixel shader ",
+                 in_quotes(linked.pixel.name), " declares its inputs in another order than ",
+                 name_of(linked.vertices()),
+                 " its outputs; Direct3D 12 itself links them by position and refuses "
+                 "that"));
 }
 
 }  // namespace
@@ -317,7 +369,10 @@ Status link_input_layout(const GraphicsPipelineStateDesc& desc, LinkedGraphics& 
 }
 
 Status link_stages(const DeviceImpl& device, LinkedGraphics& linked) {
-  if (Status s = link_vertex_outputs(linked); !s.ok()) return s;
+  if (linked.has_geometry()) {
+    if (Status s = link_geometry(linked); !s.ok()) return s;
+  }
+  if (Status s = link_vertices(linked); !s.ok()) return s;
   if (!linked.has_pixel()) return {};
   for (const SignatureElement& input : inputs_of(linked.pixel)) {
     if (Status s = link_pixel_input(input, linked); !s.ok()) return s;

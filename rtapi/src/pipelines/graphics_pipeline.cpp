@@ -10,6 +10,7 @@
 #include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/bindings.h"
 #include "rtapi/src/pipelines/graphics_link.h"
+#include "rtapi/src/pipelines/hit_attributes.h"
 #include "rtapi/src/pipelines/pipeline_state_impl.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 #include "rtapi/src/resources/resource_impl.h"
@@ -224,27 +225,41 @@ Result<const shader::ExportDesc*> find_shader(const ShaderLibrary& library, cons
                     in_quotes(name), "; it has ", known.empty() ? "none" : known);
 }
 
+struct GraphicsStage {
+  shader::Stage stage;
+  ShaderVisibility visibility;
+  RootSignatureFlags denied;
+  const char* denied_name;
+};
+constexpr GraphicsStage kGraphicsStages[] = {
+    {shader::Stage::kVertex, ShaderVisibility::kVertex,
+     RootSignatureFlags::kDenyVertexShaderRootAccess, "kDenyVertexShaderRootAccess"},
+    {shader::Stage::kGeometry, ShaderVisibility::kGeometry,
+     RootSignatureFlags::kDenyGeometryShaderRootAccess, "kDenyGeometryShaderRootAccess"},
+    {shader::Stage::kPixel, ShaderVisibility::kPixel,
+     RootSignatureFlags::kDenyPixelShaderRootAccess, "kDenyPixelShaderRootAccess"}};
+
+const GraphicsStage& rules_of(shader::Stage stage) {
+  return *std::find_if(std::begin(kGraphicsStages), std::end(kGraphicsStages),
+                       [&](const GraphicsStage& one) { return one.stage == stage; });
+}
+
 Status link_shader(const DeviceImpl& device, const RootSignature& signature,
                    const GraphicsShader& given, shader::Stage stage,
                    runtime::LinkedShader& linked) {
-  const bool vertex = stage == shader::Stage::kVertex;
+  const GraphicsStage& rules = rules_of(stage);
   const ShaderLibrary library = device.library_to_run(given.Library);
   if (Status s = check_shader_model(device, library); !s.ok()) return s;
-  auto code = find_shader(library, given.EntryPoint, stage, vertex ? "vertex" : "pixel");
+  auto code = find_shader(library, given.EntryPoint, stage, stage_name(stage));
   if (!code.ok()) return code.error();
-  const std::string where =
-      concat(vertex ? "vertex" : "pixel", " shader ", in_quotes((*code)->name));
+  const std::string where = concat(stage_name(stage), " shader ", in_quotes((*code)->name));
   if (Status s = check_shader_tier(device, **code, where); !s.ok()) return s;
-  const RootSignatureFlags denied = vertex ? RootSignatureFlags::kDenyVertexShaderRootAccess
-                                           : RootSignatureFlags::kDenyPixelShaderRootAccess;
-  if ((*code)->binding_count > 0 && HasAny(signature.GetDesc().Flags, denied)) {
+  if ((*code)->binding_count > 0 && HasAny(signature.GetDesc().Flags, rules.denied)) {
     return make_error(Id::kStageRootAccess, where, " has ", (*code)->binding_count,
-                      " resources, but the root signature has kDeny", vertex ? "Vertex" : "Pixel",
-                      "ShaderRootAccess");
+                      " resources, but the root signature has ", rules.denied_name);
   }
   const auto& table = *library.impl()->desc;
-  auto slots = resolve_bindings(table, **code, signature, RootSignature(), where,
-                                vertex ? ShaderVisibility::kVertex : ShaderVisibility::kPixel);
+  auto slots = resolve_bindings(table, **code, signature, RootSignature(), where, rules.visibility);
   if (!slots.ok()) return slots.error();
   linked.name = (*code)->name;
   linked.stage = stage;
@@ -266,6 +281,13 @@ Status link_shaders(const DeviceImpl& device, const GraphicsPipelineStateDesc& d
     return s;
   }
   linked.name = desc.Name.empty() ? linked.vertex.name : desc.Name;
+  if (desc.GS.Library) {
+    if (Status s = link_shader(device, desc.pRootSignature, desc.GS, shader::Stage::kGeometry,
+                               linked.geometry);
+        !s.ok()) {
+      return s;
+    }
+  }
   if (desc.PS.Library) {
     if (Status s =
             link_shader(device, desc.pRootSignature, desc.PS, shader::Stage::kPixel, linked.pixel);

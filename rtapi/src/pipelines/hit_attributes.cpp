@@ -21,6 +21,8 @@ const char* stage_name(Stage stage) {
       return "pixel";
     case Stage::kVertex:
       return "vertex";
+    case Stage::kGeometry:
+      return "geometry";
     case Stage::kCompute:
       return "compute";
     case Stage::kLibrary:

@@ -62,7 +62,7 @@ void Gatherer::add_shader(const shader::ExportDesc& code, const ShaderLibrary& l
                           const std::string& renamed) {
   // A state object has no use for these.
   if (code.stage == shader::Stage::kCompute || code.stage == shader::Stage::kVertex ||
-      code.stage == shader::Stage::kPixel) {
+      code.stage == shader::Stage::kGeometry || code.stage == shader::Stage::kPixel) {
     return;
   }
   auto subject = std::make_shared<Subject>();

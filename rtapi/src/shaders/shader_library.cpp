@@ -19,7 +19,7 @@ const std::vector<ShaderExportInfo> kNoExports;
 
 bool is_stage(shader::Stage stage) {
   const auto s = static_cast<uint32_t>(stage);
-  return s <= 1 || (s >= 5 && s <= 12);
+  return s <= 2 || (s >= 5 && s <= 12);
 }
 
 // A foreign library's tables are trusted no further than their version. Every index is checked
@@ -52,7 +52,8 @@ Status check_table(const shader::LibraryDesc& desc, const std::string& name) {
     if (!e.name || !*e.name || !is_stage(e.stage)) {
       return broken("export ", i, " has no name or an invalid stage");
     }
-    const bool draws = e.stage == shader::Stage::kVertex || e.stage == shader::Stage::kPixel;
+    const bool draws = e.stage == shader::Stage::kVertex || e.stage == shader::Stage::kGeometry ||
+                       e.stage == shader::Stage::kPixel;
     // Linking gives code to an export that calls other libraries.
     const bool needs_entry = e.import_count == 0 && e.stage != shader::Stage::kLibrary &&
                              e.stage != shader::Stage::kCompute && !draws;
@@ -62,8 +63,9 @@ Status check_table(const shader::LibraryDesc& desc, const std::string& name) {
       return broken("compute export ", in_quotes(e.name), " has no code");
     }
     const shader::GraphicsDesc* graphics = draws ? e.graphics : nullptr;
-    if (draws && (!graphics || (e.stage == shader::Stage::kVertex
-                                    ? !graphics->vertex
+    if (draws && (!graphics || (e.stage == shader::Stage::kVertex ? !graphics->vertex
+                                : e.stage == shader::Stage::kGeometry
+                                    ? !graphics->geometry
                                     : !graphics->pixel && !graphics->pixel_thread))) {
       return broken("export ", in_quotes(e.name), " has no code");
     }

@@ -183,6 +183,8 @@ ShaderStage stage_of(uint32_t stage) {
       return ShaderStage::kCompute;
     case ir::kStageVertex:
       return ShaderStage::kVertex;
+    case ir::kStageGeometry:
+      return ShaderStage::kGeometry;
     case ir::kStagePixel:
       return ShaderStage::kPixel;
     default:

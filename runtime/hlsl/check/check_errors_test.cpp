@@ -328,7 +328,7 @@ const std::vector<Case>& cases() {
       {"SemanticType", Id::kSemanticType,
        "[shader(\"compute\")][numthreads(1, 1, 1)] void main(float3 @id : SV_GroupID) {}"},
       {"NoEntryPoint", Id::kNoEntryPoint, "void f() {}", target("cs_6_6")},
-      {"UnknownTarget", Id::kUnknownTarget, "void f() {}", target("gs_6_6")},
+      {"UnknownTarget", Id::kUnknownTarget, "void f() {}", target("hs_6_6")},
       {"UnknownMinor", Id::kUnknownTarget, "void f() {}", target("lib_6_11")},
       {"ExperimentalTarget", Id::kExperimentalTarget, "void f() {}", target("lib_6_10")},
       {"ExperimentalPixelTarget", Id::kExperimentalTarget, "void f() {}", target("ps_6_10")},

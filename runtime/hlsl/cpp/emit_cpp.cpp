@@ -181,6 +181,7 @@ void CppEmitter::emit_context() {
     line("uint32_t wave_path[" + std::to_string(wave_words_) + "];");
     line("uint32_t wave_depth = 0;");
   }
+  if (has_geometry_) line("ks::GeometryStream* stream = nullptr;");
   if (binds_per_group_) line("const ks::BoundResource* bound = nullptr;");
   line("explicit Context(ks::Invocation& i) : invocation(i) {}");
   close("};");
@@ -500,6 +501,10 @@ std::string CppEmitter::run() {
   const bool graphics = std::any_of(module_.entry_points.begin(), module_.entry_points.end(),
                                     [](const EntryPoint& entry) { return entry.is_graphics(); });
   if (graphics) line("#include <kaamos/shader/columns.h>");
+  has_geometry_ =
+      std::any_of(module_.entry_points.begin(), module_.entry_points.end(),
+                  [](const EntryPoint& entry) { return entry.stage == kStageGeometry; });
+  if (has_geometry_) line("#include <kaamos/shader/geometry.h>");
   if (wave_words_ != 0) line("#include <kaamos/shader/wave.h>");
   if (module_.check_access) line("#include <kaamos/shader/checked.h>");
   include_experimental();

@@ -169,6 +169,7 @@ class CppEmitter {
   void emit_graphics_desc(size_t index, const std::string& functions);
   void emit_graphics_lane(const ir::EntryPoint& entry);
   void emit_graphics_entry(size_t index);
+  void emit_geometry_entry(size_t index);
 
   // groups.cpp: compute shaders that are cut at their barriers
   bool emit_split_group(size_t index);  // false: it must run on fibers
@@ -204,6 +205,7 @@ class CppEmitter {
   const EmitCppOptions& options_;
   WavePaths wave_paths_;
   uint32_t wave_words_ = 0;       // of the longest path
+  bool has_geometry_ = false;     // any geometry shader
   bool binds_per_group_ = false;  // compute shaders only: bound.h
   bool reads_bound_ = false;      // Invocation::bound
   std::vector<bool> has_row_;     // by entry point: ExportDesc::row

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Entry points of vertex and pixel shaders: what stands between the columns of graphics.h and the
-// parameters of the IR's function.
+// Entry points of vertex, geometry and pixel shaders: what stands between the columns of graphics.h
+// and the parameters of the IR's function.
 #include "runtime/hlsl/cpp/wide_emitter.h"
 
 namespace kaamos::hlsl {
@@ -28,7 +28,8 @@ const char* system_value_name(shader::SystemValue value) {
                                     "kStartVertexLocation",
                                     "kStartInstanceLocation",
                                     "kSampleIndex",
-                                    "kSampleCount"};
+                                    "kSampleCount",
+                                    "kGeometryInstance"};
   return kNames[static_cast<size_t>(value)];
 }
 
@@ -80,7 +81,7 @@ void CppEmitter::emit_signature_elements(const std::string& name,
   --indent_;
 }
 
-// `functions` are the last three members of the GraphicsDesc.
+// `functions` are the last members of the GraphicsDesc.
 void CppEmitter::emit_graphics_desc(size_t index, const std::string& functions) {
   const EntryPoint& entry = module_.entry_points[index];
   const std::string number = std::to_string(index);
@@ -92,6 +93,35 @@ void CppEmitter::emit_graphics_desc(size_t index, const std::string& functions) 
        "u, outputs_" + number + ", " + std::to_string(entry.outputs.size()) + "u, " +
        std::to_string(column_count(entry.outputs)) + "u, " + std::to_string(entry.graphics_flags) +
        "u, " + functions + "};");
+}
+
+// What is not a corner's own is in the first row.
+void CppEmitter::emit_geometry_entry(size_t index) {
+  const EntryPoint& entry = module_.entry_points[index];
+  const std::string number = std::to_string(index);
+  open("static void geometry_" + number +
+       "(ks::Invocation& invocation, [[maybe_unused]] const ks::GeometryInputs& inputs, "
+       "ks::GeometryStream& stream) {");
+  line("u::Context ctx(invocation);");
+  line("ctx.stream = &stream;");
+  emit_static_initialisers(*entry.function);
+  std::string call = "u::" + function_names_[entry.function] + "(ctx";
+  for (size_t i = 0; i < entry.inputs.size(); ++i) {
+    const Type* t = entry.function->parameters[i]->type;
+    const std::string column = std::to_string(entry.inputs[i].first_column) + "u";
+    call += t->kind == TypeKind::kArray
+                ? ", ks::corner_values<" + type(t->element) + ", " + std::to_string(t->count) +
+                      ">(inputs, " + column + ")"
+                : ", ks::corner_value<" + type(t) + ">(inputs, 0, " + column + ")";
+  }
+  line(call + ");");
+  close("}");
+  const shader::GeometryShape& shape = entry.geometry;
+  emit_graphics_desc(index, "nullptr, nullptr, nullptr, geometry_" + number + ", {" +
+                                std::to_string(shape.corners) + "u, " +
+                                std::to_string(shape.output_corners) + "u, " +
+                                std::to_string(shape.most_vertices) + "u, " +
+                                std::to_string(shape.instances) + "u}");
 }
 
 // One lane: reads its columns, calls the function, writes them back.
@@ -128,6 +158,7 @@ void CppEmitter::emit_graphics_entry(size_t index) {
   const EntryPoint& entry = module_.entry_points[index];
   const std::string number = std::to_string(index);
   at_generated();
+  if (entry.stage == kStageGeometry) return emit_geometry_entry(index);
   if (entry.function->has_waves) {
     open("static void pixel_" + number +
          "(ks::Invocation& invocation, ks::PixelLanes& lanes, ks::ComputeGroup& group, uint32_t "

@@ -392,6 +392,15 @@ void CppEmitter::statement(const Stmt& stmt) {
       break;
     case StmtKind::kDiscard:  // the assignment before it is enough
       break;
+    case StmtKind::kEmitVertex: {
+      std::string text = "ks::emit_vertex(*ctx.stream";
+      for (const Expr* operand : stmt.operands) text += ", " + value(operand);
+      line(text + ");");
+      break;
+    }
+    case StmtKind::kCutStrip:
+      line("ctx.stream->cut = true;");
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

@@ -32,6 +32,8 @@ const char* stage_name(uint32_t stage) {
       return "kCompute";
     case kStageVertex:
       return "kVertex";
+    case kStageGeometry:
+      return "kGeometry";
     case kStagePixel:
       return "kPixel";
     default:

@@ -35,7 +35,8 @@ void WideEmitter::plan(const EntryPoint& entry) {
   std::string reason;
   const bool compute = entry.stage == kStageCompute;
   const bool rows = entry.stage == kStageRayGeneration;
-  if ((compute || rows || entry.is_graphics()) && !out_.module_.check_access &&
+  const bool draws = entry.is_graphics() && entry.stage != kStageGeometry;
+  if ((compute || rows || draws) && !out_.module_.check_access &&
       out_.options_.wide != WideThreads::kNever) {
     const bool where_faster = out_.options_.wide == WideThreads::kWhereFaster;
     // A group of fewer threads than lanes is slower this way than thread by thread.

@@ -26,15 +26,15 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
 // Splits lib_6_3 into "lib" and "3"; "" and "" if it is not a profile of model 6 of an offered
 // stage.
 std::pair<std::string_view, std::string_view> stage_and_minor(std::string_view target) {
-  for (const std::string_view stage : {"lib", "cs", "vs", "ps"}) {
+  for (const std::string_view stage : {"lib", "cs", "vs", "gs", "ps"}) {
     if (!target.starts_with(stage) || !target.substr(stage.size()).starts_with("_6_")) continue;
     return {stage, target.substr(stage.size() + 3)};
   }
   return {};
 }
 
-// For lib_6_3, cs_6_6, vs_6_0 or ps_6_0, the number after "6_", where x counts as 8; -1 for any
-// other profile.
+// For lib_6_3, cs_6_6, vs_6_0, gs_6_0 or ps_6_0, the number after "6_", where x counts as 8; -1 for
+// any other profile.
 int minor_version(const std::string& target) {
   const auto [stage, minor] = stage_and_minor(target);
   if (minor == "10") return 10;
@@ -81,6 +81,7 @@ std::optional<TokenList> preprocess_source(const FrontendOptions& options, Sourc
   preprocess.defines = options.defines;
   preprocess.stage = options.target.starts_with("lib")  ? ShaderStage::kLibrary
                      : options.target.starts_with("vs") ? ShaderStage::kVertex
+                     : options.target.starts_with("gs") ? ShaderStage::kGeometry
                      : options.target.starts_with("ps") ? ShaderStage::kPixel
                                                         : ShaderStage::kCompute;
   preprocess.shader_model_minor = static_cast<uint32_t>(minor);

@@ -27,6 +27,8 @@ const char* stage_name(uint32_t stage) {
       return "compute";
     case kStageVertex:
       return "vertex";
+    case kStageGeometry:
+      return "geometry";
     case kStagePixel:
       return "pixel";
     default:
@@ -152,6 +154,12 @@ nlohmann::ordered_json export_json(const Module& module, const EntryPoint& entry
   if (entry.is_graphics()) {
     json["inputs"] = signature_json(entry.inputs);
     json["outputs"] = signature_json(entry.outputs);
+  }
+  if (entry.stage == kStageGeometry) {
+    json["input_corners"] = entry.geometry.corners;
+    json["output_corners"] = entry.geometry.output_corners;
+    json["max_vertex_count"] = entry.geometry.most_vertices;
+    json["instances"] = entry.geometry.instances;
   }
   if (entry.payload != nullptr) json["payload_bytes"] = entry.payload_bytes;
   if (entry.attributes != nullptr) json["attribute_bytes"] = entry.attribute_bytes;

@@ -55,10 +55,16 @@ enum Modifier : Modifiers {
   kModShared = 1u << 21,
   kModCenter = 1u << 22,
   kModReorderCoherent = 1u << 23,
-  kModPrimitive = 1u << 24,  // point, line, lineadj, triangle, triangleadj.
-  kModMesh = 1u << 25,       // indices, vertices, primitives, payload.
+  kModMesh = 1u << 24,  // indices, vertices, primitives, payload.
+  kModPoint = 1u << 25,
+  kModLine = 1u << 26,
+  kModLineAdj = 1u << 27,
+  kModTriangle = 1u << 28,
+  kModTriangleAdj = 1u << 29,
 };
-inline constexpr size_t kModifierCount = 26;
+inline constexpr size_t kModifierCount = 30;
+inline constexpr Modifiers kModPrimitive =
+    kModPoint | kModLine | kModLineAdj | kModTriangle | kModTriangleAdj;
 inline constexpr Modifiers kTypeModifiers =
     kModConst | kModVolatile | kModRowMajor | kModColumnMajor | kModSnorm | kModUnorm;
 

@@ -60,11 +60,15 @@ Modifiers modifier_of(TokenKind kind) {
     case TokenKind::kReorderCoherent:
       return kModReorderCoherent;
     case TokenKind::kPoint:
+      return kModPoint;
     case TokenKind::kLine:
+      return kModLine;
     case TokenKind::kLineAdj:
+      return kModLineAdj;
     case TokenKind::kTriangle:
+      return kModTriangle;
     case TokenKind::kTriangleAdj:
-      return kModPrimitive;
+      return kModTriangleAdj;
     case TokenKind::kIndices:
     case TokenKind::kVertices:
     case TokenKind::kPrimitives:

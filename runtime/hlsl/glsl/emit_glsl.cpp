@@ -242,9 +242,10 @@ void GlslEmitter::define_check_place() {
           ? std::string(
                 "gl_WorkGroupID + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
                 "k_dispatch.base[2])")
-      : entry_.stage == kStagePixel  ? "uvec3(gl_FragCoord.xy, gl_PrimitiveID)"
-      : entry_.stage == kStageVertex ? "uvec3(gl_VertexIndex, gl_InstanceIndex, 0)"
-                                     : system_value(index);
+      : entry_.stage == kStagePixel    ? "uvec3(gl_FragCoord.xy, gl_PrimitiveID)"
+      : entry_.stage == kStageVertex   ? "uvec3(gl_VertexIndex, gl_InstanceIndex, 0)"
+      : entry_.stage == kStageGeometry ? "uvec3(gl_PrimitiveIDIn, gl_InvocationID, 0)"
+                                       : system_value(index);
   constant(shader::spirv::kShaderConstant, "g_shader");
   helpers_ += "uint g_check_shader() { return g_shader; }\nuvec3 g_check_index() { return " + text +
               "; }\n";

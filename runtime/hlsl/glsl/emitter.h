@@ -217,6 +217,8 @@ class GlslEmitter {
   // graphics.cpp
   std::string graphics_input(size_t index);
   std::string at_other_place(size_t index);
+  std::string corner_inputs(size_t index);
+  void emit_vertex(const ir::Stmt& stmt);
   void graphics_output(size_t index, const std::string& name);
   std::string sample_count();
   std::string converted_target(const ir::SignatureElement& element, const std::string& name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Inputs and outputs of vertex and pixel shaders, as kaamos/shader/spirv_interface.h has them.
+// Inputs and outputs of vertex, geometry and pixel shaders, as kaamos/shader/spirv_interface.h has
+// them.
 #include <algorithm>
 
 #include "kaamos/shader/spirv_interface.h"
@@ -21,7 +22,9 @@ std::string vector_type(const SignatureElement& element) {
 // what is not written as 1.
 bool writes_point_size(const EntryPoint& entry) {
   constexpr size_t kMostVectors = 32;
-  return entry.stage == kStageVertex && entry.outputs.size() < kMostVectors;
+  const bool may_be_points = entry.stage == kStageVertex ||
+                             (entry.stage == kStageGeometry && entry.geometry.output_corners == 1);
+  return may_be_points && entry.outputs.size() < kMostVectors;
 }
 
 std::string component_of(const SignatureElement& element, const std::string& name, int index) {
@@ -53,7 +56,12 @@ std::string GlslEmitter::at_other_place(size_t index) {
 std::string GlslEmitter::graphics_input(size_t index) {
   const SignatureElement& element = entry_.inputs[index];
   const std::string type = vector_type(element);
+  if (entry_.function->parameters[index]->type->kind == TypeKind::kArray) {
+    return corner_inputs(index);
+  }
   switch (element.system_value) {
+    case shader::SystemValue::kGeometryInstance:
+      return type + "(gl_InvocationID)";
     case shader::SystemValue::kVertexId:
       return type + "(gl_VertexIndex - gl_BaseVertex)";
     case shader::SystemValue::kInstanceId:
@@ -63,7 +71,7 @@ std::string GlslEmitter::graphics_input(size_t index) {
     case shader::SystemValue::kStartInstanceLocation:
       return type + "(gl_BaseInstance)";
     case shader::SystemValue::kPrimitiveId:
-      return type + "(gl_PrimitiveID)";
+      return type + (entry_.stage == kStageGeometry ? "(gl_PrimitiveIDIn)" : "(gl_PrimitiveID)");
     case shader::SystemValue::kIsFrontFace:
       // As a number, all bits. [D3D11.3: 15.12]
       return type + "(gl_FrontFacing ? -1 : 0)";
@@ -99,6 +107,32 @@ std::string GlslEmitter::graphics_input(size_t index) {
   return name;
 }
 
+// An element for each corner.
+std::string GlslEmitter::corner_inputs(size_t index) {
+  const SignatureElement& element = entry_.inputs[index];
+  const std::string name = "g_in_" + std::to_string(index);
+  declarations_ += "layout(location = " + std::to_string(index) + ") in " + vector_type(element) +
+                   " " + name + "[];\n";
+  std::string out = type(entry_.function->parameters[index]->type) + "(";
+  for (uint32_t corner = 0; corner < entry_.geometry.corners; ++corner) {
+    out += (corner == 0 ? "" : ", ") + name + "[" + std::to_string(corner) + "]";
+  }
+  return out + ")";
+}
+
+void GlslEmitter::emit_vertex(const Stmt& stmt) {
+  for (size_t i = 0; i < entry_.outputs.size(); ++i) {
+    const std::string name = "g_result_" + std::to_string(i);
+    if (made_.insert(name).second) {
+      declarations_ += vector_type(entry_.outputs[i]) + " " + name + ";\n";
+    }
+    line(name + " = " + value(stmt.operands[i]) + ";");
+    graphics_output(i, name);
+  }
+  if (writes_point_size(entry_)) line("gl_PointSize = 1.0;");
+  line("EmitVertex();");
+}
+
 // The samples of the targets. [spirv_interface.h: kSampleCountConstant]
 std::string GlslEmitter::sample_count() {
   constant(shader::spirv::kSampleCountConstant, "g_sample_count");
@@ -126,10 +160,12 @@ void GlslEmitter::graphics_output(size_t index, const std::string& name) {
   const std::string type = vector_type(element);
   const auto at_location = [&](uint32_t location) {
     const std::string out = "g_out_" + std::to_string(index);
-    const bool flat = entry_.stage == kStageVertex &&
+    const bool flat = entry_.stage != kStagePixel &&
                       element.interpolation == shader::Interpolation::kNoInterpolation;
-    declarations_ += "layout(location = " + std::to_string(location) + ") " +
-                     (flat ? "flat " : "") + "out " + type + " " + out + ";\n";
+    if (made_.insert(out).second) {
+      declarations_ += "layout(location = " + std::to_string(location) + ") " +
+                       (flat ? "flat " : "") + "out " + type + " " + out + ";\n";
+    }
     line(out + " = " + name + ";");
   };
   switch (element.system_value) {
@@ -154,6 +190,9 @@ void GlslEmitter::graphics_output(size_t index, const std::string& name) {
       return line("gl_SampleMask[0] = int(" + name + ");");
     case shader::SystemValue::kPosition:
       return line("gl_Position = " + name + ";");
+    case shader::SystemValue::kPrimitiveId:
+      line("gl_PrimitiveID = int(" + name + ");");
+      break;
     case shader::SystemValue::kRenderTargetArrayIndex:
       line("gl_Layer = uint(" + name + ") < k_dispatch.dimensions[0] ? int(" + name + ") : 0;");
       break;
@@ -199,6 +238,7 @@ void GlslEmitter::graphics_main() {
     }
   }
   line(call + ");");
+  if (entry_.stage == kStageGeometry) return;
   for (size_t i = 0; i < entry_.outputs.size(); ++i) {
     graphics_output(i, "g_result_" + std::to_string(entry_.inputs.size() + i));
   }
@@ -210,7 +250,7 @@ std::string GlslEmitter::graphics_head() const {
   for (const SignatureElement& element : entry_.outputs) {
     const bool layered = element.system_value == shader::SystemValue::kRenderTargetArrayIndex ||
                          element.system_value == shader::SystemValue::kViewportArrayIndex;
-    if (!layered) continue;
+    if (!layered || entry_.stage == kStageGeometry) continue;
     out += "#extension GL_ARB_shader_viewport_layer_array : require\n";
     break;
   }
@@ -228,6 +268,15 @@ std::string GlslEmitter::graphics_layout() const {
   if (entry_.stage == kStagePixel) {
     const bool early = entry_.graphics_flags & shader::kGraphicsEarlyDepthStencil;
     return early ? "layout(early_fragment_tests) in;\n" : "";
+  }
+  if (entry_.stage == kStageGeometry) {
+    const shader::GeometryShape& shape = entry_.geometry;
+    constexpr const char* kInputs[] = {"points", "lines", "triangles"};
+    constexpr const char* kOutputs[] = {"points", "line_strip", "triangle_strip"};
+    out += std::string("layout(") + kInputs[shape.corners - 1] +
+           ", invocations = " + std::to_string(shape.instances) + ") in;\nlayout(" +
+           kOutputs[shape.output_corners - 1] +
+           ", max_vertices = " + std::to_string(shape.most_vertices) + ") out;\n";
   }
   int sizes[2] = {0, 0};  // clip and cull distances
   bool has_position = false;

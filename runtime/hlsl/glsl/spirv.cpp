@@ -27,6 +27,8 @@ EShLanguage language(uint32_t stage) {
       return EShLangCallable;
     case ir::kStageVertex:
       return EShLangVertex;
+    case ir::kStageGeometry:
+      return EShLangGeometry;
     case ir::kStagePixel:
       return EShLangFragment;
     default:

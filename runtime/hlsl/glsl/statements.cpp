@@ -265,6 +265,12 @@ void GlslEmitter::statement(const Stmt& stmt) {
     case StmtKind::kDiscard:
       line("demote;");
       break;
+    case StmtKind::kEmitVertex:
+      emit_vertex(stmt);
+      break;
+    case StmtKind::kCutStrip:
+      line("EndPrimitive();");
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

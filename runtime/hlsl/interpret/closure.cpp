@@ -66,6 +66,13 @@ void run_vertices(ffi_cif*, void*, void** arguments, void* target) {
   }
 }
 
+void run_primitive(ffi_cif*, void*, void** arguments, void* target) {
+  const auto& to = *static_cast<const Closure::Target*>(target);
+  run_geometry(*to.program, *to.entry, *argument<shader::Invocation>(arguments, 0),
+               *argument<const shader::GeometryInputs>(arguments, 1),
+               *argument<shader::GeometryStream>(arguments, 2));
+}
+
 void run_pixels(ffi_cif*, void*, void** arguments, void* target) {
   const auto& to = *static_cast<const Closure::Target*>(target);
   auto& lanes = *argument<shader::PixelLanes>(arguments, 1);
@@ -101,6 +108,8 @@ Signature signature_of(const ir::EntryPoint& entry) {
                                                                       : Signature{2, run_group};
     case ir::kStageVertex:
       return {2, run_vertices};
+    case ir::kStageGeometry:
+      return {3, run_primitive};
     case ir::kStagePixel:
       return entry.function->has_waves ? Signature{4, run_pixel_thread} : Signature{2, run_pixels};
     default:

@@ -52,6 +52,8 @@ shader::Stage stage_of(uint32_t stage) {
       return shader::Stage::kCompute;
     case ir::kStageVertex:
       return shader::Stage::kVertex;
+    case ir::kStageGeometry:
+      return shader::Stage::kGeometry;
     case ir::kStagePixel:
       return shader::Stage::kPixel;
     default:
@@ -152,6 +154,9 @@ shader::GraphicsDesc describe_graphics(const ir::EntryPoint& entry,
   out.flags = entry.graphics_flags;
   if (entry.stage == ir::kStageVertex) {
     out.vertex = reinterpret_cast<shader::VertexFn>(function);
+  } else if (entry.stage == ir::kStageGeometry) {
+    out.geometry = reinterpret_cast<shader::GeometryFn>(function);
+    out.shape = entry.geometry;
   } else if (entry.function->has_waves) {
     out.pixel_thread = reinterpret_cast<shader::PixelThreadFn>(function);
   } else {

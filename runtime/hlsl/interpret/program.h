@@ -35,6 +35,7 @@ struct Context {
   std::byte* statics = nullptr;
   std::byte* outputs = nullptr;  // of a vertex or pixel shader
   bool* stays_live = nullptr;    // of a pixel shader: whether it did not discard
+  shader::GeometryStream* stream = nullptr;
   uint64_t steps_left = 0;
   uint32_t* path = nullptr;  // for wave operations
   uint32_t path_depth = 0;   // where the running function's part of it begins
@@ -181,6 +182,8 @@ void run_compute_thread(const Program& program, const EntryCode& entry,
 // `lane` of the columns. A pixel's helper runs only where derivatives need it.
 void run_vertex(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
                 const shader::VertexLanes& lanes, uint32_t lane);
+void run_geometry(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
+                  const shader::GeometryInputs& inputs, shader::GeometryStream& stream);
 void run_pixel(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
                shader::PixelLanes& lanes, shader::ComputeGroup* group, uint32_t lane);
 

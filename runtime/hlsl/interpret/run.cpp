@@ -23,6 +23,7 @@ struct Arguments {
   const uint32_t* size = nullptr;
   const shader::Column* inputs = nullptr;
   shader::Column* outputs = nullptr;
+  const shader::GeometryInputs* geometry = nullptr;
   uint32_t lane = 0;
   bool is_live = false;
 };
@@ -76,6 +77,16 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
       break;
     case EntryParameter::kInput: {
       const ir::SignatureElement& element = entry.entry->inputs[i];
+      if (arguments.geometry != nullptr) {
+        const bool of_corners = variable.type->kind == ir::TypeKind::kArray;
+        const uint32_t corners = of_corners ? variable.type->count : 1;
+        const uint32_t* from = arguments.geometry->rows + element.first_column;
+        for (uint32_t corner = 0; corner < corners; ++corner) {
+          std::memcpy(to + bytes / corners * corner, from + corner * arguments.geometry->columns,
+                      element.components * sizeof(uint32_t));
+        }
+        break;
+      }
       for (uint32_t c = 0; c < element.components; ++c) {
         std::memcpy(to + c * sizeof(uint32_t),
                     &arguments.inputs[element.first_column + c][arguments.lane], sizeof(uint32_t));
@@ -185,6 +196,17 @@ void run_vertex(const Program& program, const EntryCode& entry, shader::Invocati
   arguments.inputs = lanes.inputs;
   arguments.outputs = lanes.outputs;
   arguments.lane = lane;
+  run_entry(entry, context, arguments);
+}
+
+void run_geometry(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
+                  const shader::GeometryInputs& inputs, shader::GeometryStream& stream) {
+  Context context;
+  context.program = &program;
+  context.invocation = &invocation;
+  context.stream = &stream;
+  Arguments arguments;
+  arguments.geometry = &inputs;
   run_entry(entry, context, arguments);
 }
 

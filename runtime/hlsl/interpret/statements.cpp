@@ -304,6 +304,18 @@ Flow run_switch(const Action& action, Frame& frame) {
   return Flow::kNext;
 }
 
+void emit_vertex(const Action& action, Frame& frame) {
+  shader::GeometryStream& stream = *frame.context->stream;
+  if (stream.count >= stream.most) return;
+  uint32_t* words = stream.rows + size_t{stream.count} * stream.columns;
+  for (const Node* operand : action.operands) {
+    std::memcpy(words, evaluate(*operand, frame), operand->bytes);
+    words += operand->bytes / sizeof(uint32_t);
+  }
+  stream.begins[stream.count++] = stream.cut;
+  stream.cut = false;
+}
+
 Flow end_shader(Context& context, shader::AnyHitResult result) {
   context.any_hit = result;
   context.ended = true;
@@ -386,6 +398,12 @@ Flow run(const Action& action, Frame& frame) {
       }
       return Flow::kNext;
     case StmtKind::kDiscard:  // the assignment before it is enough
+      return Flow::kNext;
+    case StmtKind::kEmitVertex:
+      emit_vertex(action, frame);
+      return Flow::kNext;
+    case StmtKind::kCutStrip:
+      context.stream->cut = true;
       return Flow::kNext;
     case StmtKind::kIf:
       return run(evaluate_as<bool>(*action.value, frame) ? action.body : action.orelse, frame);

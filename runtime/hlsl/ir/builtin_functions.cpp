@@ -430,6 +430,8 @@ std::string_view stage_name(uint32_t stage) {
       return "compute";
     case ir::kStageVertex:
       return "vertex";
+    case ir::kStageGeometry:
+      return "geometry";
     default:
       return "pixel";
   }
@@ -437,7 +439,7 @@ std::string_view stage_name(uint32_t stage) {
 
 std::string stage_list(uint32_t stages) {
   std::vector<std::string_view> names;
-  for (uint32_t bit = 1; bit <= ir::kStagePixel; bit <<= 1) {
+  for (uint32_t bit = 1; bit <= ir::kStageGeometry; bit <<= 1) {
     if (stages & bit) names.push_back(stage_name(bit));
   }
   std::string text;

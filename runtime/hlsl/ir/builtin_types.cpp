@@ -57,9 +57,6 @@ constexpr Unsupported kUnsupported[] = {
     {"FeedbackTexture2DArray", "sampler feedback", false},
     {"InputPatch", "hull and domain shaders"},
     {"OutputPatch", "hull and domain shaders"},
-    {"PointStream", "geometry shaders"},
-    {"LineStream", "geometry shaders"},
-    {"TriangleStream", "geometry shaders"},
     {"DispatchNodeInputRecord", "work graphs"},
     {"RWDispatchNodeInputRecord", "work graphs"},
     {"GroupNodeInputRecords", "work graphs"},
@@ -116,6 +113,10 @@ std::string_view unsupported_type(std::string_view name) {
 bool is_of_other_stage(std::string_view name) {
   return std::any_of(std::begin(kUnsupported), std::end(kUnsupported),
                      [&](const Unsupported& one) { return one.name == name && one.is_stage; });
+}
+
+uint32_t stream_corners(std::string_view name) {
+  return name == "PointStream" ? 1 : name == "LineStream" ? 2 : name == "TriangleStream" ? 3 : 0;
 }
 
 const BuiltinConstant kBuiltinConstants[] = {

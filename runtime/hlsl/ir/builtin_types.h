@@ -73,6 +73,10 @@ inline bool is_sampler(ir::ResourceKind kind) {
   return kind == ir::ResourceKind::kSampler || kind == ir::ResourceKind::kSamplerComparison;
 }
 
+// The corners of a stream's primitives, for PointStream, LineStream and TriangleStream; 0 for
+// others.
+uint32_t stream_corners(std::string_view name);
+
 // MEMORY_TYPE_FLAG and BARRIER_SEMANTIC_FLAG. [HLSL: Barrier]
 enum BarrierArgument : uint32_t {
   kUavMemory = 0x1,

@@ -290,6 +290,14 @@ class Dumper {
       case ir::StmtKind::kDiscard:
         line("discard");
         break;
+      case ir::StmtKind::kEmitVertex:
+        text += "emit_vertex(";
+        list(of.operands);
+        text += ")";
+        break;
+      case ir::StmtKind::kCutStrip:
+        line("cut_strip");
+        break;
       case ir::StmtKind::kRemoveDevice:
         line("remove_device " + std::to_string(static_cast<int>(of.removal)));
         break;

@@ -338,8 +338,10 @@ enum class StmtKind : uint8_t {
                   // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
   kRemoveDevice,  // removal: why. What follows may or may not run
   kDebugBreak,    // a debugger that is attached stops here
-  kDiscard,  // the pixel writes nothing from here on, and goes on for the derivatives of others.
-             // Does nothing where the assignment before it (quad_functions.h) is enough
+  kDiscard,     // the pixel writes nothing from here on, and goes on for the derivatives of others.
+                // Does nothing where the assignment before it (quad_functions.h) is enough
+  kEmitVertex,  // operands: the outputs of the geometry shaders that reach it, in their order
+  kCutStrip,    // what a geometry shader emits next begins a strip
 };
 
 enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };
@@ -420,6 +422,7 @@ enum StageBits : uint32_t {
   kStageCompute = 64,
   kStageVertex = 128,
   kStagePixel = 256,
+  kStageGeometry = 512,
 };
 
 struct Function {
@@ -450,13 +453,15 @@ enum class EntryParameter : uint8_t {
   kGroupId,
   kGroupThreadId,
   kGroupIndex,
-  kInput,      // of a vertex or pixel shader, and kOutput: as many as `inputs` and `outputs`, in
-  kOutput,     // their order, each a scalar or vector of 32-bit numbers
+  kInput,      // of a vertex, geometry or pixel shader, and kOutput: as many as `inputs` and
+  kOutput,     // `outputs`, in their order, each a scalar or vector of 32-bit numbers. Geometry
+               // shaders have arrays of them, one for each corner, and no kOutput
   kIsLive,     // bool: whether the pixel is covered; helpers are not
   kStaysLive,  // bool, out: whether it was not discarded either
 };
 
-// An input or output of a vertex or pixel shader. [kaamos/shader/graphics.h: SignatureElement]
+// An input or output of a vertex, geometry or pixel shader. [kaamos/shader/graphics.h:
+// SignatureElement]
 struct SignatureElement {
   std::string semantic;
   uint32_t semantic_index = 0;
@@ -493,10 +498,11 @@ struct EntryPoint {
   bool uses_sampler_heap = false;
   std::vector<SignatureElement> inputs;
   std::vector<SignatureElement> outputs;
-  uint32_t graphics_flags = 0;    // shader::GraphicsFlags
-  std::vector<uint32_t> imports;  // indices into Module::imports that it can reach
+  uint32_t graphics_flags = 0;     // shader::GraphicsFlags
+  shader::GeometryShape geometry;  // of a geometry shader
+  std::vector<uint32_t> imports;   // indices into Module::imports that it can reach
 
-  bool is_graphics() const { return (stage & (kStageVertex | kStagePixel)) != 0; }
+  bool is_graphics() const { return (stage & (kStageVertex | kStageGeometry | kStagePixel)) != 0; }
 };
 
 // A function without a body, which another library defines.

@@ -6,6 +6,7 @@
 
 #include "runtime/hlsl/ir/builtin_types.h"
 #include "runtime/hlsl/ir/dump.h"
+#include "runtime/hlsl/ir/visit.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -71,6 +72,8 @@ class Verifier {
       require(done_.count(entry.function) != 0, "entry point is not among the functions", nullptr);
       require(entry.parameters.size() == entry.function->parameters.size(),
               "entry point has other parameters", nullptr);
+      std::set<const ir::Function*> seen;
+      if (entry.stage == ir::kStageGeometry) vertices(entry, *entry.function, seen);
       for (const uint32_t binding : entry.bindings) {
         require(binding < module_.bindings.size(), "entry point has an unknown binding", nullptr);
       }
@@ -474,6 +477,20 @@ class Verifier {
       default:
         break;
     }
+  }
+
+  // Each vertex that a geometry shader emits has its outputs.
+  void vertices(const ir::EntryPoint& entry, const ir::Function& function,
+                std::set<const ir::Function*>& seen) {
+    if (!seen.insert(&function).second) return;
+    ir::visit(
+        function.body, [](const Expr&) {},
+        [&](const Stmt& stmt) {
+          if (stmt.kind == StmtKind::kCall) vertices(entry, *stmt.function, seen);
+          require(
+              stmt.kind != StmtKind::kEmitVertex || stmt.operands.size() == entry.outputs.size(),
+              "a vertex has other outputs", nullptr);
+        });
   }
 
   bool is_hit_object(const Type* type) const {

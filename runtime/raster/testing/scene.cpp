@@ -33,6 +33,7 @@ class TestThread : public ShaderThread {
   void vertices(uint32_t draw, const shader::VertexLanes& lanes) override {
     vertices_(draw, lanes);
   }
+  void primitive(uint32_t, const shader::GeometryInputs&, shader::GeometryStream&) override {}
   void pixels(uint32_t draw, shader::PixelLanes& lanes) override { pixels_(draw, lanes); }
 
  private:

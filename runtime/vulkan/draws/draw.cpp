@@ -93,8 +93,7 @@ CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::st
   if (outcome.status) outcome.status = record(command, label);
   if (!outcome.status || !is_checked()) return outcome;
   outcome = flush();
-  const runtime::LinkedShader* const shaders[] = {&command.linked->vertex, &command.linked->pixel};
-  outcome.reached = tell_checks(environment_, shaders, {});
+  outcome.reached = tell_checks(environment_, command.linked->shaders(), {});
   return outcome;
 }
 

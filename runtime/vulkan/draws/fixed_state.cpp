@@ -142,7 +142,7 @@ FixedState::FixedState(const Gpu& gpu, const runtime::LinkedGraphics& linked,
 
   // Depth is limited to the viewport's range in any case. [RAS-42]
   depth_clip.depthClipEnable = linked.rasterizer.DepthClipEnable;
-  const bool draws_lines = linked.topology == rtapi::PrimitiveTopologyType::kLine ||
+  const bool draws_lines = linked.drawn() == rtapi::PrimitiveTopologyType::kLine ||
                            linked.rasterizer.FillMode == rtapi::FillMode::kWireframe;
   const bool rectangles = draws_lines && linked.rasterizer.MultisampleEnable;
   lines.lineRasterizationMode = rectangles ? VK_LINE_RASTERIZATION_MODE_RECTANGULAR_EXT

@@ -104,6 +104,9 @@ rtapi::Status GraphicsPipeline::start() {
   if (linked_->has_pixel() && linked_->pixel.code->spirv != nullptr) {
     pixel_code_ = linked_pixel_code(*linked_);
   }
+  if (linked_->has_geometry() && linked_->geometry.code->spirv != nullptr) {
+    geometry_code_ = linked_geometry_code(*linked_);
+  }
   const std::vector<VertexAttribute> attributes = vertex_attributes(*linked_);
   if (linked_->pixel_columns.barycentrics != runtime::kNoColumn || !attributes.empty()) {
     if (gpu.is_lavapipe() && !gpu.workarounds().has(Workaround::kBarycentricsStage)) {
@@ -114,6 +117,13 @@ rtapi::Status GraphicsPipeline::start() {
                                      "workaround BARY is off.");
     }
     // The stage that hands them on takes triangles.
+    if (linked_->has_geometry()) {
+      return runtime::make_error(runtime::Id::kNoBarycentrics,
+                                 "pixel shader \"" + linked_->pixel.name + "\" of \"" +
+                                     linked_->name +
+                                     "\" reads SV_Barycentrics or calls GetAttributeAtVertex "
+                                     "behind a geometry shader.");
+    }
     if (linked_->topology != rtapi::PrimitiveTopologyType::kTriangle) {
       return runtime::make_error(runtime::Id::kNoBarycentrics,
                                  "pixel shader \"" + linked_->pixel.name + "\" of \"" +
@@ -128,7 +138,7 @@ rtapi::Status GraphicsPipeline::start() {
               "\" reads more attributes at vertices than there are locations beside the vertex "
               "shader's outputs.");
     }
-    geometry_code_ = barycentrics_code(*linked_);
+    barycentrics_code_ = barycentrics_code(*linked_);
   }
   GraphicsVariant first;
   std::copy_n(linked_->target_formats, first.colors.size(), first.colors.begin());
@@ -141,7 +151,7 @@ rtapi::Status GraphicsPipeline::start() {
 }
 
 bool GraphicsPipeline::needs_layers() const {
-  return !geometry_code_.empty() &&
+  return !barycentrics_code_.empty() &&
          linked_->vertex_columns.target_array_index != runtime::kNoColumn;
 }
 
@@ -169,9 +179,13 @@ rtapi::Result<VkPipeline> GraphicsPipeline::create_variant(const GraphicsVariant
     auto added = stages.add(linked_->pixel, pixel_code_, target_constants(gpu, *linked_, wanted));
     if (!added) return added.error();
   }
-  if (!geometry_code_.empty()) {
+  if (linked_->has_geometry()) {
+    auto added = stages.add(linked_->geometry, geometry_code_, {});
+    if (!added) return added.error();
+  }
+  if (!barycentrics_code_.empty()) {
     const StageConstant layers = {0, wanted.layers};
-    stages.add(geometry_code_, VK_SHADER_STAGE_GEOMETRY_BIT, std::span(&layers, 1));
+    stages.add(barycentrics_code_, VK_SHADER_STAGE_GEOMETRY_BIT, std::span(&layers, 1));
   }
   if (auto s = stages.create_modules(); !s) return s.error();
   const VertexInputState vertices(inputs_, wanted);

@@ -67,9 +67,10 @@ class GraphicsPipeline final : public runtime::BackendPipeline {
   std::shared_ptr<PipelineLayout> layout_;
   std::shared_ptr<const runtime::LinkedGraphics> linked_;
   VertexInput inputs_;
-  std::vector<uint32_t> pixel_code_;     // with the vertex shader's locations; empty: no shader
-  std::vector<uint32_t> geometry_code_;  // empty: none is needed
-  std::mutex mutex_;                     // guards the next member
+  std::vector<uint32_t> pixel_code_;  // with the vertex shader's locations; empty: no shader
+  std::vector<uint32_t> geometry_code_;
+  std::vector<uint32_t> barycentrics_code_;  // a geometry shader; empty: none is needed
+  std::mutex mutex_;                         // guards the next member
   std::vector<Made> variants_;
 };
 

@@ -11,17 +11,16 @@ namespace {
 
 using runtime::LinkedGraphics;
 
-uint32_t output_at(const LinkedGraphics& linked, uint32_t column) {
-  const shader::GraphicsDesc& vertex = linked.vertex_desc();
-  for (uint32_t i = 0; i < vertex.output_count; ++i) {
-    if (vertex.outputs[i].first_column == column) return i;
+uint32_t output_at(const shader::GraphicsDesc& code, uint32_t column) {
+  for (uint32_t i = 0; i < code.output_count; ++i) {
+    if (code.outputs[i].first_column == column) return i;
   }
   return kLocationCount - 1;
 }
 
-// A location that no output of the vertex shader has: what is read there is not written.
+// A location that nothing writes.
 uint32_t free_location(const LinkedGraphics& linked) {
-  return std::min(linked.vertex_desc().output_count, kLocationCount - 1);
+  return std::min(linked.vertices_desc().output_count, kLocationCount - 1);
 }
 
 // A byte for each component, the lowest for red. [kTargetConstant]
@@ -63,7 +62,7 @@ std::vector<VertexAttribute> vertex_attributes(const LinkedGraphics& linked) {
       // Behind free_location(), which nothing writes.
       const auto location =
           static_cast<uint32_t>(linked.vertex_desc().output_count + 1 + out.size());
-      out.push_back({i, output_at(linked, varying.vertex_column),
+      out.push_back({i, output_at(linked.vertex_desc(), varying.vertex_column),
                      interpolation == shader::Interpolation::kSecondVertex ? 1u : 2u, location});
     }
   }
@@ -71,7 +70,29 @@ std::vector<VertexAttribute> vertex_attributes(const LinkedGraphics& linked) {
 }
 
 uint32_t barycentrics_location(const LinkedGraphics& linked) {
-  return output_at(linked, linked.vertex_columns.position);
+  return output_at(linked.vertex_desc(), linked.vertex_columns.position);
+}
+
+std::vector<uint32_t> linked_geometry_code(const LinkedGraphics& linked) {
+  const shader::ExportDesc& code = *linked.geometry.code;
+  std::vector<uint32_t> words(code.spirv, code.spirv + code.spirv_words);
+  const shader::GraphicsDesc& geometry = linked.geometry_desc();
+  std::vector<uint32_t> locations;
+  for (uint32_t i = 0; i < geometry.input_count; ++i) {
+    if (geometry.inputs[i].system_value == shader::SystemValue::kPosition) {
+      locations.push_back(shader::spirv::kPositionLocation);
+      continue;
+    }
+    const auto corner = std::find_if(
+        linked.corners.begin(), linked.corners.end(), [&](const runtime::LinkedCorner& part) {
+          return part.geometry_column == geometry.inputs[i].first_column;
+        });
+    locations.push_back(corner == linked.corners.end()
+                            ? kLocationCount - 1
+                            : output_at(linked.vertex_desc(), corner->vertex_column));
+  }
+  shader::spirv::relocate_inputs(words, locations);
+  return words;
 }
 
 std::vector<uint32_t> linked_pixel_code(const LinkedGraphics& linked) {
@@ -98,7 +119,7 @@ std::vector<uint32_t> linked_pixel_code(const LinkedGraphics& linked) {
         [&](const runtime::LinkedVarying& v) { return v.pixel_column == input.first_column; });
     locations.push_back(varying == linked.varyings.end()
                             ? free_location(linked)
-                            : output_at(linked, varying->vertex_column));
+                            : output_at(linked.vertices_desc(), varying->vertex_column));
   }
   shader::spirv::relocate_inputs(words, locations);
   if (linked.blends_two_sources) shader::spirv::make_second_source(words);

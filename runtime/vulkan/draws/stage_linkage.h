@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// This file holds what a pixel shader's SPIR-V needs to know of the rest of its pipeline.
+// This file holds what the SPIR-V of later stages needs to know of the rest of its pipeline.
 // [spirv_interface.h: Vertex and pixel shaders]
 #pragma once
 
@@ -26,7 +26,9 @@ struct VertexAttribute {
 inline constexpr uint32_t kLocationCount = 32;
 std::vector<VertexAttribute> vertex_attributes(const runtime::LinkedGraphics& linked);
 
-// The code of the pixel shader with the locations of the vertex shader's outputs.
+// The code of the geometry shader, or of the pixel shader, with the locations of the outputs of the
+// shader before it.
+std::vector<uint32_t> linked_geometry_code(const runtime::LinkedGraphics& linked);
 std::vector<uint32_t> linked_pixel_code(const runtime::LinkedGraphics& linked);
 
 // kTargetConstant of each target, and kSampleCountConstant.

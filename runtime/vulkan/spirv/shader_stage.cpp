@@ -86,6 +86,8 @@ VkShaderStageFlagBits stage_of(shader::Stage stage) {
       return VK_SHADER_STAGE_FRAGMENT_BIT;
     case shader::Stage::kVertex:
       return VK_SHADER_STAGE_VERTEX_BIT;
+    case shader::Stage::kGeometry:
+      return VK_SHADER_STAGE_GEOMETRY_BIT;
     case shader::Stage::kCompute:
     case shader::Stage::kLibrary:
       break;

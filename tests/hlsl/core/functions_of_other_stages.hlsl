@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FEATURE: core functions of geometry, hull and domain shaders beside the shader
+// FEATURE: core functions of hull and domain shaders beside the shader; geometry shaders have a stage
 // EXPECT u32 0 7
 RWByteAddressBuffer results : register(u0);
 

@@ -148,6 +148,8 @@ Value Calls::call_method(const MemberExpr* callee, const CallExpr* call_expr) {
     return lower_.ray_queries.call_query_method(object, part, arguments, location);
   if (object.type->is_hit_object())
     return lower_.hit_objects.call_method(object, part, arguments, location);
+  if (object.type->is_stream())
+    return lower_.streams.call_method(object, part, arguments, location);
   if (object.type->is_resource()) {
     if (!has_members(object.type->resource)) {
       return lower_.resources.call_resource_method(object, part, arguments, location);

@@ -33,6 +33,7 @@
 #include "runtime/hlsl/check/lower/resources.h"
 #include "runtime/hlsl/check/lower/short_circuits.h"
 #include "runtime/hlsl/check/lower/statements.h"
+#include "runtime/hlsl/check/lower/streams.h"
 #include "runtime/hlsl/check/lower/textures.h"
 #include "runtime/hlsl/check/lower/triangle_positions.h"
 #include "runtime/hlsl/check/lower/vk_names.h"
@@ -79,6 +80,7 @@ class Lowerer final : public Evaluator {
   RayQueries ray_queries{*this};
   HitObjects hit_objects{*this};
   TrianglePositions triangle_positions{*this};
+  Streams streams{*this};
   Debugging debugging{*this};
   Printing printing{*this};
   Resources resources{*this};

@@ -75,6 +75,14 @@ class Mangler {
         qualified_name(of->enumeration->name);
         return;
       case TypeKind::kStruct:
+        if (of->is_stream()) {
+          const std::string_view name = of->structure->name;
+          text += 'V';
+          source_name("?$" + std::string(name.substr(0, name.find('<'))) + "@" +
+                      mangle_type(of->structure->stream_vertex) + "@");
+          text += '@';
+          return;
+        }
         text += 'U';
         qualified_name(of->structure->name);
         return;

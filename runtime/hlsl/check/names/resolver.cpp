@@ -342,8 +342,37 @@ const Type* Resolver::resolve_builtin(const NamePart& part, SourceLocation locat
                          program_.options->row_major);
   }
   if (part.identifier == "string") return types_.string();
+  if (stream_corners(part.identifier) != 0) return resolve_stream(part, scope);
   const ResourceTraits* traits = find_resource(part.identifier);
   return traits ? resolve_resource(*traits, part, scope) : nullptr;
+}
+
+// A stream has no value: what is appended goes out at once.
+const Type* Resolver::resolve_stream(const NamePart& part, Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const std::string name(part.identifier);
+  if (arguments.size() != 1) {
+    report(CheckId::kTemplateCount, part.location, {name, "1", std::to_string(arguments.size())});
+    return types_.error();
+  }
+  const Type* vertex = type_argument(arguments[0], scope);
+  if (vertex->is_error()) return vertex;
+  if (!vertex->is_struct() || contains_resource(vertex)) {
+    report(CheckId::kElementType, arguments[0].location, {name, "a struct", to_string(vertex)});
+    return types_.error();
+  }
+  StructInfo*& known = streams_[{stream_corners(name), vertex->canonical}];
+  if (!known) {
+    known =
+        parts_.structs.make_struct(nullptr, program_.global, name + "<" + to_string(vertex) + ">");
+    ir::Field& field = known->ir->fields.emplace_back();
+    field.name = "unused";
+    field.type = types_.scalar(Scalar::kUint32)->ir;
+    known->complete = true;
+    known->stream_corners = stream_corners(name);
+    known->stream_vertex = vertex;
+  }
+  return known->type;
 }
 
 const Type* Resolver::resolve_resource(const ResourceTraits& traits, const NamePart& part,

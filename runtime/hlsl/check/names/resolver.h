@@ -3,7 +3,9 @@
 // Resolves what names and types mean, as they are written at a place in the source.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "runtime/hlsl/check/names/names_part.h"
 #include "runtime/hlsl/ir/builtin_types.h"
@@ -33,11 +35,15 @@ class Resolver : NamesPart {
   const Type* unsigned_twin(const TypeSyntax* syntax, const Type* type);
   const Type* resolve_named(const TypeSyntax* syntax, Scope* scope);
   const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);
+  const Type* resolve_stream(const NamePart& part, Scope* scope);
   const Type* resolve_ray_query(const NamePart& part, Scope* scope);
   const Type* resolve_resource(const ResourceTraits& traits, const NamePart& part, Scope* scope);
   const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
   const Type* apply_storage(const Type* type, Modifiers modifiers);
   Scalar scalar_of(ScalarKind kind, SourceLocation location);
+
+  // By corners and type of vertex.
+  std::map<std::pair<uint32_t, const Type*>, StructInfo*> streams_;
 };
 
 }  // namespace kaamos::hlsl

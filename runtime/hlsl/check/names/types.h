@@ -68,6 +68,7 @@ struct Type {
   bool is_resource() const { return kind == TypeKind::kResource; }
   bool is_query() const { return ir && ir->is_query(); }
   bool is_hit_object() const;
+  bool is_stream() const;
   bool is_enum() const { return kind == TypeKind::kEnum; }
   bool is_void() const { return kind == TypeKind::kVoid; }
   bool is_error() const { return kind == TypeKind::kError; }
@@ -122,9 +123,12 @@ struct StructInfo {
   ir::Struct* ir = nullptr;
   const Type* type = nullptr;
   bool complete = false;
-  uint32_t open_bits = 0;          // how many are free in the last field, if it holds bit fields
-  bool is_payload = false;         // its access qualifiers take effect
-  bool is_hit_object = false;      // the built-in dx::HitObject
+  uint32_t open_bits = 0;      // how many are free in the last field, if it holds bit fields
+  bool is_payload = false;     // its access qualifiers take effect
+  bool is_hit_object = false;  // the built-in dx::HitObject
+  // PointStream, LineStream and TriangleStream: 1 to 3, and the type of a vertex.
+  uint32_t stream_corners = 0;
+  const Type* stream_vertex = nullptr;
   std::string_view template_name;  // "Pair" for Pair<float>; empty if it is not an instance
 };
 
@@ -137,6 +141,9 @@ struct EnumInfo {
   bool is_class = false;
 };
 
+inline bool Type::is_stream() const {
+  return is_struct() && structure->stream_corners != 0;
+}
 inline bool Type::is_hit_object() const {
   return is_struct() && structure->is_hit_object;
 }

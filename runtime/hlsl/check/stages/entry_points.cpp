@@ -29,10 +29,10 @@ constexpr StageWord kStageWords[] = {
     {"callable", ir::kStageCallable},
     {"compute", ir::kStageCompute},
     {"vertex", ir::kStageVertex},
+    {"geometry", ir::kStageGeometry},
     {"pixel", ir::kStagePixel},
 };
-constexpr std::string_view kOtherStages[] = {"geometry", "hull",          "domain",
-                                             "mesh",     "amplification", "node"};
+constexpr std::string_view kOtherStages[] = {"hull", "domain", "mesh", "amplification", "node"};
 
 }  // namespace
 
@@ -75,6 +75,7 @@ void EntryPoints::find_entry_points() {
       return;
     }
     const uint32_t stage = program_.options->target.starts_with("vs")   ? ir::kStageVertex
+                           : program_.options->target.starts_with("gs") ? ir::kStageGeometry
                            : program_.options->target.starts_with("ps") ? ir::kStagePixel
                                                                         : ir::kStageCompute;
     check_entry_point(kernel, stage, program_.options->entry_point);

@@ -24,7 +24,8 @@ constexpr Modifiers kInterpolationModifiers =
 bool is_generated(SystemValue value) {
   return value == SystemValue::kPrimitiveId || value == SystemValue::kIsFrontFace ||
          value == SystemValue::kBarycentrics || value == SystemValue::kCoverage ||
-         value == SystemValue::kSampleIndex || value == SystemValue::kSampleCount;
+         value == SystemValue::kSampleIndex || value == SystemValue::kSampleCount ||
+         value == SystemValue::kGeometryInstance;
 }
 
 // Returns how many vectors of four components the elements fill: each goes to the first one of its
@@ -78,9 +79,7 @@ class GraphicsSignature : StagePart {
         entry_(entry),
         is_output_(is_output),
         wrapper_(wrapper),
-        point_(entry.stage == ir::kStageVertex
-                   ? (is_output ? SignaturePoint::kVertexOut : SignaturePoint::kVertexIn)
-                   : (is_output ? SignaturePoint::kPixelOut : SignaturePoint::kPixelIn)),
+        point_(point_of(entry.stage, is_output)),
         live_(live) {}
 
   // A scalar or vector of an input: which parameter, which part of it, which element.
@@ -100,6 +99,26 @@ class GraphicsSignature : StagePart {
   const ir::Expr* read(const Type* type, Name& name, const Source& source, size_t parameter) {
     parameter_ = parameter;
     return walk(type, name, source, nullptr);
+  }
+  // The same of an array with an element for each corner of a primitive.
+  const ir::Expr* read_corners(const Type* type, const Name& name, const Source& source,
+                               size_t parameter) {
+    parameter_ = parameter;
+    corners_ = type->count;
+    std::vector<const ir::Expr*> parts;
+    const size_t first = elements.size();
+    for (corner_ = 0; corner_ < corners_ && !failed; ++corner_) {
+      next_element_ = first;
+      Name own = name;
+      parts.push_back(walk(type->element, own, source, nullptr));
+    }
+    corners_ = corner_ = 0;
+    return failed ? nullptr : build_.construct(type->ir, std::move(parts));
+  }
+  // The elements of a stream's vertex; emitting assigns them. [lower/streams.h]
+  void describe_vertex(const Type* type, const Source& source) {
+    Name name;
+    walk(type, name, source, build_.zero(type->ir));
   }
   // Assigns the value to parameters of the wrapper.
   void write(const Type* type, Name& name, const Source& source, const ir::Expr* value) {
@@ -215,12 +234,27 @@ class GraphicsSignature : StagePart {
       const ir::Expr* pixel = build_.convert(build_.swizzle(position(2), {0, 1}), Scalar::kUint32);
       return build_.construct(type, {pixel, zero});
     }
+    if (point_ == SignaturePoint::kGeometryIn) {
+      const ir::Expr* primitive = number("SV_PrimitiveID", SystemValue::kPrimitiveId);
+      return build_.construct(
+          type, {primitive, number("SV_GSInstanceID", SystemValue::kGeometryInstance), zero});
+    }
     const ir::Expr* vertex = number("SV_VertexID", SystemValue::kVertexId);
     const ir::Expr* instance = number("SV_InstanceID", SystemValue::kInstanceId);
     return build_.construct(type, {vertex, instance, zero});
   }
 
  private:
+  static SignaturePoint point_of(uint32_t stage, bool is_output) {
+    switch (stage) {
+      case ir::kStageVertex:
+        return is_output ? SignaturePoint::kVertexOut : SignaturePoint::kVertexIn;
+      case ir::kStageGeometry:
+        return is_output ? SignaturePoint::kGeometryOut : SignaturePoint::kGeometryIn;
+      default:
+        return is_output ? SignaturePoint::kPixelOut : SignaturePoint::kPixelIn;
+    }
+  }
   std::string shader() const {
     return std::string(stage_name(entry_.stage)) + " shader '" + entry_.name + "'";
   }
@@ -341,26 +375,35 @@ class GraphicsSignature : StagePart {
     if (find_semantic(element.semantic, point_).meaning == SemanticMeaning::kZero) {
       return zero_input(type, *name.semantic, source);
     }
+    if (corner_ > 0) return read_element(next_element_++, type);
     if (!describe(element, type, *name.semantic, source)) return nullptr;
     const Scalar scalar = element.type == ColumnType::kFloat ? Scalar::kFloat32
                           : element.type == ColumnType::kInt ? Scalar::kInt32
                                                              : Scalar::kUint32;
     const Type* own = types_.numeric(scalar, 0, type->components());
     at(source.location);
-    ir::Variable* variable =
-        build_.variable(std::string(source.name), own->ir, ir::Storage::kParameter);
-    variable->mode = is_output_ ? ir::ParameterMode::kOut : ir::ParameterMode::kIn;
-    wrapper_.parameters.push_back(variable);
     if (!elements.empty()) {
       element.first_column = elements.back().first_column + elements.back().components;
     }
     elements.push_back(std::move(element));
-    if (!value) return build_.convert(build_.read(variable), plain_scalar(type->scalar));
+    if (point_ == SignaturePoint::kGeometryOut) return nullptr;
+    ir::Variable* variable = build_.variable(
+        std::string(source.name), corners_ != 0 ? types_.array(own, corners_)->ir : own->ir,
+        ir::Storage::kParameter);
+    variable->mode = is_output_ ? ir::ParameterMode::kOut : ir::ParameterMode::kIn;
+    wrapper_.parameters.push_back(variable);
+    if (!value) return read_element(elements.size() - 1, type);
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
     statement->place = build_.read(variable);
     statement->value = bounded(*name.semantic, build_.convert(value, plain_scalar(scalar)));
     lower_.body.emit(statement);
     return nullptr;
+  }
+
+  const ir::Expr* read_element(size_t element, const Type* type) {
+    const ir::Expr* value = build_.read(wrapper_.parameters[element]);
+    if (corners_ != 0) value = build_.element(value, build_.uint32(corner_));
+    return build_.convert(value, plain_scalar(type->scalar));
   }
 
   // SV_DepthGreaterEqual never lowers the pixel's depth, SV_DepthLessEqual never raises it.
@@ -433,12 +476,20 @@ class GraphicsSignature : StagePart {
       fail(CheckId::kSemanticNotOffered, semantic.location, {std::string(semantic.text), shader()});
       return false;
     }
-    if (rule.meaning == SemanticMeaning::kNotThere) {
+    const bool of_primitive =
+        rule.value == SystemValue::kPrimitiveId || rule.value == SystemValue::kGeometryInstance;
+    const bool misplaced = point_ == SignaturePoint::kGeometryIn && of_primitive != (corners_ == 0);
+    if (rule.meaning == SemanticMeaning::kNotThere || misplaced) {
       if (point_ == SignaturePoint::kPixelOut) {
         fail(CheckId::kPixelOutput, semantic.location, {std::string(semantic.text), entry_.name});
       } else {
         fail(CheckId::kSemanticNotThere, semantic.location,
-             {std::string(semantic.text), is_output_ ? "an output" : "an input", shader()});
+             {std::string(semantic.text),
+              is_output_      ? "an output"
+              : !misplaced    ? "an input"
+              : corners_ == 0 ? "an input of the whole primitive"
+                              : "an input of a corner",
+              shader()});
       }
       return false;
     }
@@ -474,7 +525,10 @@ class GraphicsSignature : StagePart {
 
   bool interpolate(ir::SignatureElement& element, const Type* type, const Source& source) {
     element.interpolation = Interpolation::kLinear;
-    if (point_ == SignaturePoint::kVertexIn || point_ == SignaturePoint::kPixelOut) return true;
+    if (point_ == SignaturePoint::kVertexIn || point_ == SignaturePoint::kPixelOut ||
+        point_ == SignaturePoint::kGeometryIn) {
+      return true;
+    }
     const Modifiers modifiers = source.modifiers & kInterpolationModifiers;
     const bool straight = (modifiers & kModNoPerspective) != 0;
     if (modifiers & kModNoInterpolation) {
@@ -507,6 +561,9 @@ class GraphicsSignature : StagePart {
   const SignaturePoint point_;
   const ir::Variable* const live_;
   size_t parameter_ = 0;  // the function's that is being read
+  uint32_t corners_ = 0;  // of the primitive whose corners are being read
+  uint32_t corner_ = 0;
+  size_t next_element_ = 0;  // of the corner
   std::vector<uint32_t> path_;
 };
 
@@ -524,6 +581,8 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   BodyScope body(lower_, nullptr, &wrapper->body, function->scope);
   at(location);
   const bool is_pixel = entry.stage == ir::kStagePixel;
+  const bool is_geometry = entry.stage == ir::kStageGeometry;
+  if (is_geometry && !geometry_.read_attributes(*function, entry)) return false;
   const ir::Type* flag = build_.scalar_type(Scalar::kBool);
   const auto flag_parameter = [&](const char* name, ir::ParameterMode mode) {
     ir::Variable* variable = build_.variable(name, flag, ir::Storage::kParameter);
@@ -567,6 +626,18 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
              {"'" + std::string(parameter.name) + "' (a uniform parameter of an entry point)"});
       return false;
     }
+    if (is_geometry && parameter.type->is_stream()) {
+      if (!geometry_.take_stream(parameter, entry)) return false;
+      outputs.describe_vertex(parameter.type->structure->stream_vertex, source);
+      call->arguments.push_back(build_.read(lower_.body.empty_temporary(parameter.type->ir)));
+      continue;
+    }
+    if (is_geometry && (modifiers & kModPrimitive) != 0) {
+      if (!geometry_.take_primitive(parameter, entry)) return false;
+      call->arguments.push_back(inputs.read_corners(parameter.type, name_of_value(semantic), source,
+                                                    call->arguments.size()));
+      continue;
+    }
     const ir::Expr* value = nullptr;
     if (parameter.is_in) {
       GraphicsSignature::Name name = name_of_value(semantic);
@@ -579,6 +650,10 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
       results.push_back({parameter.type, name_of_value(semantic), source, variable});
     }
     call->arguments.push_back(value);
+  }
+  if (is_geometry && !inputs.failed && !outputs.failed &&
+      !geometry_.check_shape(*function, outputs.elements, entry)) {
+    return false;
   }
   if (!inputs.failed) inputs.check_limits(location);
   if (is_pixel && !inputs.failed) inputs.read_inputs(*function);
@@ -597,8 +672,10 @@ bool GraphicsStages::check_graphics_signature(FunctionInfo* function, ir::EntryP
   }
   if (!outputs.failed) outputs.check_limits(location);
   entry.parameters.assign(inputs.elements.size(), ir::EntryParameter::kInput);
-  entry.parameters.resize(entry.parameters.size() + outputs.elements.size(),
-                          ir::EntryParameter::kOutput);
+  if (!is_geometry) {
+    entry.parameters.resize(entry.parameters.size() + outputs.elements.size(),
+                            ir::EntryParameter::kOutput);
+  }
   if (is_pixel) {
     wrapper->parameters.push_back(is_live);
     ir::Variable* stays = flag_parameter("stays_live", ir::ParameterMode::kOut);

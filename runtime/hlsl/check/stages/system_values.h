@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The meanings of the semantics of vertex and pixel shaders. [HLSL: Semantics; DXIL: Semantic
-// Interpretations]
+// The meanings of the semantics of vertex, geometry and pixel shaders. [HLSL: Semantics; DXIL:
+// Semantic Interpretations]
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,14 @@
 
 namespace kaamos::hlsl {
 
-enum class SignaturePoint : uint8_t { kVertexIn, kVertexOut, kPixelIn, kPixelOut };
+enum class SignaturePoint : uint8_t {
+  kVertexIn,
+  kVertexOut,
+  kPixelIn,
+  kPixelOut,
+  kGeometryIn,
+  kGeometryOut
+};
 
 enum class SemanticMeaning : uint8_t {
   kArbitrary,  // a name like any other

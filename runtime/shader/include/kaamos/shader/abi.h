@@ -17,7 +17,7 @@
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 18;
+inline constexpr uint32_t kAbiVersion = 19;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -508,6 +508,7 @@ struct Services {
 enum class Stage : uint32_t {
   kPixel = 0,
   kVertex = 1,
+  kGeometry = 2,
   kCompute = 5,
   kLibrary = 6,  // an exported function that is not an entry point
   kRayGeneration = 7,

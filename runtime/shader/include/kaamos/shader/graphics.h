@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertex and pixel shaders: what goes into them and comes out, and how they are called.
+// Vertex, geometry and pixel shaders: what goes into them and comes out, and how they are called.
 //
 // Every input and output is a column: one 32-bit scalar of kLanes vertices or pixels side by side.
 // System values are columns like others. A pixel shader runs two quads of 2 x 2 pixels at a time:
@@ -20,23 +20,24 @@ using Column = uint32_t[kGraphicsLanes];
 // Semantics that mean something to the pipeline.
 enum class SystemValue : uint8_t {
   kNone,
-  kPosition,                // clip space out of a vertex shader, pixels into a pixel shader
-  kVertexId,                // vertex shader in
-  kInstanceId,              // vertex shader in
-  kPrimitiveId,             // pixel shader in
-  kIsFrontFace,             // pixel shader in: 0 or 1
-  kBarycentrics,            // pixel shader in
-  kClipDistance,            // vertex shader out, pixel shader in
-  kCullDistance,            // vertex shader out, pixel shader in
-  kRenderTargetArrayIndex,  // vertex shader out, pixel shader in
-  kViewportArrayIndex,      // vertex shader out, pixel shader in
-  kTarget,                  // pixel shader out; semantic_index is the slot
-  kDepth,                   // pixel shader out
-  kCoverage,                // pixel shader in and out: a bit for each sample
-  kStartVertexLocation,     // vertex shader in: of an indexed draw its BaseVertexLocation
-  kStartInstanceLocation,   // vertex shader in
-  kSampleIndex,             // pixel shader in
-  kSampleCount,             // pixel shader in, of no semantic: that of the targets
+  kPosition,      // clip space out of a vertex shader, pixels into a pixel shader
+  kVertexId,      // vertex shader in
+  kInstanceId,    // vertex shader in
+  kPrimitiveId,   // geometry shader in and out, pixel shader in
+  kIsFrontFace,   // pixel shader in: 0 or 1
+  kBarycentrics,  // pixel shader in
+  kClipDistance,  // vertex and geometry shader out, pixel shader in; as the next three
+  kCullDistance,
+  kRenderTargetArrayIndex,
+  kViewportArrayIndex,
+  kTarget,                 // pixel shader out; semantic_index is the slot
+  kDepth,                  // pixel shader out
+  kCoverage,               // pixel shader in and out: a bit for each sample
+  kStartVertexLocation,    // vertex shader in: of an indexed draw its BaseVertexLocation
+  kStartInstanceLocation,  // vertex shader in
+  kSampleIndex,            // pixel shader in
+  kSampleCount,            // pixel shader in, of no semantic: that of the targets
+  kGeometryInstance,       // geometry shader in: SV_GSInstanceID
 };
 
 enum class ColumnType : uint8_t { kFloat, kInt, kUint };
@@ -101,7 +102,33 @@ struct PixelLanes {
   uint32_t live = 0;  // in: covered pixels; out: those of them that were not discarded
 };
 
+// The points, lines or triangles that a geometry shader takes and makes. [D3D11.3: 13]
+struct GeometryShape {
+  uint32_t corners = 0;         // of a primitive that goes in: 1 to 3
+  uint32_t output_corners = 0;  // of one that comes out, in strips unless it is 1
+  uint32_t most_vertices = 0;   // [maxvertexcount]: 1 to 1024
+  uint32_t instances = 1;       // [instance]: 1 to 32 calls for each primitive
+};
+
+// The inputs of one primitive: for each corner a row of GraphicsDesc::input_columns words. What is
+// not the vertex's own is in the first row.
+struct GeometryInputs {
+  const uint32_t* rows = nullptr;
+  uint32_t columns = 0;
+};
+
+// The vertices that a geometry shader emits, a row of GraphicsDesc::output_columns words each.
+struct GeometryStream {
+  uint32_t* rows = nullptr;  // room for `most` of them
+  bool* begins = nullptr;    // whether a vertex is the first of a strip
+  uint32_t columns = 0;
+  uint32_t most = 0;  // GeometryShape::most_vertices: further ones have no effect
+  uint32_t count = 0;
+  bool cut = true;  // the next one begins a strip
+};
+
 using VertexFn = void (*)(Invocation&, const VertexLanes&);
+using GeometryFn = void (*)(Invocation&, const GeometryInputs&, GeometryStream&);
 using PixelFn = void (*)(Invocation&, PixelLanes&);
 // Runs one lane of a quad on its own fiber: derivatives go through Services::wave, whose wave is
 // the quad, of 4 lanes (ComputeGroup::wave_lanes); all active lanes of the quad must run. Clears
@@ -125,10 +152,12 @@ struct GraphicsDesc {
   const SignatureElement* outputs;
   uint32_t output_count;
   uint32_t output_columns;
-  uint32_t flags;              // GraphicsFlags
-  VertexFn vertex;             // vertex shaders
-  PixelFn pixel;               // pixel shaders; null if they run on fibers
-  PixelThreadFn pixel_thread;  // null if `pixel` is not
+  uint32_t flags;                 // GraphicsFlags
+  VertexFn vertex;                // vertex shaders
+  PixelFn pixel;                  // pixel shaders; null if they run on fibers
+  PixelThreadFn pixel_thread;     // null if `pixel` is not
+  GeometryFn geometry = nullptr;  // geometry shaders
+  GeometryShape shape = {};
 };
 
 }  // namespace kaamos::shader

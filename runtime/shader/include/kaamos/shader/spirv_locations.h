@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Links the SPIR-V of a pixel shader to that of a vertex shader: both were compiled alone, and what
-// goes from one to the other is found by its semantic. [spirv_interface.h]
+// Links the SPIR-V of a geometry or pixel shader to that of the shader before it: both were
+// compiled alone, and what goes from one to the other is found by its semantic. [spirv_interface.h]
 #pragma once
 
 #include <cstddef>
@@ -42,13 +42,20 @@ void each_location(std::span<uint32_t> words, uint32_t storage_class, const Visi
   });
 }
 
+// Instead of a location: the built-in position of the shader before.
+inline constexpr uint32_t kPositionLocation = 0xFFFFFFFFu;
+
 // Gives each input at a location n the location `locations[n]`; inputs past the end of the list
 // keep theirs.
 inline void relocate_inputs(std::span<uint32_t> words, std::span<const uint32_t> locations) {
-  constexpr uint32_t kInputClass = 1;
+  constexpr uint32_t kInputClass = 1, kBuiltIn = 11, kPosition = 0;
   each_location(words, kInputClass, [&](std::span<uint32_t> decoration) {
     uint32_t& location = decoration[3];
-    if (location < locations.size()) location = locations[location];
+    if (location >= locations.size()) return;
+    location = locations[location];
+    if (location != kPositionLocation) return;
+    decoration[2] = kBuiltIn;
+    location = kPosition;
   });
 }
 
