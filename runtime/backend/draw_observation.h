@@ -41,13 +41,17 @@ struct OddOutputs {
 // Sums of a draw. Which pixel is a first one may depend on threads; nothing else does.
 struct DrawCounts {
   // Vertices: each may count several times, as it may be shaded several times.
-  uint64_t vertices = 0;
+  uint64_t vertices = 0;          // of the vertex shader
   uint64_t not_finite = 0;        // positions with NaN or infinity
   uint32_t first_not_finite = 0;  // its SV_VertexID
   uint64_t far_away = 0;          // |x| or |y| more than 1e7 w
   uint32_t first_far_away = 0;
 
-  // Triangles.
+  // Primitives that the input assembler made, and calls of the geometry shader.
+  uint64_t assembled = 0;
+  uint64_t geometry_calls = 0;
+
+  // Triangles, of the geometry shader if there is one.
   uint64_t triangles = 0;
   uint64_t not_a_triangle = 0;  // with a vertex that is not finite
   uint64_t outside = 0;         // of what can be seen
@@ -73,6 +77,8 @@ inline void DrawCounts::add(const DrawCounts& other) {
   if (not_finite == 0) first_not_finite = other.first_not_finite;
   if (far_away == 0) first_far_away = other.first_far_away;
   vertices += other.vertices;
+  assembled += other.assembled;
+  geometry_calls += other.geometry_calls;
   not_finite += other.not_finite;
   far_away += other.far_away;
   triangles += other.triangles;

@@ -36,8 +36,10 @@ runtime::WorkCounts work_of(const runtime::DrawCounts& draw) {
   runtime::WorkCounts counts;
   counts.samples = draw.written;
   rtapi::QueryDataPipelineStatistics& statistics = counts.statistics;
-  statistics.IAPrimitives = draw.triangles;
+  statistics.IAPrimitives = draw.assembled;
   statistics.VSInvocations = draw.vertices;
+  statistics.GSInvocations = draw.geometry_calls;
+  statistics.GSPrimitives = draw.geometry_calls != 0 ? draw.triangles : 0;
   statistics.CInvocations = draw.triangles;
   statistics.CPrimitives = draw.triangles - draw.not_a_triangle - draw.outside;
   statistics.PSInvocations = draw.shaded;

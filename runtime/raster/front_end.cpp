@@ -54,7 +54,7 @@ void FrontEnd::run(const PrimitiveRange& range, const Draw& draw, const DrawPlan
   counts_ = nullptr;
   if (plan.observed) {
     batch.counts = {};
-    batch.counts.triangles = range.count;
+    batch.counts.assembled = batch.counts.triangles = range.count;
     counts_ = &batch.counts;
   }
   collect_vertices();
@@ -146,6 +146,7 @@ void FrontEnd::shade_vertices(ShaderThread& thread) {
     const uint32_t active = std::min(kGroup, count - first);
     fetch_.read(range_->instance, ids_.data() + first, active, inputs);
     thread.vertices(range_->draw, {inputs, outputs, (1u << active) - 1});
+    if (counts_ != nullptr) counts_->vertices += active;
     if (plan_->has_geometry) {
       keep_rows(first, active, outputs);
     } else {
@@ -171,7 +172,7 @@ void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column
   Screen& screen = screen_[first / kGroup];
   std::memcpy(&clip, outputs[columns.position], sizeof(clip));
   clip_outcodes(clip, plan_->depth_clip, screen.outcode);
-  if (counts_ != nullptr) count_vertices(first, count);
+  if (counts_ != nullptr) note_vertices(first, count);
   for (uint32_t c = 0; c < plan_->clip_count; ++c) {
     for (uint32_t i = 0; i < count; ++i) {
       const auto distance = std::bit_cast<float>(outputs[columns.clip_distances[c]][i]);
@@ -205,10 +206,9 @@ void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column
   }
 }
 
-void FrontEnd::count_vertices(uint32_t first, uint32_t count) {
+void FrontEnd::note_vertices(uint32_t first, uint32_t count) {
   const Vertices& clip = clip_[first / kGroup];
   constexpr float kFar = 1e7f;
-  counts_->vertices += count;
   for (uint32_t i = 0; i < count; ++i) {
     if ((screen_[first / kGroup].outcode[i] & kNotFinite) != 0) {
       if (counts_->not_finite++ == 0) counts_->first_not_finite = ids_[first + i];

@@ -120,7 +120,8 @@ class FrontEnd {
   void emit_line(const LineEnd ends[2], const Primitive& primitive, bool front);
   void emit_rectangle(const LineEnd ends[2], const Primitive& primitive, bool front);
 
-  void count_vertices(uint32_t first, uint32_t count);
+  // Those that are nowhere, or far away.
+  void note_vertices(uint32_t first, uint32_t count);
 
   // What is drawn: the draw's primitives, or those that the geometry shader makes of them.
   const PrimitiveRange* range_ = nullptr;

@@ -31,7 +31,9 @@ void FrontEnd::run_geometry(ShaderThread& thread) {
                  [&](const uint32_t vertex[3], uint32_t id) { call_geometry(thread, vertex, id); });
   range_ = &made_;
   take_emitted();
-  if (counts_ != nullptr) counts_->triangles = made_.count;
+  if (counts_ == nullptr) return;
+  counts_->geometry_calls = counts_->assembled * shape.instances;
+  counts_->triangles = made_.count;
 }
 
 void FrontEnd::call_geometry(ShaderThread& thread, const uint32_t vertex[3], uint32_t id) {

@@ -236,6 +236,40 @@ TEST_P(Geometry, RAS_163_VerticesHoldMatricesArraysAndDistances) {
   }
 }
 
+TEST_P(Geometry, RAS_156_QueriesCountCallsAndWhatTheyMake) {
+  const PipelineState pipeline = canvas_->make(desc("Quarters", PrimitiveTopologyType::kPoint));
+  const std::vector<Point> points = {{16, 16}, {8, 8}};
+  const Buffer vertices = CreateUploadBuffer(canvas_->device, points, "vertices").value();
+  const VertexBufferView view = {vertices.GetGPUVirtualAddress(),
+                                 static_cast<uint32_t>(vertices.size()), sizeof(Point)};
+  QueryHeapDesc heap_desc;
+  heap_desc.Type = QueryHeapType::kPipelineStatistics;
+  heap_desc.Count = 1;
+  const QueryHeap heap = canvas_->device.CreateQueryHeap(heap_desc).value();
+  BufferDesc buffer;
+  buffer.SizeInBytes = sizeof(QueryDataPipelineStatistics);
+  buffer.InitialState = ResourceStates::kCopyDest;
+  const Buffer result = canvas_->device.CreateBuffer(buffer).value();
+  canvas_->run([&](CommandList& list) {
+    Canvas::use(list, pipeline);
+    list.IASetPrimitiveTopology(PrimitiveTopology::kPointList);
+    list.IASetVertexBuffers(0, {&view, 1});
+    list.BeginQuery(heap, QueryType::kPipelineStatistics, 0);
+    list.DrawInstanced(2, 1, 0, 0);
+    list.EndQuery(heap, QueryType::kPipelineStatistics, 0);
+    list.ResolveQueryData(heap, QueryType::kPipelineStatistics, 0, 1, result, 0);
+  });
+  const auto bytes = ReadbackBuffer(canvas_->device, canvas_->queue, result).value();
+  QueryDataPipelineStatistics found;
+  std::memcpy(&found, bytes.data(), sizeof found);
+  EXPECT_EQ(found.IAPrimitives, 2u);
+  EXPECT_EQ(found.VSInvocations, 2u);
+  // A driver fault: lavapipe counts the instances of a call once, where Vulkan asks for each.
+  EXPECT_EQ(found.GSInvocations, on_vulkan() ? 2u : 8u);
+  EXPECT_EQ(found.GSPrimitives, 16u);  // two triangles of each call
+  EXPECT_EQ(found.CInvocations, 16u);
+}
+
 TEST_P(Geometry, RAS_167_StagesMustFit) {
   const auto expect_refused = [&](const GraphicsPipelineStateDesc& desc, const std::string& why) {
     const auto made = canvas_->device.CreateGraphicsPipelineState(desc);

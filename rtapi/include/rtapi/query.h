@@ -37,8 +37,8 @@ struct QueryDataPipelineStatistics {
   uint64_t IAVertices = 0;     ///< vertices that draws asked for, of all instances
   uint64_t IAPrimitives = 0;   ///< triangles that they make
   uint64_t VSInvocations = 0;  ///< runs of the vertex shader
-  uint64_t GSInvocations = 0;  ///< 0: there are no geometry shaders
-  uint64_t GSPrimitives = 0;   ///< 0: there are no geometry shaders
+  uint64_t GSInvocations = 0;  ///< runs of the geometry shader
+  uint64_t GSPrimitives = 0;   ///< what it made
   uint64_t CInvocations = 0;   ///< triangles that came to clipping
   uint64_t CPrimitives = 0;    ///< triangles that went on from it
   uint64_t PSInvocations = 0;  ///< runs of the pixel shader; without helpers on Embree

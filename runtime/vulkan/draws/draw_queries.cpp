@@ -4,16 +4,18 @@
 namespace kaamos::vulkan {
 namespace {
 
-// Results come in the order of these bits. A geometry shader would be one of ours.
+// Results come in the order of these bits. Our own geometry shader (barycentrics_stage.h) counts, too.
 constexpr VkQueryPipelineStatisticFlags kStatistics =
     VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_GEOMETRY_SHADER_INVOCATIONS_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_GEOMETRY_SHADER_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT;
 
 struct StatisticsResult {
-  uint64_t primitives, vertices, clipped, after_clipping, pixels;
+  uint64_t primitives, vertices, geometry, emitted, clipped, after_clipping, pixels;
 };
 
 constexpr VkQueryResultFlags kResult = VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT;
@@ -91,6 +93,8 @@ rtapi::Status DrawQueries::read(uint32_t query, runtime::WorkCounts& sums) const
   if (r != VK_SUCCESS) return gpu_.error(r, "reading a query");
   found.statistics.IAPrimitives = statistics.primitives;
   found.statistics.VSInvocations = statistics.vertices;
+  found.statistics.GSInvocations = statistics.geometry;
+  found.statistics.GSPrimitives = statistics.emitted;
   found.statistics.CInvocations = statistics.clipped;
   found.statistics.CPrimitives = statistics.after_clipping;
   found.statistics.PSInvocations = statistics.pixels;
