@@ -213,8 +213,8 @@ const char* help_text() {
   return R"(kaamos-hlsl [options] FILE.hlsl: compiles HLSL shader libraries for Kaamos
 
 As in DXC:
-  -T PROFILE                lib_6_3 to lib_6_9 (default lib_6_6), or cs_6_0 to cs_6_9, vs, ps
-  -E NAME                   entry point of a cs, vs or ps profile
+  -T PROFILE                lib_6_3 to lib_6_9 (default lib_6_6), or cs_6_0 to cs_6_9, vs, gs, ps
+  -E NAME                   entry point of a cs, vs, gs or ps profile
   -D NAME[=VALUE]           defines a macro
   -I FOLDER                 where to look for #include files
   -HV 2018|2021             version of the language (default 2021)
