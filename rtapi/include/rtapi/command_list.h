@@ -143,9 +143,10 @@ class CommandList {
   }
 
   /// Sets the root signature of Dispatch and the global one of DispatchRays. One of the same
-  /// definition keeps all root arguments. One of another makes them undefined in D3D12: here,
-  /// parameters of the same index and type keep theirs, others are zero, and checked mode tells of
-  /// shaders that read them. [DXR: Local root signatures vs global root signatures]
+  /// definition keeps all root arguments. One of another makes them undefined in D3D12 and zero
+  /// here (with InvalidCalls::kDropCall those of the same index and type stay, as in drivers);
+  /// checked mode tells of shaders that read them. [DXR: Local root signatures vs global root
+  /// signatures]
   /// @errors KA0800; KA0536 a local root signature; KA0903 of another device; KA0904 empty handle.
   void SetComputeRootSignature(const RootSignature& root_signature);
   /// Sets one constant of a parameter: 32-bit value number `dest_offset_dwords`, from 0.

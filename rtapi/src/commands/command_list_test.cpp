@@ -352,28 +352,39 @@ TEST_F(CommandListTest, ClearStateUnsetsWhatIsSet) {
 }
 
 // Undefined in D3D12; drivers leave registers as they are.
-TEST_F(CommandListTest, AnotherRootSignatureKeepsWhatHasTheSameIndexAndType) {
-  const RootSignature one = Global("RootConstants(num32BitConstants=2, b0), UAV(u0), UAV(u1)");
-  const RootSignature other = Global("RootConstants(num32BitConstants=3, b0), UAV(u5), CBV(b1)");
-  const Buffer buffer = MakeBuffer(256);
-  const uint32_t values[] = {7, 8, 9};
-  list_.SetComputeRootSignature(one);
-  list_.SetComputeRoot32BitConstants(0, 2, values, 0);
-  list_.SetComputeRootUnorderedAccessView(1, buffer.GetGPUVirtualAddress());
-  list_.SetComputeRootUnorderedAccessView(2, buffer.GetGPUVirtualAddress());
-  list_.SetComputeRootSignature(other);
-  const auto& state = list_.impl()->compute;
-  uint32_t constants[3];
-  uint64_t views[2];
-  std::memcpy(constants, state.arguments->bytes.data(), sizeof constants);
-  std::memcpy(views, state.arguments->bytes.data() + 16, sizeof views);
-  EXPECT_EQ(constants[0], 7u);
-  EXPECT_EQ(constants[1], 8u);
-  EXPECT_EQ(constants[2], 0u);
-  EXPECT_EQ(views[0], buffer.GetGPUVirtualAddress());
-  EXPECT_EQ(views[1], 0u) << "another type";
-  EXPECT_EQ(state.views.size(), 1u);
-  EXPECT_EQ(state.set_parameters, 0u) << "checked mode tells of what was not set again";
+TEST(InvalidCallsTest, AnotherRootSignatureKeepsWhatHasTheSameIndexAndType) {
+  for (const InvalidCalls calls : {InvalidCalls::kDropCall, InvalidCalls::kFailList}) {
+    const Device device = CreateNullDevice({.InvalidCalls = calls});
+    const bool keeps = calls == InvalidCalls::kDropCall;
+    CommandList list = device.CreateCommandList().value();
+    const RootSignature one =
+        device.CreateRootSignature("RootConstants(num32BitConstants=2, b0), UAV(u0), UAV(u1)")
+            .value();
+    const RootSignature other =
+        device.CreateRootSignature("RootConstants(num32BitConstants=3, b0), UAV(u5), CBV(b1)")
+            .value();
+    const Buffer buffer =
+        device.CreateBuffer({.SizeInBytes = 256, .Flags = ResourceFlags::kAllowUnorderedAccess})
+            .value();
+    const uint32_t values[] = {7, 8, 9};
+    list.SetComputeRootSignature(one);
+    list.SetComputeRoot32BitConstants(0, 2, values, 0);
+    list.SetComputeRootUnorderedAccessView(1, buffer.GetGPUVirtualAddress());
+    list.SetComputeRootUnorderedAccessView(2, buffer.GetGPUVirtualAddress());
+    list.SetComputeRootSignature(other);
+    const auto& state = list.impl()->compute;
+    uint32_t constants[3];
+    uint64_t views[2];
+    std::memcpy(constants, state.arguments->bytes.data(), sizeof constants);
+    std::memcpy(views, state.arguments->bytes.data() + 16, sizeof views);
+    EXPECT_EQ(constants[0], keeps ? 7u : 0u);
+    EXPECT_EQ(constants[1], keeps ? 8u : 0u);
+    EXPECT_EQ(constants[2], 0u);
+    EXPECT_EQ(views[0], keeps ? buffer.GetGPUVirtualAddress() : 0u);
+    EXPECT_EQ(views[1], 0u) << "another type";
+    EXPECT_EQ(state.views.size(), keeps ? 1u : 0u);
+    EXPECT_EQ(state.set_parameters, 0u) << "checked mode tells of what was not set again";
+  }
 }
 
 TEST(InvalidCallsTest, DroppedCallsAreToldAndTheRestOfTheListRuns) {

@@ -83,7 +83,7 @@ void RootSetter::set_signature(const RootSignature& signature) {
   RootState now;
   now.signature = signature;
   now.forgotten_parameters = root.set_parameters | root.forgotten_parameters;
-  now.keep_arguments(root);
+  if (list.device->desc.InvalidCalls == InvalidCalls::kDropCall) now.keep_arguments(root);
   root = std::move(now);
 }
 

@@ -28,7 +28,7 @@ struct RootState {
   void write(uint32_t offset_bytes, const void* value, size_t bytes);
   void clear(uint32_t offset_bytes, uint32_t size_bytes);
   // Takes over the arguments of parameters that are of the same index and type in `before`, as
-  // drivers do. [D3D12: SetComputeRootSignature, undefined]
+  // drivers do. Of InvalidCalls::kDropCall. [D3D12: SetComputeRootSignature, undefined]
   void keep_arguments(const RootState& before);
   void note_set(uint32_t parameter) {
     if (parameter < 64) set_parameters |= uint64_t{1} << parameter;

@@ -4,7 +4,8 @@
 namespace kaamos::vulkan {
 namespace {
 
-// Results come in the order of these bits. Our own geometry shader (barycentrics_stage.h) counts, too.
+// Results come in the order of these bits. Our own geometry shader counts, too.
+// [barycentrics_stage.h]
 constexpr VkQueryPipelineStatisticFlags kStatistics =
     VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
