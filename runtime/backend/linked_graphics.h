@@ -57,7 +57,7 @@ struct VertexSystemColumns {
   std::vector<uint32_t> cull_distances;       // out: a column each
   uint32_t primitive_id = kNoColumn;          // out, of a geometry shader
 };
-// Of a geometry shader's inputs.
+// First columns of a geometry shader's inputs.
 struct GeometrySystemColumns {
   uint32_t primitive_id = kNoColumn;
   uint32_t instance = kNoColumn;

@@ -109,7 +109,7 @@ class FrontEnd {
     float perspective[3];  // weights of the primitive's vertices, as of ClipWeights
     float on_screen[3];
   };
-  // Of a part whose vertices are these of the two ends.
+  // Returns the weights of a part whose vertices are these of the two ends.
   static ClipWeights weights_of(const LineEnd ends[2], const std::array<int, 3>& vertices);
   static LineEnd end_at_corner(const Primitive& primitive, int corner);
   static LineEnd end_at_vertex(const Polygon& polygon, int vertex);
@@ -151,8 +151,8 @@ class FrontEnd {
   Storage<uint32_t> columns_;  // of the vertex shader
   Storage<uint32_t> primitive_ids_;
 
-  // Of the geometry shader: what `corners_` was, rows of vertices that go in, of the corners of one
-  // primitive, and of vertices that come out.
+  // The geometry shader takes primitives from corners_in_, vertices from rows_in_ and those of one
+  // primitive from corner_rows_, and writes vertices to rows_out_ and begins_.
   Storage<uint32_t> corners_in_;
   Storage<uint32_t> rows_in_;
   Storage<uint32_t> corner_rows_;

@@ -111,19 +111,28 @@ struct Rasterizer::Pass {
     }
   }
 
+  // What a geometry shader makes of a primitive, at most.
+  static uint32_t most_of_each(const runtime::LinkedGraphics& linked) {
+    if (!linked.has_geometry()) return 1;
+    const shader::GeometryShape& shape = linked.geometry_desc().shape;
+    return shape.most_vertices * shape.instances;
+  }
+
   // Ranges wait until their batches would fill the memory, and are then drawn.
   void run() {
     uint64_t waiting = 0;
     for (uint32_t number = 0; number < draws.size(); ++number) {
       const DrawPlan& plan = plans[plan_of_draw[number]];
       if (plan.draws_nothing) continue;
-      RangeCursor cursor(draws[number], number, memory.options.batch_triangles);
+      const uint32_t each = most_of_each(*plan.linked);
+      RangeCursor cursor(draws[number], number,
+                         std::max(memory.options.batch_triangles / each, 1u));
       PrimitiveRange range;
       while (cursor.next(range)) {
         constexpr uint64_t kBytesOfTriangle =
             sizeof(Triangle) + sizeof(TriangleShading) + 3 * sizeof(TileRun);
-        const uint64_t bytes =
-            range.count * (kBytesOfTriangle + plan.row_columns.size() * sizeof(uint32_t));
+        const uint64_t bytes = uint64_t{range.count} * each *
+                               (kBytesOfTriangle + plan.row_columns.size() * sizeof(uint32_t));
         if (!ranges.empty() && waiting + bytes > memory.options.batch_bytes) {
           flush();
           waiting = 0;

@@ -145,6 +145,24 @@ TEST_P(Geometry, RAS_163_PointsBecomeSquares) {
   EXPECT_EQ(calls, 8u);
 }
 
+// Many more points than are taken together: numbers and order go on.
+TEST_P(Geometry, RAS_166_ManyPrimitivesKeepTheirOrder) {
+  constexpr uint32_t kPoints = 5000, kCells = 64;
+  std::vector<Point> points;
+  for (uint32_t i = 0; i < kPoints; ++i) {
+    points.push_back({static_cast<float>(i % 8 * 8 + 4), static_cast<float>(i / 8 % 8 * 8 + 4)});
+  }
+  const auto texels = draw(desc("Sprite", PrimitiveTopologyType::kPoint, "ShowPrimitive"),
+                           PrimitiveTopology::kPointList, points, {8, 0, 0, 0});
+  for (uint32_t cell = 0; cell < kCells; ++cell) {
+    const uint32_t last = cell + (kPoints - 1 - cell) / kCells * kCells;
+    const Texel& texel = at(texels, cell % 8 * 8 + 5, cell / 8 * 8 + 2);
+    EXPECT_EQ(texel[2], static_cast<float>(last)) << cell;
+    EXPECT_EQ(texel[3], static_cast<float>(last * 10 + 1)) << cell;
+  }
+  EXPECT_EQ(covered(texels), kSize * kSize);
+}
+
 TEST_P(Geometry, RAS_164_EachInstanceIsACall) {
   const auto texels = draw(desc("Quarters", PrimitiveTopologyType::kPoint),
                            PrimitiveTopology::kPointList, {{16, 16}});

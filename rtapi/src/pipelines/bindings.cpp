@@ -98,7 +98,7 @@ Status fill_root_descriptor(const BindingDesc& binding, const RegisterRange& ran
                       binding.type == BindingType::kRawBuffer ||
                       binding.type == BindingType::kStructuredBuffer ||
                       binding.type == BindingType::kAccelerationStructure;
-  // Of an array without a size, the root descriptor is the first element.
+  // A root descriptor can feed an array without a size: it is the first element.
   const bool sized_array = binding.count != 1 && binding.count != shader::kUnbounded;
   if (!buffer || sized_array) {
     return make_error(Id::kBindingMismatch, where, ": resource ", describe(binding),

@@ -86,7 +86,7 @@ class StageList {
   rtapi::Status check_code(const runtime::LinkedShader& shader) const;
   size_t keep(std::span<const uint32_t> words, std::string name);
   uint32_t push(VkShaderStageFlagBits stage, size_t code, StageConstants constants);
-  // Of the next stage, which is that of a shader.
+  // Returns the options of the next stage that a shader gets.
   StageOptions next_options(const runtime::LinkedShader& shader);
 
   Gpu& gpu_;
