@@ -5,6 +5,7 @@
 #include <windows.h>
 
 #include <d3d12.h>
+#include <d3dcompiler.h>
 #include <dxguids/dxguids.h>
 #include <gtest/gtest.h>
 #include <wrl/client.h>
@@ -40,6 +41,16 @@ class D3d12Test : public testing::Test {
 
   // The errors of device_.
   std::vector<std::string>& messages() { return listener_->messages; }
+
+  // Compiles the function "main".
+  static ComPtr<ID3DBlob> compile(const char* profile, const std::string& text) {
+    ComPtr<ID3DBlob> code, errors;
+    EXPECT_EQ(D3DCompile(text.data(), text.size(), "shader.hlsl", nullptr, nullptr, "main", profile,
+                         0, 0, code.GetAddressOf(), errors.GetAddressOf()),
+              S_OK)
+        << (errors ? static_cast<const char*>(errors->GetBufferPointer()) : "");
+    return code;
+  }
 
   ComPtr<ID3D12Resource> buffer(UINT64 bytes, D3D12_HEAP_TYPE type,
                                 D3D12_RESOURCE_STATES state = D3D12_RESOURCE_STATE_COMMON,

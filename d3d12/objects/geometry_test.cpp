@@ -2,7 +2,6 @@
 // Geometry shaders of Direct3D 12 programs, in descriptions and in streams of pipelines.
 #include <string>
 
-#include <d3dcompiler.h>
 #include <directx/d3dx12.h>
 
 #include "d3d12/objects/d3d12_fixture.h"
@@ -52,14 +51,6 @@ void main(point float4 center[1] : SV_Position, inout TriangleStream<Corner> out
                                                IID_PPV_ARGS(target_.GetAddressOf())),
               S_OK);
     device_->CreateRenderTargetView(target_.Get(), nullptr, rtv());
-  }
-  static ComPtr<ID3DBlob> compile(const char* profile, const std::string& text) {
-    ComPtr<ID3DBlob> code, errors;
-    EXPECT_EQ(D3DCompile(text.data(), text.size(), "geometry.hlsl", nullptr, nullptr, "main",
-                         profile, 0, 0, code.GetAddressOf(), errors.GetAddressOf()),
-              S_OK)
-        << (errors ? static_cast<const char*>(errors->GetBufferPointer()) : "");
-    return code;
   }
   D3D12_CPU_DESCRIPTOR_HANDLE rtv() const { return rtvs_->GetCPUDescriptorHandleForHeapStart(); }
 

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <string>
 
-#include <d3dcompiler.h>
 #include <directx/d3dx12.h>
 
 #include "d3d12/objects/d3d12_fixture.h"
@@ -40,13 +39,6 @@ class MultisampleDraws : public D3d12Test {
     device_->CreateRenderTargetView(many_.Get(), &view, rtv());
   }
 
-  static ComPtr<ID3DBlob> compile(const char* profile, const std::string& text) {
-    ComPtr<ID3DBlob> code;
-    EXPECT_EQ(D3DCompile(text.data(), text.size(), "multisample.hlsl", nullptr, nullptr, "main",
-                         profile, 0, 0, code.GetAddressOf(), nullptr),
-              S_OK);
-    return code;
-  }
   static D3D12_RESOURCE_DESC desc_of(UINT samples) {
     return CD3DX12_RESOURCE_DESC::Tex2D(kFormat, kSide, kSide, 1, 1, samples, 0,
                                         D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET);

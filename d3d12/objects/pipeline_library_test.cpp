@@ -19,26 +19,16 @@ class PipelineLibraryTest : public D3d12Test {
  protected:
   void SetUp() override {
     D3d12Test::SetUp();
-    store_ = compile(
-        "RWByteAddressBuffer to : register(u0);"
-        "[numthreads(1, 1, 1)] void main() { to.Store(0, 1); }",
-        "cs_6_0");
-    other_ = compile(
-        "RWByteAddressBuffer to : register(u0);"
-        "[numthreads(1, 1, 1)] void main() { to.Store(0, 2); }",
-        "cs_6_0");
+    store_ = compile("cs_6_0",
+                     "RWByteAddressBuffer to : register(u0);"
+                     "[numthreads(1, 1, 1)] void main() { to.Store(0, 1); }");
+    other_ = compile("cs_6_0",
+                     "RWByteAddressBuffer to : register(u0);"
+                     "[numthreads(1, 1, 1)] void main() { to.Store(0, 2); }");
     vertex_ = compile(
-        "float4 main(float2 at : POSITION) : SV_Position { return float4(at, 0, 1); }", "vs_6_0");
-    pixel_ = compile("float4 main() : SV_Target { return 1; }", "ps_6_0");
+        "vs_6_0", "float4 main(float2 at : POSITION) : SV_Position { return float4(at, 0, 1); }");
+    pixel_ = compile("ps_6_0", "float4 main() : SV_Target { return 1; }");
     root_signature_ = root_signature(1);
-  }
-
-  ComPtr<ID3DBlob> compile(const char* text, const char* profile) {
-    ComPtr<ID3DBlob> code;
-    EXPECT_EQ(D3DCompile(text, std::strlen(text), "shader.hlsl", nullptr, nullptr, "main", profile,
-                         0, 0, code.GetAddressOf(), nullptr),
-              S_OK);
-    return code;
   }
 
   // With `views` UAVs.

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <string>
 
-#include <d3dcompiler.h>
 #include <directx/d3dx12.h>
 
 #include "d3d12/objects/d3d12_fixture.h"
@@ -37,13 +36,6 @@ class StencilDraws : public D3d12Test {
         buffer(UINT64{kRowPitch} * kSide, D3D12_HEAP_TYPE_READBACK, D3D12_RESOURCE_STATE_COPY_DEST);
   }
 
-  static ComPtr<ID3DBlob> compile(const char* profile, const std::string& text) {
-    ComPtr<ID3DBlob> code;
-    EXPECT_EQ(D3DCompile(text.data(), text.size(), "stencil.hlsl", nullptr, nullptr, "main",
-                         profile, 0, 0, code.GetAddressOf(), nullptr),
-              S_OK);
-    return code;
-  }
   ComPtr<ID3D12Resource> target(DXGI_FORMAT format, D3D12_RESOURCE_FLAGS flags,
                                 D3D12_RESOURCE_STATES state) {
     const CD3DX12_HEAP_PROPERTIES heap(D3D12_HEAP_TYPE_DEFAULT);

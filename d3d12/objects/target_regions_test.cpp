@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <d3dcompiler.h>
 #include <directx/d3dx12.h>
 
 #include "d3d12/objects/d3d12_fixture.h"
@@ -47,13 +46,6 @@ class TargetRegions : public D3d12BackendTest {
   void change(ID3D12Resource* resource, D3D12_RESOURCE_STATES before, D3D12_RESOURCE_STATES after) {
     const auto barrier = CD3DX12_RESOURCE_BARRIER::Transition(resource, before, after);
     list_->ResourceBarrier(1, &barrier);
-  }
-  static ComPtr<ID3DBlob> compile(const char* profile, const char* text) {
-    ComPtr<ID3DBlob> code;
-    EXPECT_EQ(D3DCompile(text, std::strlen(text), "target_regions.hlsl", nullptr, nullptr, "main",
-                         profile, 0, 0, code.GetAddressOf(), nullptr),
-              S_OK);
-    return code;
   }
   // Sets all that a draw to rtv() needs. The vertex shader has the root signature.
   void prepare(const char* vertex_text, const char* pixel_text, D3D12_INPUT_LAYOUT_DESC layout) {
