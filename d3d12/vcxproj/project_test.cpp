@@ -71,7 +71,7 @@ TEST_F(VcxprojProject, HostOptions) {
 
 TEST_F(VcxprojProject, ShaderItems) {
   write("main.cpp", "#include \"Compiled\\Lib.hlsl.h\"\n");
-  for (const char* file : {"lib.hlsl", "old.hlsl", "geometry.hlsl"}) write(file);
+  for (const char* file : {"lib.hlsl", "old.hlsl", "quads.hlsl", "patch.hlsl"}) write(file);
   write_project(
       "<PropertyGroup><IntDir>obj\\</IntDir></PropertyGroup>" +
       items("<ClCompile Include=\"main.cpp\"/>"
@@ -84,10 +84,12 @@ TEST_F(VcxprojProject, ShaderItems) {
             "<FxCompile Include=\"old.hlsl\"><ShaderType>Pixel</ShaderType>"
             "<ShaderModel>5.1</ShaderModel><EntryPointName>PS</EntryPointName>"
             "<ObjectFileOutput>$(OutDir)shaders\\%(Filename).cso</ObjectFileOutput></FxCompile>"
-            "<FxCompile Include=\"geometry.hlsl\"><ShaderType>Geometry</ShaderType></FxCompile>"));
+            "<FxCompile Include=\"quads.hlsl\"><ShaderType>Geometry</ShaderType>"
+            "<ShaderModel>6.0</ShaderModel></FxCompile>"
+            "<FxCompile Include=\"patch.hlsl\"><ShaderType>Hull</ShaderType></FxCompile>"));
   const auto project = imported();
   ASSERT_TRUE(project);
-  ASSERT_EQ(project->shaders.size(), 2u);
+  ASSERT_EQ(project->shaders.size(), 3u);
   const Shader& library = project->shaders[0];
   EXPECT_EQ(library.profile, "lib_6_5");
   EXPECT_EQ(library.entry, "");
@@ -98,9 +100,10 @@ TEST_F(VcxprojProject, ShaderItems) {
   EXPECT_EQ(pixel.profile, "ps_6_0");
   EXPECT_EQ(pixel.entry, "PS");
   EXPECT_EQ(pixel.object, "shaders/old.cso");
+  EXPECT_EQ(project->shaders[2].profile, "gs_6_0");
   EXPECT_THAT(notes.of(Topic::kShaders),
               ElementsAre("old.hlsl: shader model 5.1 becomes ps_6_0",
-                          "geometry.hlsl: Kaamos compiles no shaders of profile gs, left out"));
+                          "patch.hlsl: Kaamos compiles no shaders of profile hs, left out"));
 }
 
 TEST_F(VcxprojProject, CustomBuilds) {

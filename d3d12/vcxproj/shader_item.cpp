@@ -29,7 +29,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kStages 
     {"RootSignature", "rootsig"},
 }};
 
-constexpr std::array<std::string_view, 4> kCompiled = {"vs", "ps", "cs", "lib"};
+constexpr std::array<std::string_view, 5> kCompiled = {"vs", "gs", "ps", "cs", "lib"};
 
 // The profile of a stage and a shader model such as 5.0, 6_3 or 4.0_level_9_3. Nothing, with a
 // note, where kaamos-dxc has no such profile.
