@@ -137,6 +137,12 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
       const DXGI_FORMAT* const*, D3D12_RESOURCE_ALLOCATION_INFO1* infos) override {
     return GetResourceAllocationInfo2(visible_mask, count, descs, infos);
   }
+  HRESULT STDMETHODCALLTYPE CreateSharedHandle(ID3D12DeviceChild* object,
+                                               const SECURITY_ATTRIBUTES* attributes, DWORD access,
+                                               LPCWSTR name, HANDLE* handle) override;
+  HRESULT STDMETHODCALLTYPE OpenSharedHandle(HANDLE handle, REFIID riid, void** object) override;
+  HRESULT STDMETHODCALLTYPE OpenSharedHandleByName(LPCWSTR name, DWORD access,
+                                                   HANDLE* handle) override;
   D3D12_HEAP_PROPERTIES STDMETHODCALLTYPE GetCustomHeapProperties(UINT node_mask,
                                                                   D3D12_HEAP_TYPE type) override;
   void STDMETHODCALLTYPE GetCopyableFootprints(const D3D12_RESOURCE_DESC* desc, UINT first,
@@ -188,6 +194,9 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   // Pipelines
   HRESULT STDMETHODCALLTYPE CreateRootSignature(UINT node_mask, const void* blob, SIZE_T size,
                                                 REFIID riid, void** root_signature) override;
+  HRESULT STDMETHODCALLTYPE CreateRootSignatureFromSubobjectInLibrary(
+      UINT node_mask, const void* blob, SIZE_T size, LPCWSTR subobject, REFIID riid,
+      void** root_signature) override;
   HRESULT STDMETHODCALLTYPE CreateComputePipelineState(
       const D3D12_COMPUTE_PIPELINE_STATE_DESC* desc, REFIID riid, void** pipeline) override;
   HRESULT STDMETHODCALLTYPE CreateGraphicsPipelineState(

@@ -7,6 +7,7 @@
 #include <directx/d3dx12.h>
 
 #include "d3d12/com/blob.h"
+#include "d3d12/com/text.h"
 #include "d3d12/container/container.h"
 #include "d3d12/container/root_signature_blob.h"
 #include "d3d12/container/shader_bytecode.h"
@@ -151,6 +152,24 @@ HRESULT Device::CreateRootSignature(UINT, const void* blob, SIZE_T size, REFIID 
   if (!made) return fail(made.error());
   return hand_out(new RootSignature(this, *made, root_signature_identity(blob, size)), riid,
                   root_signature);
+}
+
+HRESULT Device::CreateRootSignatureFromSubobjectInLibrary(UINT, const void* blob, SIZE_T size,
+                                                          LPCWSTR subobject, REFIID riid,
+                                                          void** root_signature) {
+  if (root_signature != nullptr) *root_signature = nullptr;
+  if (blob == nullptr || subobject == nullptr) {
+    return fail(ErrorId::kNullPointer,
+                "CreateRootSignatureFromSubobjectInLibrary: pLibraryBlob or subobjectName.");
+  }
+  const auto library = load_shader(blob, size, reporter());
+  if (!library) return fail(library.error());
+  const std::string name = to_utf8(subobject);
+  auto made = device_.CreateRootSignature(*library, name);
+  if (!made) return fail(made.error());
+  const std::string named = std::string(static_cast<const char*>(blob), size) + name;
+  const Identity identity = root_signature_identity(named.data(), named.size());
+  return hand_out(new RootSignature(this, *made, identity), riid, root_signature);
 }
 
 HRESULT Device::create_compute(const D3D12_COMPUTE_PIPELINE_STATE_DESC& desc, REFIID riid,

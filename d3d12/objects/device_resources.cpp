@@ -63,7 +63,7 @@ rtapi::Result<rtapi::HeapType> heap_type(const D3D12_HEAP_PROPERTIES& heap) {
 rtapi::Result<rtapi::Resource> make_buffer(const rtapi::Device& device,
                                            const D3D12_HEAP_PROPERTIES& heap,
                                            const D3D12_RESOURCE_DESC1& desc,
-                                           D3D12_RESOURCE_STATES state) {
+                                           D3D12_RESOURCE_STATES state, const HeapPlace& place) {
   if (const auto checked = check_buffer_desc(desc); !checked.ok()) return checked.error();
   const auto type = heap_type(heap);
   if (!type) return type.error();
@@ -84,7 +84,8 @@ rtapi::Result<rtapi::Resource> make_buffer(const rtapi::Device& device,
   out.Flags =
       static_cast<rtapi::ResourceFlags>(desc.Flags & D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS);
   out.InitialState = static_cast<rtapi::ResourceStates>(state);
-  auto buffer = device.CreateBuffer(out);
+  auto buffer = place.memory ? rtapi::CreatePlacedResource(place.memory, place.offset, out)
+                             : device.CreateBuffer(out);
   if (!buffer) return buffer.error();
   return rtapi::Resource(*buffer);
 }
@@ -93,7 +94,8 @@ rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
                                             const D3D12_HEAP_PROPERTIES& heap,
                                             const D3D12_RESOURCE_DESC1& desc,
                                             D3D12_RESOURCE_STATES state,
-                                            const D3D12_CLEAR_VALUE* clear) {
+                                            const D3D12_CLEAR_VALUE* clear,
+                                            const HeapPlace& place) {
   const auto type = heap_type(heap);
   if (!type) return type.error();
   // WriteToSubresource and ReadFromSubresource need a custom heap.
@@ -113,14 +115,29 @@ rtapi::Result<rtapi::Resource> make_texture(const rtapi::Device& device,
       std::copy_n(clear->Color, 4, out->OptimizedClearValue.Color);
     }
   }
-  auto texture = device.CreateTexture(*out);
+  auto texture = place.memory
+                     ? rtapi::CreatePlacedResource(place.memory, place.offset, *out, desc.Alignment)
+                     : device.CreateTexture(*out);
   if (!texture) return texture.error();
   return rtapi::Resource(*texture);
 }
 
+// Memory for a committed resource that other devices may open.
+rtapi::Result<rtapi::Heap> memory_to_share(const rtapi::Device& device,
+                                           const D3D12_HEAP_PROPERTIES& heap,
+                                           const D3D12_RESOURCE_DESC1& desc) {
+  const auto type = heap_type(heap);
+  if (!type) return type.error();
+  const auto info = allocation_info(device, desc);
+  if (!info.ok()) return info.error();
+  return rtapi::CreateHeap(device, {info->SizeInBytes, *type, "a shared resource"});
+}
+
+}  // namespace
+
 HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS flags,
                       const D3D12_RESOURCE_DESC1& desc, D3D12_RESOURCE_STATES state,
-                      const D3D12_CLEAR_VALUE* clear, Heap* placed_in, REFIID riid,
+                      const D3D12_CLEAR_VALUE* clear, const HeapPlace& place, REFIID riid,
                       void** resource) {
   const bool is_target = (desc.Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
                                         D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) != 0;
@@ -130,18 +147,16 @@ HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_H
                                   "ALLOW_RENDER_TARGET and ALLOW_DEPTH_STENCIL; pass null.");
   }
   auto made = desc.Dimension == D3D12_RESOURCE_DIMENSION_BUFFER
-                  ? make_buffer(device.rtapi_device(), heap, desc, state)
-                  : make_texture(device.rtapi_device(), heap, desc, state, clear);
+                  ? make_buffer(device.rtapi_device(), heap, desc, state, place)
+                  : make_texture(device.rtapi_device(), heap, desc, state, clear, place);
   if (!made) return device.reporter().fail(made.error());
-  const auto alignment = placement_alignment(desc);
-  if (!alignment) return device.reporter().fail(alignment.error());
+  const auto info = allocation_info(device.rtapi_device(), desc);
+  if (!info.ok()) return device.reporter().fail(info.error());
   D3D12_RESOURCE_DESC1 stored = desc;
-  stored.Alignment = *alignment;
-  return hand_out(new Resource(&device, *std::move(made), stored, heap, flags, placed_in), riid,
+  stored.Alignment = info->Alignment;
+  return hand_out(new Resource(&device, *std::move(made), stored, heap, flags, place), riid,
                   resource);
 }
-
-}  // namespace
 
 HRESULT Device::CreateCommittedResource2(const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags,
                                          const D3D12_RESOURCE_DESC1* desc,
@@ -153,7 +168,13 @@ HRESULT Device::CreateCommittedResource2(const D3D12_HEAP_PROPERTIES* heap, D3D1
   if (heap == nullptr || desc == nullptr) {
     return fail(ErrorId::kNullPointer, "CreateCommittedResource: pHeapProperties or pDesc.");
   }
-  return make_resource(*this, *heap, flags, *desc, state, clear, nullptr, riid, resource);
+  HeapPlace place;
+  if ((flags & D3D12_HEAP_FLAG_SHARED) != 0) {
+    auto memory = memory_to_share(device_, *heap, *desc);
+    if (!memory.ok()) return fail(memory.error());
+    place.memory = *std::move(memory);
+  }
+  return make_resource(*this, *heap, flags, *desc, state, clear, place, riid, resource);
 }
 
 HRESULT Device::CreateCommittedResource1(const D3D12_HEAP_PROPERTIES* heap, D3D12_HEAP_FLAGS flags,
@@ -222,7 +243,8 @@ HRESULT Device::CreateHeap1(const D3D12_HEAP_DESC* desc, ID3D12ProtectedResource
                             REFIID riid, void** heap) {
   if (heap != nullptr) *heap = nullptr;
   if (desc == nullptr) return fail(ErrorId::kNullPointer, "CreateHeap: pDesc.");
-  if (const auto type = heap_type(desc->Properties); !type) return fail(type.error());
+  const auto type = heap_type(desc->Properties);
+  if (!type) return fail(type.error());
   if (desc->SizeInBytes == 0) return fail(ErrorId::kHeap, "SizeInBytes is 0.");
   if (desc->Alignment != 0 && desc->Alignment != kPlacement &&
       desc->Alignment != D3D12_DEFAULT_MSAA_RESOURCE_PLACEMENT_ALIGNMENT) {
@@ -237,7 +259,13 @@ HRESULT Device::CreateHeap1(const D3D12_HEAP_DESC* desc, ID3D12ProtectedResource
   if (stored.Properties.CreationNodeMask == 0) stored.Properties.CreationNodeMask = 1;
   if (stored.Properties.VisibleNodeMask == 0) stored.Properties.VisibleNodeMask = 1;
   if (stored.Alignment == 0) stored.Alignment = kPlacement;
-  return hand_out(new Heap(this, stored), riid, heap);
+  // A heap's memory is whole multiples of its alignment. [D3D12: D3D12_HEAP_DESC]
+  uint64_t bytes = stored.SizeInBytes;
+  const uint64_t past = bytes % stored.Alignment;
+  if (past != 0 && bytes < UINT64_MAX - stored.Alignment) bytes += stored.Alignment - past;
+  auto memory = rtapi::CreateHeap(device_, {bytes, *type});
+  if (!memory.ok()) return fail(memory.error());
+  return hand_out(new Heap(this, *std::move(memory), stored), riid, heap);
 }
 
 HRESULT Device::CreateHeap(const D3D12_HEAP_DESC* desc, REFIID riid, void** heap) {
@@ -253,20 +281,6 @@ HRESULT Device::CreatePlacedResource1(ID3D12Heap* heap, UINT64 offset,
     return fail(ErrorId::kNullPointer, "CreatePlacedResource: pHeap or pDesc.");
   }
   const D3D12_HEAP_DESC heap_desc = heap->GetDesc();
-  const D3D12_RESOURCE_ALLOCATION_INFO info = GetResourceAllocationInfo2(0, 1, desc, nullptr);
-  if (info.SizeInBytes == UINT64_MAX) {
-    return fail(ErrorId::kResource, "CreatePlacedResource: the desc describes no resource.");
-  }
-  // A heap's memory is whole multiples of its alignment. [D3D12: D3D12_HEAP_DESC]
-  const uint64_t heap_bytes =
-      (heap_desc.SizeInBytes + heap_desc.Alignment - 1) / heap_desc.Alignment * heap_desc.Alignment;
-  if (offset % info.Alignment != 0 || offset > heap_bytes ||
-      info.SizeInBytes > heap_bytes - offset) {
-    return fail(ErrorId::kHeap, "CreatePlacedResource: bytes " + std::to_string(offset) + " to " +
-                                    std::to_string(offset + info.SizeInBytes) + " of a heap of " +
-                                    std::to_string(heap_bytes) + "; the offset is a multiple of " +
-                                    std::to_string(info.Alignment) + ".");
-  }
   const bool is_target = (desc->Flags & (D3D12_RESOURCE_FLAG_ALLOW_RENDER_TARGET |
                                          D3D12_RESOURCE_FLAG_ALLOW_DEPTH_STENCIL)) != 0;
   const D3D12_HEAP_FLAGS denied = desc->Dimension == D3D12_RESOURCE_DIMENSION_BUFFER
@@ -278,8 +292,9 @@ HRESULT Device::CreatePlacedResource1(ID3D12Heap* heap, UINT64 offset,
                 "CreatePlacedResource: Flags of the heap, " + std::to_string(heap_desc.Flags) +
                     ", deny this kind of resource by flag " + std::to_string(denied) + ".");
   }
+  auto* placed_in = static_cast<Heap*>(heap);
   return make_resource(*this, heap_desc.Properties, heap_desc.Flags, *desc, state, clear,
-                       static_cast<Heap*>(heap), riid, resource);
+                       {placed_in, placed_in->rtapi_heap(), offset}, riid, resource);
 }
 
 HRESULT Device::CreatePlacedResource(ID3D12Heap* heap, UINT64 offset,

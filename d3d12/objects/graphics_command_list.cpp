@@ -190,7 +190,10 @@ void GraphicsCommandList::ResourceBarrier(UINT count, const D3D12_RESOURCE_BARRI
         recorded.push_back(rtapi::ResourceBarrier::Uav(rtapi_resource(barrier.UAV.pResource)));
         break;
       case D3D12_RESOURCE_BARRIER_TYPE_ALIASING:
-        break;  // placed resources share no memory (heap.h)
+        recorded.push_back(
+            rtapi::ResourceBarrier::Aliasing(rtapi_resource(barrier.Aliasing.pResourceBefore),
+                                             rtapi_resource(barrier.Aliasing.pResourceAfter)));
+        break;
       default:
         refuse(ErrorId::kBarrier, "pBarriers[" + std::to_string(i) + "].Type is " +
                                       std::to_string(barrier.Type) + "; it is 0, 1 or 2.");

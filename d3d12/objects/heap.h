@@ -2,16 +2,21 @@
 // ID3D12Heap: memory that placed resources are made in.
 #pragma once
 
+#include <utility>
+
+#include <rtapi/heap.h>
+
 #include "d3d12/objects/device_child.h"
 
 namespace kaamos::d3d12 {
 
-/// A heap. It reserves no memory: each placed resource has its own, so that resources that overlap
-/// in the heap do not share bytes. A program that obeys D3D12's rule on aliasing (after an aliasing
-/// barrier the contents are undefined until they are written) sees no difference.
+/// A heap, whose bytes resources share that overlap in it. [rtapi/heap.h]
 class Heap final : public DeviceChild<ID3D12HeapEntries> {
  public:
-  Heap(ID3D12Device* device, const D3D12_HEAP_DESC& desc) : DeviceChild(device), desc_(desc) {}
+  Heap(ID3D12Device* device, rtapi::Heap heap, const D3D12_HEAP_DESC& desc)
+      : DeviceChild(device), heap_(std::move(heap)), desc_(desc) {}
+
+  const rtapi::Heap& rtapi_heap() const { return heap_; }
 
   D3D12_HEAP_DESC STDMETHODCALLTYPE GetDesc() override { return desc_; }
   HRESULT STDMETHODCALLTYPE GetProtectedResourceSession(REFIID, void** session) override {
@@ -20,6 +25,7 @@ class Heap final : public DeviceChild<ID3D12HeapEntries> {
   }
 
  private:
+  rtapi::Heap heap_;
   D3D12_HEAP_DESC desc_;
 };
 

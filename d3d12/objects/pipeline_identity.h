@@ -12,7 +12,8 @@ namespace kaamos::d3d12 {
 /// 128 bits, equal for equal descriptions wherever these lie in memory.
 using Identity = std::array<uint32_t, 4>;
 
-/// That of a serialized root signature, or of a library that declares one.
+/// That of a serialized root signature, or of a library that declares one; with several, the name
+/// of one follows the bytes of the library.
 Identity root_signature_identity(const void* blob, size_t size);
 
 /// Those of pipelines: of all members but NodeMask, CachedPSO and Flags, with the bytes of shaders

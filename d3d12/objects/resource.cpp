@@ -12,13 +12,15 @@
 namespace kaamos::d3d12 {
 
 Resource::Resource(ID3D12Device* device, rtapi::Resource resource, const D3D12_RESOURCE_DESC1& desc,
-                   const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags, Heap* placed_in)
+                   const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags,
+                   const HeapPlace& place)
     : DeviceChild(device),
       resource_(std::move(resource)),
       desc_(desc),
       heap_(heap),
       heap_flags_(heap_flags),
-      placed_in_(placed_in) {
+      placed_in_(place.heap),
+      shared_memory_(place.heap == nullptr ? place.memory : rtapi::Heap{}) {
   if (heap_.CreationNodeMask == 0) heap_.CreationNodeMask = 1;
   if (heap_.VisibleNodeMask == 0) heap_.VisibleNodeMask = 1;
   if (const rtapi::Texture texture = this->texture()) {

@@ -12,17 +12,29 @@
 
 namespace kaamos::d3d12 {
 
+class Device;
+
+/// Where a resource lies: in a heap of the program's, in one that a committed resource has for
+/// itself so that another device can open it, or, without any, in memory of its own.
+struct HeapPlace {
+  Heap* heap = nullptr;  ///< the program's
+  rtapi::Heap memory = {};
+  uint64_t offset = 0;  ///< bytes
+};
+
 /// A committed or placed resource.
 class Resource final : public DeviceChild<ID3D12ResourceEntries> {
  public:
   Resource(ID3D12Device* device, rtapi::Resource resource, const D3D12_RESOURCE_DESC1& desc,
-           const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags, Heap* placed_in);
+           const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS heap_flags, const HeapPlace& place);
 
   const rtapi::Resource& rtapi_resource() const { return resource_; }
   bool is_buffer() const { return std::holds_alternative<rtapi::Buffer>(resource_); }
   /// Empty if the resource is of the other kind.
   rtapi::Buffer buffer() const;
   rtapi::Texture texture() const;
+  /// The memory that a committed resource shares with other devices; empty if it shares none.
+  const rtapi::Heap& shared_memory() const { return shared_memory_; }
 
   HRESULT STDMETHODCALLTYPE Map(UINT subresource, const D3D12_RANGE* read_range,
                                 void** data) override;
@@ -68,6 +80,7 @@ class Resource final : public DeviceChild<ID3D12ResourceEntries> {
   D3D12_HEAP_PROPERTIES heap_;
   D3D12_HEAP_FLAGS heap_flags_;
   Held<Heap> placed_in_;
+  rtapi::Heap shared_memory_;
 };
 
 /// Returns the object behind an interface of this library; an empty handle for null.
@@ -91,10 +104,17 @@ D3D12_RESOURCE_DESC1 with_sampler_feedback(const D3D12_RESOURCE_DESC& desc);
 /// @errors KA4011.
 rtapi::Status check_buffer_desc(const D3D12_RESOURCE_DESC1& desc);
 
-/// The alignment in bytes that a resource has in a heap: the one that `desc` asks for, or for 0 the
-/// usual one. [D3D12: D3D12_RESOURCE_DESC, Alignment]
-/// @errors KA4011.
-rtapi::Result<uint64_t> placement_alignment(const D3D12_RESOURCE_DESC1& desc);
+/// The room that a resource takes in a heap, with the alignment that `desc` asks for.
+/// @errors KA4011; for textures those of rtapi::GetResourceAllocationInfo.
+rtapi::Result<rtapi::ResourceAllocationInfo> allocation_info(const rtapi::Device& device,
+                                                             const D3D12_RESOURCE_DESC1& desc);
+
+/// Makes the resource of `desc`, which lies at `place`.
+/// @errors KA4010 the heap, KA4011 `desc`; those of rtapi.
+HRESULT make_resource(Device& device, const D3D12_HEAP_PROPERTIES& heap, D3D12_HEAP_FLAGS flags,
+                      const D3D12_RESOURCE_DESC1& desc, D3D12_RESOURCE_STATES state,
+                      const D3D12_CLEAR_VALUE* clear, const HeapPlace& place, REFIID riid,
+                      void** resource);
 
 /// rtapi's description of a texture. Refuses what rtapi has no member for: several samples, unknown
 /// layouts.

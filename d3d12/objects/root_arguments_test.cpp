@@ -206,5 +206,35 @@ TEST_P(RootArguments, TheSignatureOfThePipelineDecidesWhichRegisterReadsAnArgume
   EXPECT_EQ(messages()[1].substr(0, 6), "KA0812");
 }
 
+// [D3D12: CreateRootSignatureFromSubobjectInLibrary]
+TEST_P(RootArguments, ASubobjectOfALibraryIsARootSignature) {
+  const std::string library =
+      "GlobalRootSignature first = {\"RootConstants(num32BitConstants=1, b0), UAV(u0)\"};"
+      "GlobalRootSignature second = {\"UAV(u0), RootConstants(num32BitConstants=1, b0)\"};";
+  ComPtr<ID3DBlob> code;
+  ASSERT_EQ(D3DCompile(library.data(), library.size(), "library.hlsl", nullptr, nullptr, "",
+                       "lib_6_3", 0, 0, code.GetAddressOf(), nullptr),
+            S_OK);
+  ComPtr<ID3D12Device14> device;
+  ASSERT_EQ(device_.As(&device), S_OK);
+  ComPtr<ID3D12RootSignature> second;
+  ASSERT_EQ(device->CreateRootSignatureFromSubobjectInLibrary(0, code->GetBufferPointer(),
+                                                              code->GetBufferSize(), L"second",
+                                                              IID_PPV_ARGS(second.GetAddressOf())),
+            S_OK);
+  ASSERT_EQ(pipeline(second.Get(),
+                     "cbuffer C : register(b0) { uint c; } RWByteAddressBuffer o : register(u0);"
+                     "[numthreads(1, 1, 1)] void main() { o.Store(0, c); }"),
+            S_OK);
+  list_->SetComputeRootSignature(second.Get());
+  list_->SetComputeRootUnorderedAccessView(0, out(0));
+  list_->SetComputeRoot32BitConstant(1, 42, 0);
+  dispatch();
+  EXPECT_EQ(run_and_read()[0], 42u);
+  EXPECT_TRUE(FAILED(device->CreateRootSignatureFromSubobjectInLibrary(
+      0, code->GetBufferPointer(), code->GetBufferSize(), L"third",
+      IID_PPV_ARGS(second.ReleaseAndGetAddressOf()))));
+}
+
 }  // namespace
 }  // namespace kaamos::d3d12

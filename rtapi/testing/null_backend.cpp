@@ -48,6 +48,14 @@ class NullBackend : public runtime::BackendDevice {
   Result<std::shared_ptr<runtime::BackendTexture>> create_texture(const TextureDesc&) override {
     return std::make_shared<runtime::BackendTexture>();
   }
+  Result<std::shared_ptr<runtime::BackendBuffer>> create_placed_buffer(
+      const runtime::HeapPlace&, const BufferDesc& desc) override {
+    return create_buffer(desc);
+  }
+  Result<std::shared_ptr<runtime::BackendTexture>> create_placed_texture(
+      const runtime::HeapPlace&, const TextureDesc& desc) override {
+    return create_texture(desc);
+  }
   Result<uint64_t> create_texture_view(runtime::BackendTexture&,
                                        const runtime::TextureViewDesc& desc) override {
     g_log.texture_views.push_back(desc);

@@ -21,6 +21,7 @@
 
 #include "runtime/backend/address_map.h"
 #include "runtime/backend/commands.h"
+#include "runtime/backend/heap_memory.h"
 #include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::checks {
@@ -87,6 +88,19 @@ class BackendDevice {
   // MipLevels must be resolved.
   virtual rtapi::Result<std::shared_ptr<BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) = 0;
+  // The same in the memory of a heap, as what lies there; it has room for the resource. What the
+  // backend cannot place has memory of its own: block-compressed textures, of which it may keep
+  // the texels, and everything where the device cannot use pages of this process.
+  virtual rtapi::Result<std::shared_ptr<BackendBuffer>> create_placed_buffer(
+      const HeapPlace& place, const rtapi::BufferDesc& desc) = 0;
+  virtual rtapi::Result<std::shared_ptr<BackendTexture>> create_placed_texture(
+      const HeapPlace& place, const rtapi::TextureDesc& desc) = 0;
+  // The bytes that such a texture needs beyond its texels, each subresource of them rounded up to
+  // 64 bytes; in all, or 0.
+  virtual uint64_t placed_bytes(const rtapi::TextureDesc& desc) const {
+    (void)desc;
+    return 0;
+  }
   // Creates a view and returns what goes into Descriptor::address. The view lives as long as the
   // texture; views with equal descs may share one.
   virtual rtapi::Result<uint64_t> create_texture_view(BackendTexture& texture,

@@ -156,16 +156,35 @@ rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Device::create_buffer(
       std::make_shared<Buffer>(memory_, block, desc.SizeInBytes));
 }
 
+namespace {
+
+rtapi::Result<std::shared_ptr<runtime::BackendTexture>> texture_or_error(
+    std::shared_ptr<Texture> texture, const rtapi::TextureDesc& desc) {
+  if (texture != nullptr) return std::shared_ptr<runtime::BackendTexture>(std::move(texture));
+  const rtapi::FormatInfo format = rtapi::GetFormatInfo(desc.Format);
+  return out_of_memory("texture \"" + desc.Name + "\"",
+                       uint64_t{desc.Width} * desc.Height * desc.DepthOrArraySize * format.bytes /
+                           (format.block_side * format.block_side));
+}
+
+}  // namespace
+
 rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_texture(
     const rtapi::TextureDesc& desc) {
-  std::shared_ptr<Texture> texture = Texture::create(desc, views_);
-  if (texture == nullptr) {
-    const rtapi::FormatInfo format = rtapi::GetFormatInfo(desc.Format);
-    return out_of_memory("texture \"" + desc.Name + "\"",
-                         uint64_t{desc.Width} * desc.Height * desc.DepthOrArraySize * format.bytes /
-                             (format.block_side * format.block_side));
-  }
-  return std::shared_ptr<runtime::BackendTexture>(std::move(texture));
+  return texture_or_error(Texture::create(desc, views_), desc);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Device::create_placed_buffer(
+    const runtime::HeapPlace& place, const rtapi::BufferDesc& desc) {
+  runtime::MappedPages mapping = place.map();
+  if (!mapping) return out_of_memory("buffer \"" + desc.Name + "\"", desc.SizeInBytes);
+  return std::shared_ptr<runtime::BackendBuffer>(
+      std::make_shared<Buffer>(memory_, std::move(mapping), desc.SizeInBytes));
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_placed_texture(
+    const runtime::HeapPlace& place, const rtapi::TextureDesc& desc) {
+  return texture_or_error(Texture::create(desc, views_, &place), desc);
 }
 
 rtapi::Result<uint64_t> Device::create_texture_view(runtime::BackendTexture& texture,

@@ -34,6 +34,10 @@ class Device final : public runtime::BackendDevice {
       const rtapi::BufferDesc& desc) override;
   rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> create_placed_buffer(
+      const runtime::HeapPlace& place, const rtapi::BufferDesc& desc) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_placed_texture(
+      const runtime::HeapPlace& place, const rtapi::TextureDesc& desc) override;
   rtapi::Result<uint64_t> create_texture_view(runtime::BackendTexture& texture,
                                               const runtime::TextureViewDesc& desc) override;
   rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override;

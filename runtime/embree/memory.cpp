@@ -52,7 +52,7 @@ std::shared_ptr<const TopLevel> Memory::find_top_level(uint64_t address) const {
 
 Buffer::~Buffer() {
   memory_->evict(address(), size_bytes_);
-  Memory::release(block_, size_bytes_);
+  if (!mapping_) Memory::release(block_, size_bytes_);
 }
 
 }  // namespace kaamos::embree

@@ -24,8 +24,14 @@ class Memory : public runtime::StructureMap {
   std::shared_ptr<const TopLevel> find_top_level(uint64_t address) const;
 };
 
+// The bytes of a heap's pages, or of a block of its own.
 class Buffer final : public runtime::BackendBuffer {
  public:
+  Buffer(std::shared_ptr<Memory> memory, runtime::MappedPages mapping, uint64_t size_bytes)
+      : memory_(std::move(memory)),
+        mapping_(std::move(mapping)),
+        block_(mapping_.first()),
+        size_bytes_(size_bytes) {}
   Buffer(std::shared_ptr<Memory> memory, uint8_t* block, uint64_t size_bytes)
       : memory_(std::move(memory)), block_(block), size_bytes_(size_bytes) {}
   ~Buffer() override;
@@ -36,6 +42,7 @@ class Buffer final : public runtime::BackendBuffer {
 
  private:
   std::shared_ptr<Memory> memory_;
+  runtime::MappedPages mapping_;
   uint8_t* block_;
   uint64_t size_bytes_;
 };

@@ -72,9 +72,12 @@ Texture::Texture(const rtapi::TextureDesc& desc, std::shared_ptr<ViewPool> pool)
               rtapi::GetFormatInfo(desc.Format).block_side) {}
 
 std::shared_ptr<Texture> Texture::create(const rtapi::TextureDesc& desc,
-                                         std::shared_ptr<ViewPool> pool) {
+                                         std::shared_ptr<ViewPool> pool,
+                                         const runtime::HeapPlace* place) {
   std::shared_ptr<Texture> texture(new Texture(desc, std::move(pool)));
-  return texture->stored_.allocate() ? texture : nullptr;
+  const bool shares = place != nullptr && rtapi::GetFormatInfo(desc.Format).block_side == 1;
+  const bool made = shares ? texture->stored_.map(*place) : texture->stored_.allocate();
+  return made ? texture : nullptr;
 }
 
 Texture::~Texture() {

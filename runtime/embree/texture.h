@@ -39,9 +39,11 @@ class ViewPool {
 // asks for.
 class Texture final : public runtime::BackendTexture {
  public:
-  // Null if out of memory.
+  // `place`: null, or where in a heap it lies; one with blocks lies nowhere, since what others
+  // write there would not be decoded. Null if out of memory.
   static std::shared_ptr<Texture> create(const rtapi::TextureDesc& desc,
-                                         std::shared_ptr<ViewPool> pool);
+                                         std::shared_ptr<ViewPool> pool,
+                                         const runtime::HeapPlace* place = nullptr);
   ~Texture() override;
 
   rtapi::Format format() const { return desc_.Format; }

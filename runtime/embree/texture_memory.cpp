@@ -27,20 +27,33 @@ TextureMemory::TextureMemory(const rtapi::TextureDesc& desc, uint32_t element_by
       element_bytes_(element_bytes),
       block_side_(block_side) {
   if (is_volume_) size_[2] = desc.DepthOrArraySize;
-  const uint32_t planes = samples_ > 1 ? samples_ : desc.MipLevels;
-  for (uint32_t mip = 0; mip < planes; ++mip) {
-    mip_offsets_.push_back(array_pitch_);
+  mip_offsets_.resize(samples_ > 1 ? samples_ : desc.MipLevels);
+  lay_out();
+}
+
+void TextureMemory::lay_out() {
+  array_pitch_ = 0;
+  for (uint32_t mip = 0; mip < mip_offsets_.size(); ++mip) {
+    mip_offsets_[mip] = array_pitch_;
     const Subresource s = mip_layout(mip);
     array_pitch_ += (s.slice_pitch * s.extent[2] + 63) / 64 * 64;
   }
 }
 
 TextureMemory::~TextureMemory() {
-  if (memory_ != nullptr) Memory::release(memory_, size_bytes());
+  if (memory_ != nullptr && !mapping_) Memory::release(memory_, size_bytes());
 }
 
 bool TextureMemory::allocate() {
   memory_ = Memory::allocate(size_bytes());
+  return memory_ != nullptr;
+}
+
+bool TextureMemory::map(const runtime::HeapPlace& place) {
+  packed_ = true;
+  lay_out();
+  mapping_ = place.map();
+  memory_ = mapping_.first();
   return memory_ != nullptr;
 }
 
@@ -50,7 +63,8 @@ TextureMemory::Subresource TextureMemory::mip_layout(uint32_t mip) const {
     const uint32_t texels = std::max(size_[i] >> (samples_ > 1 ? 0 : mip), 1u);
     s.extent[i] = i < 2 ? (texels + block_side_ - 1) / block_side_ : texels;
   }
-  s.row_pitch = row_pitch_of(uint64_t{s.extent[0]} * element_bytes_);
+  const uint64_t row_bytes = uint64_t{s.extent[0]} * element_bytes_;
+  s.row_pitch = packed_ ? row_bytes : row_pitch_of(row_bytes);
   s.slice_pitch = s.row_pitch * s.extent[1];
   return s;
 }

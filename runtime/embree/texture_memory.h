@@ -10,6 +10,8 @@
 
 #include <rtapi/resource.h>
 
+#include "runtime/backend/heap_memory.h"
+
 namespace kaamos::embree {
 
 class TextureMemory {
@@ -22,6 +24,8 @@ class TextureMemory {
 
   // Zeros. False if out of memory.
   bool allocate();
+  // What lies in a heap, with rows that follow each other. False if out of memory.
+  bool map(const runtime::HeapPlace& place);
 
   struct Subresource {
     uint8_t* first = nullptr;
@@ -44,6 +48,7 @@ class TextureMemory {
   uint64_t size_bytes() const { return array_pitch_ * array_size_; }
 
  private:
+  void lay_out();
   Subresource mip_layout(uint32_t mip) const;
 
   uint32_t size_[3];
@@ -52,9 +57,11 @@ class TextureMemory {
   uint32_t array_size_;
   uint32_t element_bytes_;
   uint32_t block_side_;
+  bool packed_ = false;  // rows follow each other
   uint64_t array_pitch_ = 0;
   std::vector<uint64_t> mip_offsets_;
   uint8_t* memory_ = nullptr;
+  runtime::MappedPages mapping_;  // of memory_, if it is a heap's
 };
 
 }  // namespace kaamos::embree

@@ -70,6 +70,20 @@ rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_texture(
   return textures_->create_texture(desc);
 }
 
+rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Device::create_placed_buffer(
+    const runtime::HeapPlace& place, const rtapi::BufferDesc& desc) {
+  return memory_->place_buffer(*gpu_, place, desc, memory_);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_placed_texture(
+    const runtime::HeapPlace& place, const rtapi::TextureDesc& desc) {
+  return textures_->create_placed_texture(place, desc);
+}
+
+uint64_t Device::placed_bytes(const rtapi::TextureDesc& desc) const {
+  return textures_->placed_bytes(desc);
+}
+
 rtapi::Result<uint64_t> Device::create_texture_view(runtime::BackendTexture& texture,
                                                     const runtime::TextureViewDesc& desc) {
   return textures_->create_view(texture, desc);

@@ -47,6 +47,24 @@ TEST_P(Structure, BuildTraceUpdateTraceWithBarriersIsSilent) {
   expect_none();
 }
 
+// [AS-23]
+TEST_P(Structure, PlacedOverAnotherResource) {
+  const Heap heap = CreateHeap(device_, {.SizeInBytes = 262144, .Name = "frame"}).value();
+  const auto place = [&](uint64_t offset, const char* name, bool structures) {
+    BufferDesc desc{
+        .SizeInBytes = 131072, .Flags = ResourceFlags::kAllowUnorderedAccess, .Name = name};
+    if (structures) desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+    return CreatePlacedResource(heap, offset, desc).value();
+  };
+  const Buffer scene = place(0, "scene", true);
+  const Buffer also = place(65536, "other scene", true);
+  expect_none();
+  { const Buffer beside = place(131072, "particles", false); }
+  expect_one("KA0492", {"buffer \"other scene\", which is for acceleration structures, lies at "
+                        "bytes 65536..196608",
+                        "buffer \"particles\" at 131072..262144"});
+}
+
 TEST_P(Structure, MissingBarrierBetweenBuilds) {
   const auto descs = triangles();
   const auto inputs = bottom_inputs(descs);

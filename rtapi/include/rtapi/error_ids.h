@@ -166,6 +166,7 @@ inline constexpr ErrorId kCopyBlocks{572};  ///< copy of parts of blocks
 inline constexpr ErrorId kSampleCount{573};  ///< sample count that a texture or pipeline cannot have
 inline constexpr ErrorId kSampleMismatch{574};  ///< sample counts that differ
 inline constexpr ErrorId kResolve{575};  ///< resolve of what cannot be resolved
+inline constexpr ErrorId kPlacement{576};  ///< heap, or a place in one, that cannot be
 inline constexpr ErrorId kRootSignatureTooLarge{600};  ///< root signature too large
 inline constexpr ErrorId kLocalRootSignatureTooLarge{601};  ///< local root signature too large
 inline constexpr ErrorId kLocalRootSignatureFlags{602};  ///< invalid root signature flags

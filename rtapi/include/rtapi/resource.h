@@ -232,15 +232,16 @@ using Resource = std::variant<std::monostate, Buffer, Texture>;
 // ---------------------------------------------------------------------------------------------
 // Barriers
 
-/// The kind of barrier. kAliasing is refused (KA0802): there are no placed resources.
+/// The kind of barrier.
 /// [D3D12: D3D12_RESOURCE_BARRIER_TYPE]
 enum class ResourceBarrierType : uint32_t { kTransition = 0, kAliasing = 1, kUav = 2 };
 
-/// A barrier for CommandList::ResourceBarrier; make it by Transition or Uav.
+/// A barrier for CommandList::ResourceBarrier; make it by Transition, Uav or Aliasing.
 /// [D3D12: D3D12_RESOURCE_BARRIER]
 struct ResourceBarrier {
-  ResourceBarrierType Type = ResourceBarrierType::kUav;  ///< kTransition or kUav
-  /// The resource that the barrier is for. Empty in a UAV barrier: every resource.
+  ResourceBarrierType Type = ResourceBarrierType::kUav;
+  /// The resource that the barrier is for. Empty in a UAV barrier: every resource. In an aliasing
+  /// barrier: the placed resource that was used before; empty: any.
   /// [DXR: Synchronizing acceleration structure memory writes/reads]
   rtapi::Resource Resource = {};
   /// Transitions of textures: one subresource, or all of them.
@@ -250,20 +251,29 @@ struct ResourceBarrier {
   ResourceStates StateBefore = ResourceStates::kCommon;
   ResourceStates StateAfter = ResourceStates::kCommon;
   ///@}
+  /// Aliasing: the placed resource that is used from now on; empty: any.
+  rtapi::Resource ResourceAfter = {};
 
   /// A transition of `resource`, or of one subresource of a texture, from state `before` to
   /// `after`. The rules are checked by CommandList::ResourceBarrier.
   static ResourceBarrier Transition(rtapi::Resource resource, ResourceStates before,
                                     ResourceStates after,
                                     uint32_t subresource = kResourceBarrierAllSubresources) {
-    return {ResourceBarrierType::kTransition, std::move(resource), subresource, before, after};
+    return {ResourceBarrierType::kTransition, std::move(resource), subresource, before, after, {}};
   }
   /// Orders unordered accesses, builds and reads of acceleration structures before the barrier and
   /// those after it; without a resource for all of them.
   /// [DXR: Synchronizing acceleration structure memory writes/reads]
   static ResourceBarrier Uav(rtapi::Resource resource = {}) {
-    return {ResourceBarrierType::kUav, std::move(resource), kResourceBarrierAllSubresources,
-            ResourceStates::kCommon, ResourceStates::kCommon};
+    return {ResourceBarrierType::kUav, std::move(resource),     kResourceBarrierAllSubresources,
+            ResourceStates::kCommon,   ResourceStates::kCommon, {}};
+  }
+  /// Orders uses of placed resources before the barrier, and those of resources that share their
+  /// memory after it. [D3D12: D3D12_RESOURCE_ALIASING_BARRIER]
+  static ResourceBarrier Aliasing(rtapi::Resource before = {}, rtapi::Resource after = {}) {
+    return {ResourceBarrierType::kAliasing,  std::move(before),
+            kResourceBarrierAllSubresources, ResourceStates::kCommon,
+            ResourceStates::kCommon,         std::move(after)};
   }
 };
 

@@ -14,6 +14,7 @@
 #include <rtapi/device.h>             // IWYU pragma: export
 #include <rtapi/device_level.h>       // IWYU pragma: export
 #include <rtapi/format.h>             // IWYU pragma: export
+#include <rtapi/heap.h>               // IWYU pragma: export
 #include <rtapi/pipeline_state.h>     // IWYU pragma: export
 #include <rtapi/query.h>              // IWYU pragma: export
 #include <rtapi/raytracing.h>         // IWYU pragma: export

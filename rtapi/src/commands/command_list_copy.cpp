@@ -228,24 +228,31 @@ Status check_copy_heaps(const Buffer& dest, const Buffer& source) {
 void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barriers) {
   if (!impl_ || !impl_->check_open("ResourceBarrier")) return;
   for (const auto& barrier : barriers) {
-    const bool uav = barrier.Type == ResourceBarrierType::kUav;
-    if (!uav && barrier.Type != ResourceBarrierType::kTransition) {
+    if (barrier.Type > ResourceBarrierType::kUav) {
       impl_->fail(make_error(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
-                             "; it must be kTransition or kUav"));
+                             "; it must be kTransition, kAliasing or kUav"));
       continue;
     }
+    const bool transition = barrier.Type == ResourceBarrierType::kTransition;
     Status s;
-    if (!(uav && is<std::monostate>(barrier.Resource))) {
+    if (transition || !is<std::monostate>(barrier.Resource)) {
       s = check_resource(impl_->device, barrier.Resource, "ResourceBarrier: the resource");
     }
-    if (s.ok() && !uav) s = check_transition(barrier);
+    if (s.ok() && !is<std::monostate>(barrier.ResourceAfter)) {
+      s = check_resource(impl_->device, barrier.ResourceAfter, "ResourceBarrier: the one after");
+    }
+    if (s.ok() && transition) s = check_transition(barrier);
     if (!s.ok()) {
       impl_->fail(s.error());
       continue;
     }
     runtime::BarrierCommand command;
-    command.kind =
-        uav ? runtime::BarrierCommand::Kind::kUav : runtime::BarrierCommand::Kind::kTransition;
+    command.kind = transition ? runtime::BarrierCommand::Kind::kTransition
+                              : runtime::BarrierCommand::Kind::kUav;
+    if (barrier.Type == ResourceBarrierType::kAliasing) {  // between any two resources
+      impl_->record(std::move(command));
+      continue;
+    }
     if (const auto* b = std::get_if<Buffer>(&barrier.Resource)) command.buffer = b->impl()->memory;
     if (const auto* t = std::get_if<Texture>(&barrier.Resource)) {
       command.texture = t->impl()->memory;

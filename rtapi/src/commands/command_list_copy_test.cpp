@@ -27,6 +27,10 @@ TEST_F(CommandListTest, Barriers) {
                "cannot leave their state");
   EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, common, read, 1)), "KA0802",
                "subresource 1");
+  EXPECT_OK(barrier(ResourceBarrier::Aliasing()));
+  EXPECT_OK(barrier(ResourceBarrier::Aliasing(buffer, upload)));
+  const Buffer foreign = testing::CreateNullDevice().CreateBuffer({.SizeInBytes = 64}).value();
+  EXPECT_ERROR(barrier(ResourceBarrier::Aliasing(buffer, foreign)), "KA0903", "the one after");
   ResourceBarrier odd;
   odd.Type = static_cast<ResourceBarrierType>(7);
   EXPECT_ERROR(barrier(odd), "KA0802", "type 7");

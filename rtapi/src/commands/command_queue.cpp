@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include <rtapi/device.h>
+#include <rtapi/heap.h>
 
 #include "rtapi/src/commands/command_queue_impl.h"
 #include "rtapi/src/commands/execute_held.h"
@@ -12,30 +13,30 @@ namespace rtapi {
 
 namespace detail {
 
-uint64_t FenceImpl::value() const {
+uint64_t FenceValue::get() const {
   std::lock_guard lock(mutex);
   return current;
 }
 
-void FenceImpl::Signal(uint64_t value) {
+void FenceValue::set(uint64_t value) {
   std::vector<std::function<void()>> reached;
   {
     std::lock_guard lock(mutex);
     current = value;
     const auto end = calls.upper_bound(value);
-    for (auto it = calls.begin(); it != end; ++it) reached.push_back(std::move(it->second));
+    for (auto it = calls.begin(); it != end; ++it) reached.push_back(std::move(it->second.reached));
     calls.erase(calls.begin(), end);
   }
   changed.notify_all();
   for (const auto& call : reached) call();
 }
 
-void FenceImpl::CallAt(uint64_t value, std::function<void()> reached) {
+void FenceImpl::CallAt(uint64_t at, std::function<void()> reached) {
   bool now = !device->removed().ok();
   {
-    std::lock_guard lock(mutex);
-    now = now || current >= value;
-    if (!now) calls.emplace(value, reached);
+    std::lock_guard lock(value->mutex);
+    now = now || value->current >= at;
+    if (!now) value->calls.emplace(at, FenceValue::Call{this, reached});
   }
   if (now) return reached();
   // Removal between the check and here is told by when_removed itself.
@@ -47,13 +48,20 @@ void FenceImpl::CallAt(uint64_t value, std::function<void()> reached) {
 }
 
 void FenceImpl::DeviceRemoved() {
-  std::multimap<uint64_t, std::function<void()>> all;
+  std::vector<std::function<void()>> own;
   {
-    std::lock_guard lock(mutex);
-    all.swap(calls);
+    std::lock_guard lock(value->mutex);
+    for (auto it = value->calls.begin(); it != value->calls.end();) {
+      if (it->second.fence != this) {
+        ++it;
+        continue;
+      }
+      own.push_back(std::move(it->second.reached));
+      it = value->calls.erase(it);
+    }
   }
-  changed.notify_all();
-  for (const auto& [value, call] : all) call();
+  value->changed.notify_all();
+  for (const auto& call : own) call();
 }
 
 void CommandQueueImpl::Submit(Operation operation) {
@@ -98,7 +106,7 @@ void CommandQueueImpl::Drain() {
 
 void CommandQueueImpl::Run(const Operation& operation) {
   if (const auto* signal = std::get_if<SignalFence>(&operation)) {
-    return signal->fence->Signal(signal->value);
+    return signal->fence->value->set(signal->value);
   }
   const auto* execute = std::get_if<Execute>(&operation);
   if (!execute || !device->removed().ok()) return;
@@ -118,12 +126,12 @@ using namespace detail;
 
 uint64_t Fence::GetCompletedValue() const {
   if (!impl_) return 0;
-  return impl_->device->removed().ok() ? impl_->value() : UINT64_MAX;
+  return impl_->device->removed().ok() ? impl_->value->get() : UINT64_MAX;
 }
 
 Status Fence::Signal(uint64_t value) const {
   if (!impl_) return make_error(Id::kNullHandle, "Signal on an empty fence handle");
-  impl_->Signal(value);
+  impl_->value->set(value);
   return {};
 }
 
@@ -137,14 +145,15 @@ Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
   if (!impl_) return make_error(Id::kNullHandle, "Wait on an empty fence handle");
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::milliseconds(timeout_ms);
-  std::unique_lock lock(impl_->mutex);
-  while (impl_->current < value) {
+  FenceValue& fence = *impl_->value;
+  std::unique_lock lock(fence.mutex);
+  while (fence.current < value) {
     // Device removal does not signal the fence, so a waiter looks for it every 20 ms.
-    impl_->changed.wait_for(lock, std::chrono::milliseconds(20));
-    if (impl_->current >= value) break;
+    fence.changed.wait_for(lock, std::chrono::milliseconds(20));
+    if (fence.current >= value) break;
     if (Status removed = impl_->device->removed(); !removed.ok()) return removed;
     if (timeout_ms != 0 && Clock::now() >= end) {
-      return make_error(Id::kFenceWait, "the fence is still at ", impl_->current, " after ",
+      return make_error(Id::kFenceWait, "the fence is still at ", fence.current, " after ",
                         timeout_ms, " ms; the wait is for ", value);
     }
   }
@@ -155,8 +164,18 @@ Result<Fence> Device::CreateFence(uint64_t initial_value) const {
   if (!impl_) return make_error(Id::kNullHandle, "CreateFence on an empty device handle");
   auto fence = std::make_shared<FenceImpl>();
   fence->device = impl_;
-  fence->current = initial_value;
+  fence->value = std::make_shared<FenceValue>();
+  fence->value->current = initial_value;
   return Fence(std::move(fence));
+}
+
+Result<Fence> OpenFence(const Device& device, const Fence& fence) {
+  if (!device) return make_error(Id::kNullHandle, "OpenFence on an empty device handle");
+  if (!fence) return make_error(Id::kNullHandle, "OpenFence of an empty fence handle");
+  auto opened = std::make_shared<FenceImpl>();
+  opened->device = device.impl();
+  opened->value = fence.impl()->value;
+  return Fence(std::move(opened));
 }
 
 Result<CommandQueue> Device::CreateCommandQueue() const {

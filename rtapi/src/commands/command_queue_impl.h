@@ -18,20 +18,32 @@
 
 namespace rtapi::detail {
 
-struct FenceImpl : std::enable_shared_from_this<FenceImpl> {
-  std::shared_ptr<DeviceImpl> device;
+struct FenceImpl;
 
-  uint64_t value() const;
+// The value of a fence, which is one on every device that the fence was opened on.
+struct FenceValue {
+  struct Call {
+    const FenceImpl* fence;  // that was waited on
+    std::function<void()> reached;
+  };
+
+  uint64_t get() const;
   // Sets the value and makes the calls that wait for it, those of queues among them.
-  void Signal(uint64_t value);
-  void CallAt(uint64_t value, std::function<void()> reached);
-  // Makes all calls: the fence of a removed device is past every value.
-  void DeviceRemoved();
+  void set(uint64_t value);
 
   mutable std::mutex mutex;
   std::condition_variable changed;
   uint64_t current = 0;
-  std::multimap<uint64_t, std::function<void()>> calls;  // by value, of CallAt
+  std::multimap<uint64_t, Call> calls;  // by value
+};
+
+struct FenceImpl : std::enable_shared_from_this<FenceImpl> {
+  std::shared_ptr<DeviceImpl> device;
+  std::shared_ptr<FenceValue> value;
+
+  void CallAt(uint64_t at, std::function<void()> reached);
+  // Makes all its calls: the fence of a removed device is past every value.
+  void DeviceRemoved();
 
  private:
   std::once_flag told_of_removal_;

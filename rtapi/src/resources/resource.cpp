@@ -299,6 +299,51 @@ BufferImpl::~BufferImpl() {
   if (memory) device->addresses.erase(memory->address());
 }
 
+Result<Buffer> make_buffer(const std::shared_ptr<DeviceImpl>& device, const BufferDesc& desc,
+                           const runtime::HeapPlace* place) {
+  if (Status s = device->removed(); !s.ok()) return s.error();
+  if (Status s = check_buffer(*device, desc); !s.ok()) return s.error();
+  auto memory = place != nullptr ? device->backend->create_placed_buffer(*place, desc)
+                                 : device->backend->create_buffer(desc);
+  if (!memory.ok()) return memory.error();
+  auto buffer = std::make_shared<BufferImpl>();
+  buffer->device = device;
+  buffer->desc = desc;
+  buffer->memory = std::move(*memory);
+  device->addresses.insert({buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
+                            desc.InitialState == ResourceStates::kRaytracingAccelerationStructure,
+                            desc.Name, buffer->memory->host(), buffer});
+  return Buffer(std::move(buffer));
+}
+
+Result<TextureDesc> checked_texture(const DeviceImpl& device, const TextureDesc& desc) {
+  if (Status s = check_texture(desc); !s.ok()) return s.error();
+  if (Status s = check_target_support(device, desc); !s.ok()) return s.error();
+  if (Status s = check_backend_samples(device, desc); !s.ok()) return s.error();
+  TextureDesc resolved = desc;
+  if (resolved.MipLevels == 0) {
+    const bool one = desc.SampleDesc.Count > 1;
+    resolved.MipLevels = static_cast<uint16_t>(one ? 1 : full_mip_count(desc));
+  }
+  return resolved;
+}
+
+Result<Texture> make_texture(const std::shared_ptr<DeviceImpl>& device, const TextureDesc& desc,
+                             const runtime::HeapPlace* place) {
+  if (Status s = device->removed(); !s.ok()) return s.error();
+  auto resolved = checked_texture(*device, desc);
+  if (!resolved.ok()) return resolved.error();
+  auto memory = place != nullptr ? device->backend->create_placed_texture(*place, *resolved)
+                                 : device->backend->create_texture(*resolved);
+  if (!memory.ok()) return memory.error();
+  auto texture = std::make_shared<TextureImpl>();
+  texture->device = device;
+  texture->desc = *std::move(resolved);
+  texture->memory = std::move(*memory);
+  if (device->checks) device->checks->textures().add(texture->memory, texture->desc);
+  return Texture(std::move(texture));
+}
+
 }  // namespace detail
 
 using namespace detail;
@@ -350,41 +395,12 @@ void Texture::SetName(std::string name) {
 
 Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
   if (!impl_) return make_error(Id::kNullHandle, "CreateBuffer on an empty device handle");
-  if (Status s = impl_->removed(); !s.ok()) return s.error();
-  if (Status s = check_buffer(*impl_, desc); !s.ok()) return s.error();
-  auto memory = impl_->backend->create_buffer(desc);
-  if (!memory.ok()) return memory.error();
-  auto buffer = std::make_shared<BufferImpl>();
-  buffer->device = impl_;
-  buffer->desc = desc;
-  buffer->memory = std::move(*memory);
-  impl_->addresses.insert({buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
-                           desc.InitialState == ResourceStates::kRaytracingAccelerationStructure,
-                           desc.Name, buffer->memory->host(), buffer});
-  return Buffer(std::move(buffer));
+  return make_buffer(impl_, desc, nullptr);
 }
 
 Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   if (!impl_) return make_error(Id::kNullHandle, "CreateTexture on an empty device handle");
-  if (Status s = impl_->removed(); !s.ok()) return s.error();
-  if (Status s = check_texture(desc); !s.ok()) return s.error();
-  if (Status s = check_target_support(*impl_, desc); !s.ok()) return s.error();
-  if (Status s = check_backend_samples(*impl_, desc); !s.ok()) return s.error();
-  TextureDesc resolved = desc;
-  if (resolved.MipLevels == 0) {
-    const bool one = desc.SampleDesc.Count > 1;
-    resolved.MipLevels = static_cast<uint16_t>(one ? 1 : full_mip_count(desc));
-  }
-  auto memory = impl_->backend->create_texture(resolved);
-  if (!memory.ok()) return memory.error();
-  auto texture = std::make_shared<TextureImpl>();
-  texture->device = impl_;
-  texture->desc = std::move(resolved);
-  texture->memory = std::move(*memory);
-  if (impl_->checks) {
-    impl_->checks->textures().add(texture->memory, texture->desc);
-  }
-  return Texture(std::move(texture));
+  return make_texture(impl_, desc, nullptr);
 }
 
 uint32_t Device::GetMultisampleQualityLevels(Format format, uint32_t count) const {

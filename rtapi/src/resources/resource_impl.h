@@ -34,6 +34,14 @@ struct DescriptorHeapImpl {
   ~DescriptorHeapImpl();
 };
 
+// Device::CreateBuffer and CreateTexture. `place`: null, or where in a heap the resource lies.
+Result<Buffer> make_buffer(const std::shared_ptr<DeviceImpl>& device, const BufferDesc& desc,
+                           const runtime::HeapPlace* place);
+Result<Texture> make_texture(const std::shared_ptr<DeviceImpl>& device, const TextureDesc& desc,
+                             const runtime::HeapPlace* place);
+// The desc with its mips counted, if it is one that the device can have.
+Result<TextureDesc> checked_texture(const DeviceImpl& device, const TextureDesc& desc);
+
 // Size of a mip level in texels.
 struct MipExtent {
   uint32_t width, height, depth;

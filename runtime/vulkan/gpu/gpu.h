@@ -16,6 +16,7 @@
 #include <rtapi/device.h>
 #include <rtapi/result.h>
 
+#include "runtime/backend/heap_memory.h"
 #include "runtime/vulkan/gpu/instance.h"
 #include "runtime/vulkan/gpu/workarounds.h"
 
@@ -88,8 +89,7 @@ class GpuBuffer {
   uint64_t address_ = 0;
   uint64_t size_bytes_ = 0;
   uint8_t* host_ = nullptr;
-  void* pages_ = nullptr;  // the process's own pages, if the memory was imported from them
-  uint64_t pages_bytes_ = 0;
+  runtime::MappedPages pages_;  // from which the memory was imported
 };
 
 // kAny if everything is written before it is read: pages that nobody touches then cost nothing.
@@ -128,6 +128,13 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   rtapi::Result<std::unique_ptr<GpuBuffer>> create_buffer(
       uint64_t size_bytes, const std::string& what,
       InitialContents contents = InitialContents::kZero);
+  // The same of pages that lie in a heap, as they are; not called unless imports_pages(). Errors:
+  // KA0990.
+  rtapi::Result<std::unique_ptr<GpuBuffer>> place_buffer(runtime::MappedPages pages,
+                                                         uint64_t size_bytes,
+                                                         const std::string& what);
+  // Whether the device's memory can be pages of this process: it runs on the processor.
+  bool imports_pages() const;
   // For images: a memory type among `type_bits` that has all of `wanted` and as much of `liked` as
   // possible; UINT32_MAX if there is none.
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,
@@ -153,7 +160,7 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   rtapi::Status create_device();
   // [gpu_buffer.cpp]
   VkResult allocate(GpuBuffer& buffer);
-  bool import_pages(GpuBuffer& buffer);  // false if impossible; leaves nothing behind then
+  VkResult import_pages(GpuBuffer& buffer, runtime::MappedPages pages);
   VkResult bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bits);
   void release(GpuBuffer& buffer);
 

@@ -30,17 +30,17 @@ uint64_t rounded(uint64_t bytes) {
   return (bytes + kAddressAlignment - 1) / kAddressAlignment * kAddressAlignment;
 }
 
-// Pages at a multiple of the alignment; null if out of memory.
-void* map_pages(uint64_t bytes) {
+// Pages at a multiple of the alignment; none if out of memory.
+runtime::MappedPages map_pages(uint64_t bytes) {
   void* mapped = mmap(nullptr, bytes + kAddressAlignment, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapped == MAP_FAILED) return nullptr;
+  if (mapped == MAP_FAILED) return {};
   auto* start = static_cast<uint8_t*>(mapped);
   auto* aligned = reinterpret_cast<uint8_t*>(rounded(reinterpret_cast<uint64_t>(start)));
   if (aligned != start) munmap(start, static_cast<size_t>(aligned - start));
   const auto rest = static_cast<size_t>(start + kAddressAlignment - aligned);
   if (rest != 0) munmap(aligned + bytes, rest);
-  return aligned;
+  return {aligned, bytes};
 }
 
 }  // namespace
@@ -59,14 +59,30 @@ rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes
   }
   std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
   buffer->size_bytes_ = size_bytes;
-  if (size_bytes >= kFromPages && properties_.core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU &&
-      features_.external_memory_host && import_pages(*buffer)) {
-    return buffer;
+  if (size_bytes >= kFromPages && imports_pages()) {
+    runtime::MappedPages pages = map_pages(rounded(size_bytes));
+    if (pages && import_pages(*buffer, std::move(pages)) == VK_SUCCESS) return buffer;
+    release(*buffer);
   }
   VkResult r = allocate(*buffer);
   if (r != VK_SUCCESS) return error(r, what + " of " + std::to_string(size_bytes) + " bytes");
   if (contents == InitialContents::kZero) std::memset(buffer->host_, 0, size_bytes);
   return buffer;
+}
+
+rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::place_buffer(runtime::MappedPages pages,
+                                                            uint64_t size_bytes,
+                                                            const std::string& what) {
+  std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
+  buffer->size_bytes_ = size_bytes;
+  const VkResult r = import_pages(*buffer, std::move(pages));
+  if (r != VK_SUCCESS) return error(r, what + " of " + std::to_string(size_bytes) + " bytes");
+  return buffer;
+}
+
+bool Gpu::imports_pages() const {
+  return properties_.core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU &&
+         features_.external_memory_host;
 }
 
 VkResult Gpu::bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bits) {
@@ -77,7 +93,7 @@ VkResult Gpu::bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bi
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   VkMemoryAllocateInfo info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   info.pNext = &flags;
-  info.allocationSize = std::max(needs.size, buffer.pages_bytes_);
+  info.allocationSize = std::max(needs.size, buffer.pages_.size_bytes());
   // Only a small part of a graphics card's memory may be visible to the host; try the next best
   // type then.
   VkResult r = VK_ERROR_FEATURE_NOT_PRESENT;
@@ -116,41 +132,36 @@ VkResult Gpu::allocate(GpuBuffer& buffer) {
   return r;
 }
 
-bool Gpu::import_pages(GpuBuffer& buffer) {
+VkResult Gpu::import_pages(GpuBuffer& buffer, runtime::MappedPages pages) {
   constexpr auto kPages = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
-  buffer.pages_bytes_ = rounded(buffer.size_bytes_);
-  buffer.pages_ = map_pages(buffer.pages_bytes_);
-  if (buffer.pages_ == nullptr) return false;
+  buffer.pages_ = std::move(pages);
   VkMemoryHostPointerPropertiesEXT types = {VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
-  VkResult r = vk_.vkGetMemoryHostPointerPropertiesEXT(device_, kPages, buffer.pages_, &types);
+  VkResult r =
+      vk_.vkGetMemoryHostPointerPropertiesEXT(device_, kPages, buffer.pages_.first(), &types);
   VkExternalMemoryBufferCreateInfo external = {
       VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO};
   external.handleTypes = kPages;
   VkBufferCreateInfo info = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.pNext = &external;
-  info.size = buffer.pages_bytes_;
+  info.size = buffer.pages_.size_bytes();
   info.usage = kEveryUsage;
   if (r == VK_SUCCESS) r = vk_.vkCreateBuffer(device_, &info, nullptr, &buffer.handle_);
   VkImportMemoryHostPointerInfoEXT import = {VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
   import.handleType = kPages;
-  import.pHostPointer = buffer.pages_;
+  import.pHostPointer = buffer.pages_.first();
   if (r == VK_SUCCESS) r = bind_memory(buffer, &import, types.memoryTypeBits);
-  if (r == VK_SUCCESS && buffer.offset_ == 0) {
-    buffer.host_ = static_cast<uint8_t*>(buffer.pages_);
-    return true;
-  }
-  release(buffer);
-  return false;
+  // An address that is no multiple of 64 KiB cannot be moved within pages that are not larger.
+  if (r == VK_SUCCESS && buffer.offset_ != 0) r = VK_ERROR_INVALID_EXTERNAL_HANDLE;
+  buffer.host_ = buffer.pages_.first();
+  return r;
 }
 
 void Gpu::release(GpuBuffer& buffer) {
   vk_.vkDestroyBuffer(device_, buffer.handle_, nullptr);
   vk_.vkFreeMemory(device_, buffer.memory_, nullptr);
-  if (buffer.pages_ != nullptr) munmap(buffer.pages_, buffer.pages_bytes_);
   buffer.handle_ = VK_NULL_HANDLE;
   buffer.memory_ = VK_NULL_HANDLE;
-  buffer.pages_ = nullptr;
-  buffer.pages_bytes_ = 0;
+  buffer.pages_ = {};
 }
 
 GpuBuffer::~GpuBuffer() {

@@ -14,10 +14,27 @@ rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Memory::create_buffer(
   auto made = gpu.create_buffer(desc.SizeInBytes, "buffer \"" + desc.Name + "\"",
                                 structures ? InitialContents::kAny : InitialContents::kZero);
   if (!made) return made.error();
-  auto buffer = std::make_shared<Buffer>(std::move(self), std::move(*made));
+  return insert(std::move(self), std::move(*made));
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Memory::place_buffer(
+    Gpu& gpu, const runtime::HeapPlace& place, const rtapi::BufferDesc& desc,
+    std::shared_ptr<Memory> self) {
+  if (!gpu.imports_pages()) return create_buffer(gpu, desc, std::move(self));
+  const std::string what = "buffer \"" + desc.Name + "\"";
+  runtime::MappedPages pages = place.map();
+  if (!pages) return gpu.error(VK_ERROR_OUT_OF_HOST_MEMORY, what);
+  auto made = gpu.place_buffer(std::move(pages), desc.SizeInBytes, what);
+  if (!made) return made.error();
+  return insert(std::move(self), std::move(*made));
+}
+
+std::shared_ptr<runtime::BackendBuffer> Memory::insert(std::shared_ptr<Memory> self,
+                                                       std::unique_ptr<GpuBuffer> gpu) {
+  auto buffer = std::make_shared<Buffer>(std::move(self), std::move(gpu));
   const std::unique_lock lock(mutex_);
   buffers_[buffer->address()] = &buffer->gpu();
-  return std::shared_ptr<runtime::BackendBuffer>(std::move(buffer));
+  return buffer;
 }
 
 const GpuBuffer* Memory::find(uint64_t address) const {

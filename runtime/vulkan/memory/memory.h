@@ -23,6 +23,11 @@ class Memory {
   rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> create_buffer(
       Gpu& gpu, const rtapi::BufferDesc& desc, std::shared_ptr<Memory> self);
 
+  // The same in a heap. Errors: KA0990.
+  rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> place_buffer(
+      Gpu& gpu, const runtime::HeapPlace& place, const rtapi::BufferDesc& desc,
+      std::shared_ptr<Memory> self);
+
   // The bytes [address, address + size_bytes) as the host sees them; null unless they are inside
   // one live buffer. To see what GPU work wrote there, call CommandStream::flush first.
   uint8_t* host(uint64_t address, uint64_t size_bytes) const;
@@ -36,6 +41,8 @@ class Memory {
 
  private:
   friend class Buffer;
+  std::shared_ptr<runtime::BackendBuffer> insert(std::shared_ptr<Memory> self,
+                                                 std::unique_ptr<GpuBuffer> gpu);
   void erase(const GpuBuffer& buffer);
 
   mutable std::shared_mutex mutex_;

@@ -78,13 +78,86 @@ std::string Image::description() const {
 
 rtapi::Result<std::shared_ptr<Image>> Image::create(std::shared_ptr<Gpu> gpu,
                                                     std::shared_ptr<DescriptorSet> descriptors,
-                                                    const rtapi::TextureDesc& desc) {
+                                                    const rtapi::TextureDesc& desc,
+                                                    const runtime::HeapPlace* place) {
   std::shared_ptr<Image> image(new Image(std::move(gpu), std::move(descriptors), desc));
   const VkImageCreateInfo info = image->create_info();
   if (auto s = image->check_support(info); !s) return s.error();
+  if (place != nullptr && image->can_be_placed(info)) {
+    if (auto s = image->import_pages(info, *place); !s) return s.error();
+    if (auto s = image->enter_layout(); !s) return s.error();
+    return image;
+  }
   if (auto s = image->allocate(info); !s) return s.error();
   if (auto s = image->fill_with_zeros(); !s) return s.error();
   return image;
+}
+
+namespace {
+
+constexpr auto kPages = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+
+const VkExternalMemoryImageCreateInfo kFromPages = {
+    VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO, nullptr, kPages};
+
+}  // namespace
+
+uint64_t Image::placed_bytes(const std::shared_ptr<Gpu>& gpu,
+                             const std::shared_ptr<DescriptorSet>& descriptors,
+                             const rtapi::TextureDesc& desc) {
+  const Image image(gpu, descriptors, desc);
+  VkImageCreateInfo info = image.create_info();
+  if (info.format == VK_FORMAT_UNDEFINED || !image.can_be_placed(info)) return 0;
+  info.pNext = &kFromPages;
+  VkDeviceImageMemoryRequirements of = {VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
+  of.pCreateInfo = &info;
+  VkMemoryRequirements2 needs = {VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+  gpu->vk().vkGetDeviceImageMemoryRequirements(gpu->device(), &of, &needs);
+  return needs.memoryRequirements.size;
+}
+
+bool Image::can_be_placed(const VkImageCreateInfo& info) const {
+  if (!gpu_->imports_pages() || block_side() != 1) return false;
+  VkPhysicalDeviceExternalImageFormatInfo external = {
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_IMAGE_FORMAT_INFO, nullptr, kPages};
+  VkPhysicalDeviceImageFormatInfo2 format = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2,
+                                             &external};
+  format.format = info.format;
+  format.type = info.imageType;
+  format.tiling = info.tiling;
+  format.usage = info.usage;
+  format.flags = info.flags;
+  VkExternalImageFormatProperties found = {VK_STRUCTURE_TYPE_EXTERNAL_IMAGE_FORMAT_PROPERTIES};
+  VkImageFormatProperties2 limits = {VK_STRUCTURE_TYPE_IMAGE_FORMAT_PROPERTIES_2, &found};
+  const VkResult r =
+      vkGetPhysicalDeviceImageFormatProperties2(gpu_->physical_device(), &format, &limits);
+  return r == VK_SUCCESS && (found.externalMemoryProperties.externalMemoryFeatures &
+                             VK_EXTERNAL_MEMORY_FEATURE_IMPORTABLE_BIT) != 0;
+}
+
+rtapi::Status Image::import_pages(VkImageCreateInfo info, const runtime::HeapPlace& place) {
+  const VolkDeviceTable& vk = gpu_->vk();
+  const std::string what = "texture " + description();
+  pages_ = place.map();
+  if (!pages_) return gpu_->error(VK_ERROR_OUT_OF_HOST_MEMORY, what);
+  info.pNext = &kFromPages;
+  VkResult r = vk.vkCreateImage(gpu_->device(), &info, nullptr, &handle_);
+  if (r != VK_SUCCESS) return gpu_->error(r, what);
+  VkMemoryRequirements needs;
+  vk.vkGetImageMemoryRequirements(gpu_->device(), handle_, &needs);
+  VkMemoryHostPointerPropertiesEXT types = {VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
+  r = vk.vkGetMemoryHostPointerPropertiesEXT(gpu_->device(), kPages, pages_.first(), &types);
+  if (r != VK_SUCCESS) return gpu_->error(r, what);
+  VkImportMemoryHostPointerInfoEXT from = {VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
+  from.handleType = kPages;
+  from.pHostPointer = pages_.first();
+  VkMemoryAllocateInfo allocate = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &from};
+  allocate.allocationSize = pages_.size_bytes();
+  allocate.memoryTypeIndex = gpu_->memory_type(needs.memoryTypeBits & types.memoryTypeBits, 0);
+  r = vk.vkAllocateMemory(gpu_->device(), &allocate, nullptr, &memory_);
+  if (r == VK_SUCCESS) r = vk.vkBindImageMemory(gpu_->device(), handle_, memory_, 0);
+  if (r != VK_SUCCESS) return gpu_->error(r, what);
+  return {};
 }
 
 VkImageCreateInfo Image::create_info() const {
@@ -198,6 +271,30 @@ void Image::clear_blocks(VkCommandBuffer commands, const GpuBuffer& zeros) const
                                     static_cast<uint32_t>(regions.size()), regions.data());
 }
 
+VkImageMemoryBarrier Image::first_barrier() const {
+  VkImageMemoryBarrier barrier = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+  barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = handle_;
+  barrier.subresourceRange = {aspects_, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+  return barrier;
+}
+
+// Where memory is that of the processor, this leaves the texels as they are.
+rtapi::Status Image::enter_layout() {
+  return gpu_->run(
+      [&](VkCommandBuffer commands) {
+        const VkImageMemoryBarrier barrier = first_barrier();
+        gpu_->vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
+                                        VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
+                                        1, &barrier);
+      },
+      "first use of texture " + description());
+}
+
 rtapi::Status Image::fill_with_zeros() {
   const std::string what = "clear of texture " + description();
   std::unique_ptr<GpuBuffer> zeros;
@@ -209,15 +306,7 @@ rtapi::Status Image::fill_with_zeros() {
   }
   return gpu_->run(
       [&](VkCommandBuffer commands) {
-        VkImageMemoryBarrier barrier = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-        barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-        barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
-        barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        barrier.image = handle_;
-        barrier.subresourceRange = {aspects_, 0, VK_REMAINING_MIP_LEVELS, 0,
-                                    VK_REMAINING_ARRAY_LAYERS};
+        const VkImageMemoryBarrier barrier = first_barrier();
         gpu_->vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
                                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
                                         1, &barrier);

@@ -19,11 +19,16 @@ namespace kaamos::vulkan {
 
 class Image final : public runtime::BackendTexture {
  public:
-  // Filled with zeros. Errors: KA0960 the device does not support such textures, KA0990 out of
-  // memory.
+  // Filled with zeros, or with what lies at a place in a heap. Errors: KA0960 the device does not
+  // support such textures, KA0990 out of memory.
   static rtapi::Result<std::shared_ptr<Image>> create(std::shared_ptr<Gpu> gpu,
                                                       std::shared_ptr<DescriptorSet> descriptors,
-                                                      const rtapi::TextureDesc& desc);
+                                                      const rtapi::TextureDesc& desc,
+                                                      const runtime::HeapPlace* place);
+  // What such an image needs in a heap; 0 if it cannot lie in one.
+  static uint64_t placed_bytes(const std::shared_ptr<Gpu>& gpu,
+                               const std::shared_ptr<DescriptorSet>& descriptors,
+                               const rtapi::TextureDesc& desc);
   ~Image() override;
 
   VkImage handle() const { return handle_; }
@@ -66,7 +71,12 @@ class Image final : public runtime::BackendTexture {
         const rtapi::TextureDesc& desc);
   VkImageCreateInfo create_info() const;
   rtapi::Status check_support(const VkImageCreateInfo& info) const;
+  bool can_be_placed(const VkImageCreateInfo& info) const;
   rtapi::Status allocate(const VkImageCreateInfo& info);
+  rtapi::Status import_pages(VkImageCreateInfo info, const runtime::HeapPlace& place);
+  // From no layout to GENERAL.
+  VkImageMemoryBarrier first_barrier() const;
+  rtapi::Status enter_layout();
   rtapi::Status fill_with_zeros();
   void clear_blocks(VkCommandBuffer commands, const GpuBuffer& zeros) const;
   rtapi::Status check_view(const runtime::TextureViewDesc& desc) const;
@@ -84,6 +94,7 @@ class Image final : public runtime::BackendTexture {
   VkImageAspectFlags aspects_;
   VkImage handle_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  runtime::MappedPages pages_;  // of a heap, from which the memory was imported
   mutable std::mutex mutex_;
   std::vector<View> views_;
   std::vector<DrawnView> drawn_views_;

@@ -187,9 +187,14 @@ class Textures final : public TextureStore {
 
   rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) override {
-    auto image = Image::create(gpu_, descriptors_, desc);
-    if (!image) return image.error();
-    return std::shared_ptr<runtime::BackendTexture>(std::move(*image));
+    return stored(Image::create(gpu_, descriptors_, desc, nullptr));
+  }
+  rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_placed_texture(
+      const runtime::HeapPlace& place, const rtapi::TextureDesc& desc) override {
+    return stored(Image::create(gpu_, descriptors_, desc, &place));
+  }
+  uint64_t placed_bytes(const rtapi::TextureDesc& desc) const override {
+    return Image::placed_bytes(gpu_, descriptors_, desc);
   }
   rtapi::Result<uint64_t> create_view(runtime::BackendTexture& texture,
                                       const runtime::TextureViewDesc& desc) override {
@@ -211,6 +216,11 @@ class Textures final : public TextureStore {
   rtapi::Status clear(CommandStream& stream, const runtime::ClearUavCommand& command) override;
 
  private:
+  static rtapi::Result<std::shared_ptr<runtime::BackendTexture>> stored(
+      rtapi::Result<std::shared_ptr<Image>> image) {
+    if (!image) return image.error();
+    return std::shared_ptr<runtime::BackendTexture>(std::move(*image));
+  }
   rtapi::Status copy_between(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status copy_through(CommandStream& stream, const CopyTextureCommand& command);
   rtapi::Status upload(CommandStream& stream, const CopyTextureCommand& command);

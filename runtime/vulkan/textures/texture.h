@@ -21,6 +21,9 @@ class TextureStore {
   // Like BackendDevice's functions of the same names.
   virtual rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) = 0;
+  virtual rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_placed_texture(
+      const runtime::HeapPlace& place, const rtapi::TextureDesc& desc) = 0;
+  virtual uint64_t placed_bytes(const rtapi::TextureDesc& desc) const = 0;
   virtual rtapi::Result<uint64_t> create_view(runtime::BackendTexture& texture,
                                               const runtime::TextureViewDesc& desc) = 0;
   virtual rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) = 0;
