@@ -7,6 +7,7 @@
 #include <rtapi/upload.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -22,7 +23,7 @@ namespace {
 using rtapi::ShaderBindingInfo;
 using rtapi::ShaderResourceType;
 
-constexpr uint32_t kSceneSpace = 9999;
+constexpr uint32_t kSceneSpace = 9999;  // TestScene, the lone triangle and the lone box
 // The size of every buffer that a test declares.
 constexpr uint64_t kBufferBytes = 64 * 1024;
 constexpr char kOwnHeader[] = "kaamos/test.hlsli";
@@ -106,7 +107,10 @@ Source read_source(const SourceOptions& options) {
     return out;
   }
   out.tests = find_tests(plain.Text, options.path);
-  out.scene = read_scene(out.text);
+  out.scene = read_scene(out.text, std::filesystem::path(options.path).parent_path().string());
+  out.dependencies.insert(out.dependencies.end(), out.scene.files.begin(), out.scene.files.end());
+  out.records = table_records(out.tests, out.scene);
+  if (!out.records.error.empty()) out.error = options.path + ": " + out.records.error;
   if (!out.scene.error.empty()) out.error = options.path + ", " + out.scene.error;
   if (!out.tests.error.empty()) out.error = out.tests.error;
   return out;
@@ -121,6 +125,9 @@ std::string Runner::prepare() {
       static_cast<size_t>(std::count(source_.text.begin(), source_.text.end(), '\n'));
   *options.Source += "\n#line " + std::to_string(lines + 2) + " \"" + options.File + "\"\n" +
                      source_.tests.entry_points;
+  for (rtapi::ShaderDefine& define : record_defines(source_.records)) {
+    options.Defines.push_back(std::move(define));
+  }
   options.Interpret = executor_ != "embree";  // Vulkan needs no native code
   options.Spirv = executor_ == "vulkan";
   options.Quick = true;
@@ -161,7 +168,7 @@ std::string Runner::make_device() {
   if (!signature.ok()) return signature.error().message;
   root_signature_ = *signature;
   rays_pipeline_ = {};
-  scene_.reset();
+  for (std::optional<Scene>& scene : scenes_) scene.reset();
   return {};
 }
 
@@ -194,37 +201,46 @@ void Runner::hear(const rtapi::Message& message) {
   (*tell_)({is_error ? Report::Kind::kFailure : Report::Kind::kOutput, message.Text});
 }
 
-void Runner::bind(rtapi::CommandList& list) {
-  list.SetComputeRootSignature(root_signature_);
+rtapi::GpuVirtualAddress Runner::resource(const ShaderBindingInfo& binding) {
+  if (binding.Type == ShaderResourceType::kAccelerationStructure) {
+    if (binding.Space != kSceneSpace || binding.Register >= std::size(scenes_)) return 0;
+    std::optional<Scene>& scene = scenes_[binding.Register];
+    if (!scene) {
+      scene = build_scene(
+          device_, queue_,
+          binding.Register == 0 ? source_.scene : lone_primitive(binding.Register == 2));
+    }
+    return scene->top_level.GetGPUVirtualAddress();
+  }
+  rtapi::BufferDesc desc;
+  desc.SizeInBytes = kBufferBytes;
+  desc.Name = binding.Name;
+  if (binding.RegisterClass == 'u') {
+    desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+    desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
+  } else {
+    desc.Heap = rtapi::HeapType::kUpload;
+    desc.InitialState = rtapi::ResourceStates::kGenericRead;
+  }
+  buffers_.push_back(device_.CreateBuffer(desc).value());
+  return buffers_.back().GetGPUVirtualAddress();
+}
+
+void Runner::bind(rtapi::CommandList& list, bool of_draws) {
+  using List = rtapi::CommandList;
+  using SetView = void (List::*)(uint32_t, rtapi::GpuVirtualAddress);
+  of_draws ? list.SetGraphicsRootSignature(root_signature_)
+           : list.SetComputeRootSignature(root_signature_);
   uint32_t parameter = 0;
   for (const ShaderBindingInfo& binding : compiled_.Reflection.Bindings) {
-    if (binding.Type == ShaderResourceType::kAccelerationStructure) {
-      const bool is_scene = binding.Space == kSceneSpace;
-      if (is_scene && !scene_) scene_ = build_scene(device_, queue_, source_.scene);
-      list.SetComputeRootShaderResourceView(
-          parameter++, is_scene ? scene_->top_level.GetGPUVirtualAddress() : 0);
-      continue;
-    }
-    rtapi::BufferDesc desc;
-    desc.SizeInBytes = kBufferBytes;
-    desc.Name = binding.Name;
-    const bool is_written = binding.RegisterClass == 'u';
-    if (is_written) {
-      desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
-      desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
-    } else {
-      desc.Heap = rtapi::HeapType::kUpload;
-      desc.InitialState = rtapi::ResourceStates::kGenericRead;
-    }
-    buffers_.push_back(device_.CreateBuffer(desc).value());
-    const rtapi::GpuVirtualAddress address = buffers_.back().GetGPUVirtualAddress();
-    if (is_written) {
-      list.SetComputeRootUnorderedAccessView(parameter++, address);
-    } else if (binding.RegisterClass == 'b') {
-      list.SetComputeRootConstantBufferView(parameter++, address);
-    } else {
-      list.SetComputeRootShaderResourceView(parameter++, address);
-    }
+    const SetView set_view =
+        binding.RegisterClass == 'u'   ? of_draws ? &List::SetGraphicsRootUnorderedAccessView
+                                                  : &List::SetComputeRootUnorderedAccessView
+        : binding.RegisterClass == 'b' ? of_draws ? &List::SetGraphicsRootConstantBufferView
+                                                  : &List::SetComputeRootConstantBufferView
+        : of_draws                     ? &List::SetGraphicsRootShaderResourceView
+                                       : &List::SetComputeRootShaderResourceView;
+    (list.*set_view)(parameter++, resource(binding));
   }
 }
 
@@ -247,19 +263,28 @@ const rtapi::StateObject& Runner::rays_pipeline() {
 
 void Runner::dispatch_rays(const TestRun& test, rtapi::CommandList& list) {
   const rtapi::StateObject& pipeline = rays_pipeline();
-  const auto table = [&](const std::vector<std::string>& exports, const char* name) {
+  const auto build = [&](const std::vector<SceneRecord>& of, const char* name,
+                         bool ends_with_null = false) {
     rtapi::ShaderTable made(pipeline, name);
-    for (const std::string& one : exports) made.AddRecord(one).value();
-    if (!exports.empty()) made.Build(device_).value();
+    for (const SceneRecord& record : of) {
+      std::vector<rtapi::LocalArgument> arguments;
+      for (const std::vector<uint32_t>& constants : record.constants) {
+        arguments.push_back(rtapi::LocalArgument::Constants(constants));
+      }
+      made.AddRecord(record.export_name, arguments).value();
+    }
+    if (ends_with_null) made.AddNullRecord();
+    if (made.record_count() != 0) made.Build(device_).value();
     return made;
   };
-  const rtapi::ShaderTable start = table({test.entry}, "ray generation");
-  const rtapi::ShaderTable miss = table(source_.tests.miss_shaders, "miss shaders");
-  const rtapi::ShaderTable hit = table(source_.tests.hit_groups, "hit groups");
-  const rtapi::ShaderTable callable = table(source_.tests.callable_shaders, "callable shaders");
+  const TableRecords& records = source_.records;
+  const rtapi::ShaderTable start = build({{test.entry, {}}}, "ray generation");
+  const rtapi::ShaderTable miss = build(records.miss_shaders, "miss shaders", true);
+  const rtapi::ShaderTable hit = build(records.hit_groups, "hit groups");
+  const rtapi::ShaderTable callable = build(records.callable_shaders, "callable shaders");
   rtapi::DispatchRaysDesc desc;
   desc.RayGenerationShaderRecord = start.GetRecord(0);
-  if (miss.record_count() != 0) desc.MissShaderTable = miss.GetTable();
+  desc.MissShaderTable = miss.GetTable();
   if (hit.record_count() != 0) desc.HitGroupTable = hit.GetTable();
   if (callable.record_count() != 0) desc.CallableShaderTable = callable.GetTable();
   desc.Width = test.size[0];
@@ -268,12 +293,31 @@ void Runner::dispatch_rays(const TestRun& test, rtapi::CommandList& list) {
   bind(list);
   list.SetPipelineState1(pipeline);
   list.DispatchRays(desc);
-  queue_.ExecuteAndWait(list).value();
+  for (const rtapi::ShaderTable* table : {&start, &miss, &hit, &callable}) {
+    buffers_.push_back(table->buffer());
+  }
 }
 
-void Runner::dispatch(const TestRun& test) {
-  rtapi::CommandList list = device_.CreateCommandList().value();
-  if (test.traces) return dispatch_rays(test, list);
+void Runner::draw(const TestRun& test, rtapi::CommandList& list) {
+  rtapi::GraphicsPipelineStateDesc desc;
+  desc.pRootSignature = root_signature_;
+  desc.VS = {compiled_.Library, kVertexShader};
+  desc.PS = {compiled_.Library, test.entry};
+  desc.DepthStencilState.DepthEnable = false;
+  desc.Name = test.name;
+  const rtapi::PipelineState pipeline = device_.CreateGraphicsPipelineState(desc).value();
+  bind(list, true);
+  list.SetPipelineState(pipeline);
+  list.IASetPrimitiveTopology(rtapi::PrimitiveTopology::kTriangleList);
+  const auto width = static_cast<float>(test.size[0]);
+  const auto height = static_cast<float>(test.size[1]);
+  list.RSSetViewports(rtapi::Viewport{0, 0, width, height});
+  list.RSSetScissorRects(
+      rtapi::Rect{0, 0, static_cast<int32_t>(test.size[0]), static_cast<int32_t>(test.size[1])});
+  list.DrawInstanced(3, 1, 0, 0);
+}
+
+void Runner::dispatch(const TestRun& test, rtapi::CommandList& list) {
   const rtapi::PipelineState pipeline =
       device_
           .CreateComputePipelineState({root_signature_, compiled_.Library, test.entry, test.name})
@@ -281,14 +325,25 @@ void Runner::dispatch(const TestRun& test) {
   bind(list);
   list.SetPipelineState(pipeline);
   list.Dispatch(test.size[0], test.size[1], test.size[2]);
-  queue_.ExecuteAndWait(list).value();
 }
 
 void Runner::run(const TestRun& test, const Tell& tell) {
   tell_ = &tell;
   values_.clear();
   try {
-    dispatch(test);
+    rtapi::CommandList list = device_.CreateCommandList().value();
+    switch (test.stage) {
+      case TestStage::kCompute:
+        dispatch(test, list);
+        break;
+      case TestStage::kRays:
+        dispatch_rays(test, list);
+        break;
+      case TestStage::kPixels:
+        draw(test, list);
+        break;
+    }
+    queue_.ExecuteAndWait(list).value();
   } catch (const rtapi::ResultError& error) {
     tell({Report::Kind::kFailure, error.what()});
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/shaders/scene.h"
+#include "tests/shaders/table_records.h"
 #include "tests/shaders/test_file.h"
 
 namespace kaamos::shader_tests {
@@ -32,6 +33,7 @@ struct Source {
   std::string text;
   TestFile tests;
   SceneDescription scene;
+  TableRecords records;
   std::vector<std::string> dependencies;  // files to watch
   std::string error;
 };
@@ -55,9 +57,12 @@ class Runner {
 
  private:
   std::string make_device();
-  void dispatch(const TestRun& test);
+  void dispatch(const TestRun& test, rtapi::CommandList& list);
   void dispatch_rays(const TestRun& test, rtapi::CommandList& list);
-  void bind(rtapi::CommandList& list);
+  void draw(const TestRun& test, rtapi::CommandList& list);
+  // Gives every resource of the file to the root arguments of dispatches, or of draws.
+  void bind(rtapi::CommandList& list, bool of_draws = false);
+  rtapi::GpuVirtualAddress resource(const rtapi::ShaderBindingInfo& binding);
   const rtapi::StateObject& rays_pipeline();
   void hear(const rtapi::Message& message);
 
@@ -72,7 +77,7 @@ class Runner {
   rtapi::CommandQueue queue_;
   rtapi::RootSignature root_signature_;
   rtapi::StateObject rays_pipeline_;
-  std::optional<Scene> scene_;
+  std::optional<Scene> scenes_[3];      // TestScene, and what shaders are called on alone
   std::vector<rtapi::Buffer> buffers_;  // of the running test
 
   const Tell* tell_ = nullptr;

@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "effects/assets/gltf/gltf_write.h"
 #include "tests/shaders/report.h"
 #include "tests/shaders/scene.h"
 #include "tests/shaders/session.h"
+#include "tests/shaders/table_records.h"
 #include "tests/shaders/test_file.h"
 
 namespace kaamos::shader_tests {
@@ -72,7 +74,8 @@ TEST(TestFile, FindsTheRecordsOfTables) {
   EXPECT_TRUE(file.has_shader_config);
   EXPECT_FALSE(file.has_pipeline_config);
   ASSERT_EQ(file.runs.size(), 2u);
-  EXPECT_TRUE(file.runs[0].traces && file.runs[1].traces);
+  EXPECT_EQ(file.runs[0].stage, TestStage::kRays);
+  EXPECT_EQ(file.runs[1].stage, TestStage::kRays);
   EXPECT_EQ(file.runs[1].entry, "Own");
   EXPECT_EQ(file.entry_points, "[shader(\"raygeneration\")] void kaamos_test_0() { R(); }\n");
 }
@@ -82,14 +85,17 @@ TEST(TestFile, MistakesAreExplained) {
   EXPECT_EQ(error("[test] int f() { return 1; }"),
             "a.hlsl:1: 'f' is a test and returns a value; tests return void");
   EXPECT_EQ(error("\n[test] [shader(\"miss\")] void f(inout P p) {}"),
-            "a.hlsl:2: 'f' is a test for stage \"miss\"; tests run in \"compute\" or "
-            "\"raygeneration\"");
+            "a.hlsl:2: 'f' is a test for stage \"miss\"; tests run in \"compute\", "
+            "\"raygeneration\" or \"pixel\"");
   EXPECT_EQ(error("[test] [cases(1)] [numthreads(2, 1, 1)] void f(uint i : SV_GroupIndex) {}"),
             "a.hlsl:1: 'f' has [cases] and [numthreads]; a test takes its arguments from one of "
             "them");
   EXPECT_EQ(error("[test] [cases(1)] [shader(\"raygeneration\")] void f(int i) {}"),
             "a.hlsl:1: 'f' has [shader] and [cases]; write [test(\"raygeneration\")] in place of "
             "[shader]");
+  EXPECT_EQ(error("[test(\"pixel\")] [cases(1)] void f(float4 p : SV_Position) {}"),
+            "a.hlsl:1: 'f' has [cases] and inputs of a pixel shader; a test takes its arguments "
+            "from one of them");
   EXPECT_EQ(error("[test] [dispatch(0, 1, 1)] void f() {}"),
             "a.hlsl:1: [dispatch] takes one to three numbers from 1 on, and here is '0'");
 }
@@ -119,6 +125,37 @@ TEST(SceneLines, DescribeGeometriesAndInstances) {
   EXPECT_EQ(scene.instances[1].desc.InstanceMask, 0xFFu);
 }
 
+TEST(SceneLines, RecordsHaveConstantsOfEachParameter) {
+  const SceneDescription scene =
+      read_scene("#pragma kaamos record Glass (0.5, -1, 0x10) (4294967295)\n");
+  EXPECT_EQ(scene.error, "");
+  ASSERT_EQ(scene.records.size(), 1u);
+  EXPECT_EQ(scene.records[0].export_name, "Glass");
+  EXPECT_EQ(scene.records[0].constants,
+            (std::vector<std::vector<uint32_t>>{{0x3F000000u, 0xFFFFFFFFu, 16}, {0xFFFFFFFFu}}));
+}
+
+// Every record of a name stands where the name stands in the file.
+TEST(TableRecords, FollowTheFileAndItsLines) {
+  TestFile file;
+  file.hit_groups = {"A", "B", "C"};
+  file.miss_shaders = {"M"};
+  const TableRecords records =
+      table_records(file, read_scene("#pragma kaamos record B (1)\n#pragma kaamos record B (2)\n"));
+  ASSERT_EQ(records.hit_groups.size(), 4u);
+  EXPECT_EQ(records.hit_groups[2].constants[0][0], 2u);
+  EXPECT_EQ(records.hit_groups[3].export_name, "C");
+  std::string defines;
+  for (const rtapi::ShaderDefine& one : record_defines(records)) {
+    defines += one.Name + "=" + one.Value + " ";
+  }
+  EXPECT_EQ(defines,
+            "KAAMOS_HIT_GROUP_A=0 KAAMOS_HIT_GROUP_B=1 KAAMOS_HIT_GROUP_C=3 KAAMOS_MISS_M=0 "
+            "KAAMOS_MISS_none=1 ");
+  EXPECT_EQ(table_records(file, read_scene("#pragma kaamos record D (1)\n")).error,
+            "'#pragma kaamos record D' names no hit group, miss or callable shader of the file");
+}
+
 TEST(SceneLines, MistakesAreExplained) {
   const auto error = [](const std::string& text) { return read_scene("\n" + text).error; };
   EXPECT_EQ(error("#pragma kaamos geometry w triangles (0,0,0) (1,0,0)"),
@@ -139,8 +176,14 @@ TEST(SceneLines, MistakesAreExplained) {
   EXPECT_EQ(error(wall + "colour 3"),
             "line 3: 'colour' is neither at, scale, transform, id, mask, hit_group nor flags");
   EXPECT_EQ(error("#pragma kaamos scene x"),
-            "line 2: '#pragma kaamos scene' is none; write '#pragma kaamos geometry NAME ...' or "
-            "'#pragma kaamos instance NAME ...'");
+            "line 2: '#pragma kaamos scene' is none; write '#pragma kaamos geometry NAME ...', or "
+            "gltf, instance or record in place of geometry");
+  EXPECT_EQ(error("#pragma kaamos gltf room"), "line 2: 'gltf' takes a name and a file, in quotes");
+  EXPECT_NE(error("#pragma kaamos gltf room \"no.glb\"").find("line 2: KA3020"), std::string::npos);
+  EXPECT_EQ(error("#pragma kaamos record Glass 3"),
+            "line 2: '3' is no list of constants; write (0.5, 3) for each parameter of the local "
+            "root signature");
+  EXPECT_EQ(error("#pragma kaamos record Glass (red)").substr(0, 14), "line 2: 'red' ");
 }
 
 // A file in a folder of its own, and what running it gives.
@@ -288,6 +331,32 @@ TEST_F(Session, BuffersAreThere) {
   ASSERT_EQ(ran.error, "");
   EXPECT_EQ(ran.results[0].outcome, Outcome::kPassed) << failure(ran.results[0]);
   EXPECT_EQ(ran.results[1].outcome, Outcome::kPassed) << failure(ran.results[1]);
+}
+
+// A cube of a file: every ray down its axis meets it, and only its own geometry counts.
+TEST_F(Session, TracesGltfFiles) {
+  effects::Scene scene;
+  effects::Mesh mesh;
+  const effects::Vertex corners[3] = {
+      {{-1, -1, 0}, {0, 0, 1}}, {{1, -1, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}}};
+  const uint32_t indices[3] = {0, 1, 2};
+  mesh.add_geometry(corners, indices, 0, false);
+  mesh.add_geometry(corners, indices, 0, true);
+  scene.meshes.push_back(mesh);
+  scene.materials.emplace_back();
+  effects::Instance instance;
+  instance.transform[3] = glm::dvec4(0, 0, 4, 1);
+  scene.instances.push_back(instance);
+  ASSERT_TRUE(effects::write_glb((folder_ / "wall.glb").string(), scene).ok());
+  const SessionResult ran =
+      run("#pragma kaamos gltf wall \"wall.glb\"\n#pragma kaamos instance wall at (0,0,1)\n"
+          "[test] void f() { RayQuery<RAY_FLAG_NONE> q; RayDesc r = {float3(0, 0, 0), 0, "
+          "float3(0, 0, 1), 9}; q.TraceRayInline(TestScene, 0, 0xFF, r); uint open = 0; "
+          "while (q.Proceed()) ++open; EXPECT_NEAR(q.CommittedRayT(), 5, 1e-5); "
+          "EXPECT_EQ(q.CommittedGeometryIndex(), 0); EXPECT_LE(open, 1); }\n");
+  ASSERT_EQ(ran.error, "");
+  EXPECT_EQ(ran.results[0].outcome, Outcome::kPassed) << failure(ran.results[0]);
+  EXPECT_EQ(source_.dependencies.back(), (folder_ / "wall.glb").string());
 }
 
 TEST_F(Session, ReportsAreWhatServersRead) {

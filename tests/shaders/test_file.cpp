@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <optional>
 
 namespace kaamos::shader_tests {
 namespace {
@@ -148,9 +149,16 @@ struct Attributes {
   std::vector<std::string> cases;  // arguments of a call
   std::string threads;             // "8, 8, 1"
   std::string stage;               // of [shader("...")], in quotes
-  std::array<uint32_t, 3> size = {1, 1, 1};
+  std::optional<std::array<uint32_t, 3>> size;
   std::string skip;
 };
+
+std::optional<TestStage> stage_of(const std::string& name) {
+  if (name.empty() || name == "\"compute\"") return TestStage::kCompute;
+  if (name == "\"raygeneration\"") return TestStage::kRays;
+  if (name == "\"pixel\"") return TestStage::kPixels;
+  return std::nullopt;
+}
 
 class Finder {
  public:
@@ -221,12 +229,12 @@ class Finder {
 
   void read_size(const Token& at, size_t first, size_t last) {
     const auto given = parts(tokens_, first, last);
+    std::array<uint32_t, 3>& size = attributes_.size.emplace();
     for (size_t i = 0; i < 3; ++i) {
       const std::string text = i < given.size() ? tokens_[given[i].first].text : "1";
-      const auto read =
-          std::from_chars(text.data(), text.data() + text.size(), attributes_.size[i]);
+      const auto read = std::from_chars(text.data(), text.data() + text.size(), size[i]);
       const bool is_number = read.ec == std::errc() && read.ptr == text.data() + text.size();
-      if (!is_number || given.size() > 3 || attributes_.size[i] == 0) {
+      if (!is_number || given.size() > 3 || size[i] == 0) {
         fail(at, "[dispatch] takes one to three numbers from 1 on, and here is '" + text + "'");
       }
     }
@@ -258,34 +266,36 @@ class Finder {
     std::string qualified;
     for (const std::string& space : namespaces_) qualified += space + "::";
     qualified += name.text;
-    const std::string& stage =
+    const std::string& stage_name =
         attributes_.test_stage.empty() ? attributes_.stage : attributes_.test_stage;
-    const bool traces = stage == "\"raygeneration\"";
-    if (!stage.empty() && !traces && stage != "\"compute\"") {
-      return fail(name, "'" + qualified + "' is a test for stage " + stage +
-                            "; tests run in \"compute\" or \"raygeneration\"");
+    const std::optional<TestStage> stage = stage_of(stage_name);
+    if (!stage) {
+      return fail(name, "'" + qualified + "' is a test for stage " + stage_name +
+                            "; tests run in \"compute\", \"raygeneration\" or \"pixel\"");
     }
     const bool is_shader = !attributes_.stage.empty();
     if (is_shader && !attributes_.cases.empty()) {
-      return fail(name, "'" + qualified + "' has [shader] and [cases]; write [test(" + stage +
+      return fail(name, "'" + qualified + "' has [shader] and [cases]; write [test(" + stage_name +
                             ")] in place of [shader]");
     }
     if (open < 2 || !tokens_[open - 2].is("void")) {
       return fail(name, "'" + qualified + "' is a test and returns a value; tests return void");
     }
     const bool has_threads = !attributes_.threads.empty();
-    if (has_threads && !attributes_.cases.empty()) {
-      return fail(name, "'" + qualified +
-                            "' has [cases] and [numthreads]; a test takes its "
-                            "arguments from one of them");
+    const bool takes_pixels = *stage == TestStage::kPixels && open + 1 < close;
+    if ((has_threads || takes_pixels) && !attributes_.cases.empty()) {
+      return fail(name, "'" + qualified + "' has [cases] and " +
+                            (has_threads ? "[numthreads]" : "inputs of a pixel shader") +
+                            "; a test takes its arguments from one of them");
     }
     const bool has_cases = !attributes_.cases.empty();
     const size_t count = has_cases ? attributes_.cases.size() : 1;
     for (size_t i = 0; i < count; ++i) {
       TestRun run;
       run.name = qualified + (has_cases ? "/" + std::to_string(i) : "");
-      run.traces = traces;
-      run.size = attributes_.size;
+      run.stage = *stage;
+      const uint32_t side = *stage == TestStage::kPixels ? 2 : 1;
+      run.size = attributes_.size.value_or(std::array<uint32_t, 3>{side, side, 1});
       run.skip = attributes_.skip;
       run.file = name.file;
       run.line = name.line;
@@ -301,14 +311,16 @@ class Finder {
                        size_t open, size_t close) {
     std::string& out = out_.entry_points;
     const bool has_threads = !attributes_.threads.empty();
-    if (run.traces) {
+    if (run.stage == TestStage::kRays) {
       out += "[shader(\"raygeneration\")] void ";
+    } else if (run.stage == TestStage::kPixels) {
+      out += "[shader(\"pixel\")] void ";
     } else {
       out += "[shader(\"compute\")] [numthreads(" +
              (has_threads ? attributes_.threads : std::string("1, 1, 1")) + ")] void ";
     }
     std::string parameters;
-    if (has_threads) {
+    if (has_threads || run.stage == TestStage::kPixels) {
       // The same system values, passed on.
       parameters = joined(tokens_, open + 1, close);
       for (const auto& [begin, end] : parts(tokens_, open + 1, close)) {
@@ -337,6 +349,16 @@ class Finder {
 TestFile find_tests(std::string_view text, const std::string& file) {
   TestFile out;
   Finder(Splitter(text, file).run(), out).run();
+  const bool draws = std::any_of(out.runs.begin(), out.runs.end(), [](const TestRun& run) {
+    return run.stage == TestStage::kPixels;
+  });
+  // A triangle over all pixels, in their front.
+  if (draws) {
+    out.entry_points +=
+        "[shader(\"vertex\")] float4 " + std::string(kVertexShader) +
+        "(uint i : SV_VertexID) : SV_Position { return float4(i == 1 ? 3 : -1, i == 2 ? -3 : 1, "
+        "0.5, 1); }\n";
+  }
   return out;
 }
 

@@ -12,17 +12,23 @@
 
 namespace kaamos::shader_tests {
 
+// What runs a test.
+enum class TestStage : uint8_t { kCompute, kRays, kPixels };
+
 // One test with one row of arguments.
 struct TestRun {
   std::string name;  // "brdf::Fresnel", "brdf::Fresnel/2" for its third case
   std::string entry;
-  bool traces = false;  // a ray generation shader; otherwise a compute shader
-  // Thread groups, or rays. [dispatch(x, y, z)]
+  TestStage stage = TestStage::kCompute;
+  // Thread groups, rays, or pixels: at first a quad of 2 x 2. [dispatch(x, y, z)]
   std::array<uint32_t, 3> size = {1, 1, 1};
   std::string skip;  // why it does not run; empty: it does
   std::string file;
   uint32_t line = 0;
 };
+
+// The vertex shader of all tests of pixels.
+inline constexpr char kVertexShader[] = "kaamos_test_vertices";
 
 struct TestFile {
   std::vector<TestRun> runs;

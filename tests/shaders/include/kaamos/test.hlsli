@@ -9,8 +9,39 @@
 // after a failure; ASSERT_ returns from the test, and so belongs into the test itself.
 #pragma once
 
-// What the lines "#pragma kaamos geometry" and "#pragma kaamos instance" describe.
+// What the lines "#pragma kaamos geometry", "gltf" and "instance" describe.
 RaytracingAccelerationStructure TestScene : register(t0, space9999);
+
+// The first record of a hit group, a miss or a callable shader of this file in its table.
+// MISS(none) runs nothing.
+#define HIT_GROUP(name) KAAMOS_HIT_GROUP_##name
+#define MISS(name) KAAMOS_MISS_##name
+#define CALLABLE(name) KAAMOS_CALLABLE_##name
+
+// A triangle of (0,0,0), (0,1,0) and (1,0,0), and a box from -1 to 1.
+RaytracingAccelerationStructure kaamos_TestTriangle : register(t1, space9999);
+RaytracingAccelerationStructure kaamos_TestBox : register(t2, space9999);
+
+// Runs a hit group of triangles alone: its any-hit shader at these barycentrics, unless flags make
+// the triangle opaque, and its closest-hit shader if the hit is not ignored. RayTCurrent() is 1, the
+// front is hit. Hit groups have the numbers 0 to 15. For tests in "raygeneration".
+template <typename Payload>
+void CallHitGroup(uint hit_group, float2 barycentrics, inout Payload payload,
+                  uint flags = RAY_FLAG_NONE) {
+  const RayDesc ray = {float3(barycentrics.yx, -1), 0, float3(0, 0, 1), 2};
+  TraceRay(kaamos_TestTriangle, flags, 0xFF, hit_group, 0, MISS(none), ray, payload);
+}
+// The same of a hit group with an intersection shader, which gets a ray that meets the box.
+template <typename Payload>
+void CallProceduralHitGroup(uint hit_group, RayDesc ray, inout Payload payload,
+                            uint flags = RAY_FLAG_NONE) {
+  TraceRay(kaamos_TestBox, flags, 0xFF, hit_group, 0, MISS(none), ray, payload);
+}
+// Runs a miss shader alone.
+template <typename Payload>
+void CallMiss(uint miss, RayDesc ray, inout Payload payload) {
+  TraceRay(kaamos_TestTriangle, RAY_FLAG_NONE, 0, 0, 0, miss, ray, payload);
+}
 
 namespace kaamos_test {
 
