@@ -40,19 +40,31 @@ ArrayBuffer make_buffer(Session& session, const py::object& object) {
           array.dtype(), shape_of(array)};
 }
 
-py::array read_buffer(const Session& session, const ArrayBuffer& from, const py::object& type,
+// A buffer whose memory is that of an array.
+ArrayBuffer make_mapped_buffer(Session& session, const py::object& object) {
+  const py::array array = contiguous(object);
+  if (array.nbytes() == 0) throw py::value_error("the array is empty");
+  return {rtapi::CreateUploadBuffer(session.device(), bytes_of(array), "mapped buffer").value(),
+          array.dtype(), shape_of(array)};
+}
+
+// What the device copied is the array's memory.
+py::array read_buffer(Session& session, const ArrayBuffer& from, const py::object& type,
                       const py::object& shape) {
-  std::vector<std::byte> bytes;
-  {
-    const py::gil_scoped_release released;
-    bytes = rtapi::ReadbackBuffer(session.device(), session.queue(), from.buffer).value();
-  }
+  const rtapi::Buffer copy = session.device()
+                                 .CreateBuffer({.SizeInBytes = from.buffer.size(),
+                                                .Heap = rtapi::HeapType::kReadback,
+                                                .Name = "readback"})
+                                 .value();
+  rtapi::CommandList list = session.device().CreateCommandList().value();
+  list.CopyBufferRegion(copy, 0, from.buffer, 0, copy.size());
+  session.execute(list, {});
   const bool as_made = type.is_none() && shape.is_none();
   const py::dtype chosen = type.is_none() ? from.type : py::dtype::from_args(type);
-  return array_of(bytes, chosen,
-                  !shape.is_none() ? shape.cast<std::vector<py::ssize_t>>()
-                  : as_made        ? from.shape
-                                   : std::vector<py::ssize_t>{-1});
+  return mapped_array(copy, chosen,
+                      !shape.is_none() ? shape.cast<std::vector<py::ssize_t>>()
+                      : as_made        ? from.shape
+                                       : std::vector<py::ssize_t>{-1});
 }
 
 ArrayTexture make_texture(Session& session, const py::object& object) {
@@ -79,6 +91,54 @@ py::array read_texture(const Session& session, const ArrayTexture& from) {
     bytes = rtapi::ReadbackTexture(session.device(), session.queue(), from.texture, 0).value();
   }
   return array_of(bytes, from.type, from.shape);
+}
+
+template <class Value>
+Value named(const std::map<std::string, Value>& names, const std::string& name, const char* what) {
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  std::string all;
+  for (const auto& [one, value] : names) all += (all.empty() ? "'" : ", '") + one + "'";
+  throw py::value_error(std::string(what) + " is '" + name + "'; there are " + all);
+}
+
+rtapi::SamplerDesc sampler_desc(const std::string& filter, const std::string& address,
+                                const std::string& compare, std::array<float, 4> border, float bias,
+                                std::array<float, 2> lod) {
+  using rtapi::ComparisonFunc;
+  using rtapi::Filter;
+  using rtapi::TextureAddressMode;
+  static const std::map<std::string, Filter> kFilters = {{"nearest", Filter::kMinMagMipPoint},
+                                                         {"linear", Filter::kMinMagMipLinear},
+                                                         {"anisotropic", Filter::kAnisotropic}};
+  static const std::map<std::string, TextureAddressMode> kAddresses = {
+      {"wrap", TextureAddressMode::kWrap},
+      {"mirror", TextureAddressMode::kMirror},
+      {"clamp", TextureAddressMode::kClamp},
+      {"border", TextureAddressMode::kBorder},
+      {"mirror once", TextureAddressMode::kMirrorOnce}};
+  static const std::map<std::string, ComparisonFunc> kComparisons = {
+      {"less", ComparisonFunc::kLess},
+      {"equal", ComparisonFunc::kEqual},
+      {"less equal", ComparisonFunc::kLessEqual},
+      {"greater", ComparisonFunc::kGreater},
+      {"not equal", ComparisonFunc::kNotEqual},
+      {"greater equal", ComparisonFunc::kGreaterEqual},
+      {"always", ComparisonFunc::kAlways}};
+  constexpr uint32_t kCompares = 0x80;  // [D3D12: D3D12_FILTER]
+  rtapi::SamplerDesc out;
+  out.Filter = named(kFilters, filter, "filter");
+  out.AddressU = out.AddressV = out.AddressW = named(kAddresses, address, "address");
+  if (out.Filter == Filter::kAnisotropic) out.MaxAnisotropy = 16;
+  if (!compare.empty()) {
+    out.ComparisonFunc = named(kComparisons, compare, "compare");
+    out.Filter = static_cast<Filter>(static_cast<uint32_t>(out.Filter) | kCompares);
+  }
+  std::copy(border.begin(), border.end(), out.BorderColor);
+  out.MipLODBias = bias;
+  out.MinLOD = lod[0];
+  out.MaxLOD = lod[1];
+  return out;
 }
 
 RayDispatch ray_dispatch(std::string ray_generation, std::vector<Record> miss,
@@ -134,9 +194,10 @@ PYBIND11_MODULE(_kaamos, m) {
     }
   });
 
-  py::class_<ArrayBuffer>(m, "Buffer").def_property_readonly("nbytes", [](const ArrayBuffer& b) {
-    return b.buffer.size();
-  });
+  py::class_<ArrayBuffer>(m, "Buffer")
+      .def_property_readonly("nbytes", [](const ArrayBuffer& b) { return b.buffer.size(); })
+      .def("mapped", [](const ArrayBuffer& b) { return mapped_array(b.buffer, b.type, b.shape); });
+  py::class_<rtapi::SamplerDesc>(m, "Sampler").def(py::init(&sampler_desc));
   py::class_<ArrayTexture>(m, "Texture").def_property_readonly("shape", [](const ArrayTexture& t) {
     return py::tuple(py::cast(t.shape));
   });
@@ -181,6 +242,7 @@ PYBIND11_MODULE(_kaamos, m) {
            py::arg("backend"), py::arg("interpret"), py::arg("checked"), py::arg("threads"))
       .def("compile", compile)
       .def("buffer", make_buffer)
+      .def("mapped_buffer", make_mapped_buffer)
       .def("read_buffer", read_buffer)
       .def("texture", make_texture)
       .def("read_texture", read_texture)

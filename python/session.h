@@ -48,14 +48,15 @@ struct Structure {
   std::vector<rtapi::Buffer> inputs;
 };
 
-// What a call binds to a name: a resource, or the bytes of a constant buffer.
-using Bound = std::variant<ArrayBuffer, ArrayTexture, Structure, std::string>;
+// What a call binds to a name: a resource, a sampler, or the bytes of a constant buffer.
+using Bound = std::variant<ArrayBuffer, ArrayTexture, Structure, rtapi::SamplerDesc, std::string>;
 using Bindings = std::map<std::string, Bound>;
 
 // What a list must leave alive and put back.
 struct BoundResources {
   std::vector<rtapi::Resource> alive;
-  rtapi::DescriptorHeap heap;                // empty without textures
+  rtapi::DescriptorHeap heap;                // empty without textures and typed buffers
+  rtapi::DescriptorHeap samplers;            // empty without samplers
   std::vector<rtapi::ResourceBarrier> undo;  // textures back to the common state
 };
 
@@ -90,8 +91,9 @@ class Session {
   // for what cannot be bound.
   rtapi::RootSignature root_signature(const Library& library,
                                       const std::vector<std::string>& local = {}) const;
-  // Sets all of them on the list, from the resources of those names. Throws py::type_error for a
-  // name that the library lacks or that is not given.
+  // Sets all of them on the list, from the resources of those names; a SamplerState that is not
+  // given is linear and wraps. Throws py::type_error for a name that the library lacks or that is
+  // not given. [bindings.cpp]
   BoundResources bind(rtapi::CommandList& list, Root root, const Library& library,
                       const rtapi::RootSignature& signature, const Bindings& given,
                       const std::vector<std::string>& local = {});

@@ -22,7 +22,7 @@ import numpy as np
 from . import _kaamos
 from ._kaamos import Error, Library, __version__
 
-__all__ = ["Device", "Buffer", "Texture", "Instance", "AccelerationStructure", "Library", "Explanation", "Picture",
+__all__ = ["Device", "Buffer", "MappedBuffer", "Texture", "Sampler", "Instance", "AccelerationStructure", "Library", "Explanation", "Picture",
            "FrameRenderer", "scenes", "frame_settings", "Error", "CheckError", "call", "__version__"]
 
 
@@ -31,7 +31,9 @@ class CheckError(Error):
 
 
 class Buffer:
-    """Memory that shaders read and write: `ByteAddressBuffer`, `StructuredBuffer<T>` and their RW."""
+    """Memory that shaders read and write: `ByteAddressBuffer`, `StructuredBuffer<T>` and their RW, and
+    `Buffer<T>` and `RWBuffer<T>`, whose elements are the array's last axis if that has up to 4 numbers:
+    of the types that textures have."""
 
     def __init__(self, device, native):
         self._device = device
@@ -43,9 +45,33 @@ class Buffer:
         return self._native.nbytes
 
     def numpy(self, dtype=None, shape=None):
-        """A copy as a numpy array: of the type and shape that it was made with, or of these. One axis
-        of `shape` may be -1. Raises ValueError if the buffer is smaller."""
+        """A numpy array of what is in it now: of the type and shape that it was made with, or of these. One
+        axis of `shape` may be -1. The array's memory is what the device copied. Raises ValueError if the
+        buffer is smaller."""
         return self._device._session.read_buffer(self._native, dtype, shape)
+
+
+class MappedBuffer(Buffer):
+    """A buffer whose memory is that of `array`: what is written there, the next dispatch reads, and
+    nothing is copied. Shaders only read it."""
+
+    @property
+    def array(self):
+        """The memory, as an array of the type and shape that it was made with. It keeps the buffer."""
+        return self._native.mapped()
+
+
+class Sampler:
+    """How a texture is read: `filter` "nearest", "linear" or "anisotropic"; `address` beyond the edges "wrap",
+    "mirror", "mirror once", "clamp" or "border", which has the colour `border`; `lod` the least and the
+    greatest level of detail, to which `bias` is added before. `compare` makes it a SamplerComparisonState:
+    "less", "less equal", "greater", "greater equal", "equal", "not equal" or "always". Raises ValueError for
+    words that there are not."""
+
+    def __init__(self, filter="linear", address="wrap", compare=None, border=(0, 0, 0, 0), bias=0.0,
+                 lod=(0.0, 1000.0)):
+        self._native = _kaamos.Sampler(filter, address, compare or "", [float(one) for one in border],
+                                       float(bias), [float(one) for one in lod])
 
 
 class Texture:
@@ -171,7 +197,8 @@ def _constants(value):
 
 
 def _native(value):
-    return value._native if isinstance(value, (Buffer, Texture, AccelerationStructure)) else _constants(value)
+    is_resource = isinstance(value, (Buffer, Texture, AccelerationStructure, Sampler))
+    return value._native if is_resource else _constants(value)
 
 
 def _three(size):
@@ -225,6 +252,10 @@ class Device:
         """A buffer with the bytes of an array. Raises ValueError if it is empty."""
         return Buffer(self, self._session.buffer(np.asarray(array)))
 
+    def mapped_buffer(self, array):
+        """A MappedBuffer that begins with the values of an array. Raises ValueError if it is empty."""
+        return MappedBuffer(self, self._session.mapped_buffer(np.asarray(array)))
+
     def texture(self, array):
         """A texture whose texels are the array's last axis: 1, 2 or 4 of float32, float16, uint8 (0 to
         1 in shaders), uint32 or int32."""
@@ -246,8 +277,9 @@ class Device:
 
     def dispatch(self, library, entry, groups, **resources):
         """Runs a compute shader over thread groups and waits. `resources` are Buffers, Textures,
-        AccelerationStructures and, for constant buffers, numbers or arrays, by their names in HLSL;
-        numbers lie as in HLSL only if no padding is between them. Raises Error, TypeError for names
+        AccelerationStructures, Samplers (a SamplerState that is not given is linear and wraps) and, for
+        constant buffers, numbers or arrays, by their names in HLSL; numbers lie as in HLSL only if no
+        padding is between them. Raises Error, TypeError for names
         and kinds that do not fit."""
         self._run(self._session.dispatch, library, entry, _three(groups),
                   {name: _native(value) for name, value in resources.items()})

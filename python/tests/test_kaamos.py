@@ -47,11 +47,64 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "64 bytes, and there are 32"):
             values.numpy(np.float32, (16,))
 
+    def test_mapped_buffers_are_not_copied(self):
+        library = self.device.compile("""
+            StructuredBuffer<uint> from; RWStructuredBuffer<uint> to;
+            [shader("compute")] [numthreads(4, 1, 1)] void Main(uint i : SV_DispatchThreadID) { to[i] = from[i]; }""")
+        mapped = self.device.mapped_buffer(np.arange(4, dtype=np.uint32))
+        array = mapped.array
+        to = self.device.buffer(np.zeros(4, np.uint32))
+        for value in (5, 6):
+            array[1] = value
+            self.device.dispatch(library, "Main", 1, **{"from": mapped, "to": to})
+            np.testing.assert_array_equal(to.numpy(), [0, value, 2, 3])
+        del mapped
+        self.assertEqual(array[1], 6)  # it keeps the memory
+        read = to.numpy()
+        read[0] = 9  # its own, which the next one does not see
+        self.assertEqual(to.numpy()[0], 0)
+        with self.assertRaisesRegex(TypeError, "'to' is a mapped buffer, which shaders only read"):
+            self.device.dispatch(library, "Main", 1, **{"from": to, "to": self.device.mapped_buffer(array)})
+
+    def test_typed_buffers_have_the_elements_of_the_array(self):
+        library = self.device.compile("""
+            Buffer<float4> colors; Buffer<float> grays; RWBuffer<float2> to;
+            [shader("compute")] [numthreads(2, 1, 1)] void Main(uint i : SV_DispatchThreadID) {
+              to[i] = float2(colors[i].w, grays[i] * 10); }""")
+        to = self.device.buffer(np.zeros((2, 2), np.float32))
+        self.device.dispatch(library, "Main", 1, to=to,
+                             colors=self.device.buffer(np.array([[0, 0, 0, 255], [0, 0, 0, 51]], np.uint8)),
+                             grays=self.device.buffer(np.array([0.5, 0.25], np.float16)))
+        np.testing.assert_allclose(to.numpy(), [[1, 5], [0.2, 2.5]], rtol=1e-6)
+
+    def test_samplers_read_as_they_say(self):
+        library = self.device.compile("""
+            Texture2D<float> t; SamplerState s; SamplerComparisonState c; RWStructuredBuffer<float> to;
+            [shader("compute")] [numthreads(1, 1, 1)] void Main() {
+              to[0] = t.SampleLevel(s, float2(0.45, 0.5), 0); to[1] = t.SampleLevel(s, float2(1.25, 0.5), 0);
+              to[2] = t.SampleCmpLevelZero(c, float2(0.75, 0.5), 2); }""")
+        texture = self.device.texture(np.array([[1, 3]], np.float32))
+
+        def read(sampler, compare):
+            to = self.device.buffer(np.zeros(3, np.float32))
+            given = {} if sampler is None else {"s": sampler}
+            self.device.dispatch(library, "Main", 1, t=texture, to=to, c=kaamos.Sampler(compare=compare), **given)
+            return to.numpy().tolist()
+        np.testing.assert_allclose(read(None, "less"), [1.8, 1, 1], atol=0.01)
+        self.assertEqual(read(kaamos.Sampler("nearest"), "greater"), [1, 1, 0])
+        self.assertEqual(read(kaamos.Sampler("nearest", "clamp"), "less"), [1, 3, 1])
+        self.assertEqual(read(kaamos.Sampler("nearest", "border", border=(7, 0, 0, 0)), "less"), [1, 7, 1])
+        with self.assertRaisesRegex(ValueError, "filter is 'cubic'; there are 'anisotropic', 'linear', 'nearest'"):
+            kaamos.Sampler("cubic")
+        with self.assertRaisesRegex(TypeError, "'c' is a SamplerComparisonState: give its Sampler a 'compare'"):
+            self.device.dispatch(library, "Main", 1, t=texture, to=self.device.buffer(np.zeros(3, np.float32)),
+                                 c=kaamos.Sampler())
+
     def test_textures_keep_their_texels(self):
         for dtype, channels in ((np.float32, 4), (np.float16, 2), (np.uint32, 1), (np.uint8, 4)):
             array = (np.arange(3 * 5 * channels) % 250).astype(dtype).reshape(3, 5, channels)
             np.testing.assert_array_equal(self.device.texture(array).numpy(), array)
-        with self.assertRaisesRegex(TypeError, "no texture has 3 channels"):
+        with self.assertRaisesRegex(TypeError, "no texture or typed buffer has 3 channels"):
             self.device.texture(np.zeros((2, 2, 3), np.float32))
 
     def test_textures_are_sampled(self):
