@@ -15,6 +15,7 @@
 #include "rtapi/src/device/device_level.h"
 #include "rtapi/src/pipelines/root_signature_impl.h"
 #include "runtime/backend/errors.h"
+#include "runtime/coverage/collector.h"
 
 namespace rtapi {
 
@@ -101,6 +102,9 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   auto backend = (*it)->create(desc, impl->context);
   if (!backend.ok()) return backend.error();
   impl->backend = std::move(*backend);
+  if (const std::string problem = kaamos::coverage::begin(); !problem.empty()) {
+    impl->report(MessageSeverity::kWarning, make_error(Id::kCoverageFile, problem));
+  }
   return Device(std::move(impl));
 }
 

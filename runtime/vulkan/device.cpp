@@ -24,6 +24,8 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   auto gpu = Gpu::create();
   if (!gpu) return gpu.error();
   gpu_ = *gpu;
+  coverage_ = std::make_unique<CoverageWords>(*gpu_);
+  gpu_->set_coverage(coverage_.get());
   auto descriptors = DescriptorSet::create(gpu_);
   if (!descriptors) return descriptors.error();
   descriptors_ = *descriptors;
@@ -58,6 +60,7 @@ rtapi::Status Device::validation_status() {
 
 Device::~Device() {
   memory_->on_buffer_end(nullptr);
+  if (gpu_ != nullptr) gpu_->set_coverage(nullptr);
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Device::create_buffer(

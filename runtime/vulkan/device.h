@@ -14,6 +14,7 @@
 #include "runtime/vulkan/memory/timestamps.h"
 #include "runtime/vulkan/rays/dispatch.h"
 #include "runtime/vulkan/rays/state_object.h"
+#include "runtime/vulkan/spirv/coverage_words.h"
 #include "runtime/vulkan/structures/acceleration_structure.h"
 #include "runtime/vulkan/textures/texture.h"
 
@@ -85,6 +86,7 @@ class Device final : public runtime::BackendDevice {
   runtime::Context context_;
   // Members are in order of dependency.
   std::shared_ptr<Gpu> gpu_;
+  std::unique_ptr<CoverageWords> coverage_;
   std::shared_ptr<DescriptorSet> descriptors_;
   std::shared_ptr<PipelineLayout> layout_;
   std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "rtapi/src/shaders/checked_library.h"
+#include "rtapi/src/shaders/library_variant.h"
 #include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 
@@ -485,7 +485,7 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
 TEST(CheckedLibrary, ALibraryThatIsLoadedAgainIsNotCompiledAgain) {
   const auto variant = [] {
     const ShaderLibrary library = LoadShaderLibrary(kaamos_shaders_code()).value();
-    return rtapi::detail::checked_variant(library, false).library.impl().get();
+    return rtapi::detail::variant_of(library, {.checks = true}, false).library.impl().get();
   };
   const auto* first = variant();
   EXPECT_EQ(variant(), first);

@@ -35,6 +35,7 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (flag(16)) options.target = "cs_6_0";
   if (flag(16)) options.exports = "Main;main=Other";
   options.check_access = flag(8);
+  options.coverage = flag(8);
   hlsl::DiagnosticEngine diagnostics({.strict = options.strict});
   const std::shared_ptr<const hlsl::ir::Module> module =
       hlsl::compile_to_ir(options, sources, diagnostics);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "runtime/coverage/collector.h"
 #include "runtime/files/write_file.h"
 #include "tests/shaders/report.h"
 #include "tests/shaders/session.h"
@@ -29,6 +30,7 @@ struct Options {
   std::vector<std::string> executors = {"interpreter"};
   std::string filter;
   std::string junit;
+  std::string coverage;
   double timeout_seconds = 10;
   bool tap = false;
   bool list = false;
@@ -152,6 +154,8 @@ int main(int argc, char** argv) {
   app.add_option("--filter", options.filter,
                  "only tests whose name contains this; with * and ?, or =Name, the whole name");
   app.add_option("--junit", options.junit, "writes the results as JUnit's XML, too");
+  app.add_option("--coverage", options.coverage,
+                 "adds which lines and branches ran to this LCOV tracefile");
   app.add_option("--timeout", options.timeout_seconds, "seconds that one test may take")
       ->check(CLI::PositiveNumber);
   app.add_option("-I", options.source.include_folders, "folder of included files");
@@ -170,6 +174,11 @@ int main(int argc, char** argv) {
   for (const std::string& executor : options.executors) {
     if (is_executor(executor)) continue;
     std::cerr << "--on \"" << executor << "\": it is interpreter, embree or vulkan\n";
+    return kCannotRun;
+  }
+  if (!options.coverage.empty()) setenv("KAAMOS_COVERAGE", options.coverage.c_str(), 1);
+  if (const std::string error = kaamos::coverage::begin(); !error.empty()) {
+    std::cerr << error << "\n";
     return kCannotRun;
   }
   if (options.watch) watch(options);

@@ -11,6 +11,8 @@
 #include <cstring>
 #include <optional>
 
+#include "runtime/coverage/collector.h"
+
 namespace kaamos::shader_tests {
 namespace {
 
@@ -68,10 +70,13 @@ Word word_of(Report::Kind kind) {
     _exit(0);
   }
   tell(file, Word::kReady, 0);
+  (void)coverage::write();
   for (size_t i = first; i < runs.size(); ++i) {
     tell(file, Word::kBegin, i);
     runner.run(*runs[i],
                [&](const Report& report) { tell(file, word_of(report.kind), i, report.text); });
+    // At once, because the next test may end the process. Whether it can be written was tried.
+    (void)coverage::write();
     tell(file, Word::kEnd, i);
   }
   // Without destructors: some drivers end slowly, and nothing is left to write.

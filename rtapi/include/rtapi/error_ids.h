@@ -709,6 +709,8 @@ inline constexpr ErrorId kNoCompiler{2750};  ///< no C++ compiler for shaders
 inline constexpr ErrorId kCompilerFailed{2751};  ///< shader could not be built
 inline constexpr ErrorId kShaderErrors{2752};  ///< shader does not compile
 inline constexpr ErrorId kInterpreterFailed{2753};  ///< shader cannot be interpreted
+inline constexpr ErrorId kNoCoverage{2754};  ///< library without coverage
+inline constexpr ErrorId kCoverageFile{2755};  ///< coverage cannot be written
 inline constexpr ErrorId kSpirvFailed{2760};  ///< SPIR-V could not be made
 inline constexpr ErrorId kSpirvBindings{2761};  ///< too many bindings for SPIR-V
 }  // namespace compiler

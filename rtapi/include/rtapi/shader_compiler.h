@@ -59,8 +59,8 @@ struct ShaderCompileOptions {
   bool WarningsAsErrors = false;  ///< -WX
   bool NoWarnings = false;        ///< -no-warnings: Diagnostics holds errors only
   bool CheckAccess = false;       ///< -check-access: for devices with DeviceDesc::Checked
-  /// False is -no-source: checked devices cannot compile it anew, nor state objects link it with
-  /// another library.
+  /// False is -no-source: checked devices and those with coverage cannot compile it anew, nor state
+  /// objects link it with another library.
   bool EmbedSource = true;
   bool WideThreads = true;          ///< false is -no-wide: never eight threads at once
   bool CheckOnly = false;           ///< -check: nothing is made; Library stays empty
@@ -108,7 +108,10 @@ struct ShaderCompilation {
 
 /// Compiles HLSL into a library for both backends and loads it. Takes the C++ compiler's time,
 /// often seconds, unless the cache holds what the same source, options and compiler gave; a hit
-/// takes about 1 ms. What works of HLSL is listed in runtime/hlsl/SUPPORT.md.
+/// takes about 1 ms. What works of HLSL is listed in runtime/hlsl/SUPPORT.md. With $KAAMOS_COVERAGE
+/// (a path) the code collects which lines and branches run, and so does that of other libraries
+/// when a device uses them; when a device or the process ends, they are added to the LCOV tracefile
+/// at that path.
 /// @errors in ShaderCompilation::Status: KA2752 the source does not compile, which the diagnostics
 /// (KA2000-2799) explain; KA2750 no C++ compiler was found; KA2751 it failed; KA2753 the
 /// interpreter cannot run the code; KA2760, KA2761 no SPIR-V could be made of it; KA0910 the result

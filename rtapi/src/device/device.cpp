@@ -5,8 +5,9 @@
 #include <cstring>
 
 #include "rtapi/src/device/device_impl.h"
-#include "rtapi/src/shaders/checked_library.h"
+#include "rtapi/src/shaders/library_variant.h"
 #include "runtime/backend/dispatch_checks.h"
+#include "runtime/coverage/collector.h"
 
 namespace rtapi {
 
@@ -132,17 +133,34 @@ std::shared_ptr<runtime::BackendBuffer> DeviceImpl::prints() const {
   return prints_;
 }
 
+DeviceImpl::~DeviceImpl() {
+  if (!kaamos::coverage::is_asked()) return;
+  // What runs until the backend ends counts. A failure is told when the process ends.
+  prints_.reset();
+  backend.reset();
+  (void)kaamos::coverage::write();
+}
+
+bool DeviceImpl::runs_variants() const {
+  return reporter || kaamos::coverage::is_asked();
+}
+
 ShaderLibrary DeviceImpl::library_to_run(const ShaderLibrary& library) const {
-  if (!reporter) return library;
-  CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");
-  if (!found.unchecked.empty()) {
+  if (!runs_variants()) return library;
+  const VariantParts parts = {reporter != nullptr, kaamos::coverage::is_asked()};
+  const LibraryVariant found = variant_of(library, parts, desc.Backend == "vulkan");
+  const std::string interpreted = say_interpreted(in_quotes(library.name()), found.slow);
+  if (!found.missing.empty() && parts.checks) {
     reporter->report(
         kaamos::checks::Id::kCodeNotChecked,
-        concat(in_quotes(library.name()), " runs without checks of its code: ", found.unchecked));
+        concat(in_quotes(library.name()), " runs without checks of its code: ", found.missing));
   }
-  if (const std::string text = say_interpreted(in_quotes(library.name()), found.slow);
-      !text.empty()) {
-    reporter->report(kaamos::checks::Id::kCodeInterpreted, text);
+  if (!found.missing.empty() && parts.coverage) {
+    report(MessageSeverity::kWarning,
+           make_error(Id::kNoCoverage, in_quotes(library.name()), ": ", found.missing));
+  }
+  if (!interpreted.empty() && parts.checks) {
+    reporter->report(kaamos::checks::Id::kCodeInterpreted, interpreted);
   }
   return found.library;
 }

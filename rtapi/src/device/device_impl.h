@@ -29,6 +29,11 @@ namespace runtime = kaamos::runtime;
 namespace shader = kaamos::shader;
 
 struct DeviceImpl {
+  DeviceImpl() = default;
+  DeviceImpl(const DeviceImpl&) = delete;
+  DeviceImpl& operator=(const DeviceImpl&) = delete;
+  ~DeviceImpl();
+
   DeviceDesc desc;
   ViewNames views;  // which textures and samplers the descriptors stand for
   runtime::AddressMap addresses;
@@ -55,8 +60,10 @@ struct DeviceImpl {
   // The same by GPU handle, for shader-visible heaps only.
   std::optional<HeapSlot> find_slot(GpuDescriptorHandle handle) const;
 
-  // Returns the library's checked variant on a checked device, else the library itself.
+  // Returns the library's variant with checks on a checked device, and with coverage where that is
+  // asked for; else the library itself.
   ShaderLibrary library_to_run(const ShaderLibrary& library) const;
+  bool runs_variants() const;
 
   // Returns the report that `what` is interpreted for `reason` (ModuleLibrary::slow): each reason
   // once, with the first that it holds for. Empty if there is nothing to report.

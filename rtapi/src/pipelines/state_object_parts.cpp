@@ -257,10 +257,10 @@ void Gatherer::gather_defaults() {
   }
 }
 Result<Parts> gather_parts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc) {
-  if (!device->desc.Checked) return Gatherer(device, desc).run();
-  StateObjectDesc checked = desc;
+  if (!device->runs_variants()) return Gatherer(device, desc).run();
+  StateObjectDesc variants = desc;
   bool all = true;
-  for (StateSubobject& sub : checked.Subobjects) {
+  for (StateSubobject& sub : variants.Subobjects) {
     auto* library = std::get_if<DxilLibraryDesc>(&sub);
     if (!library || !library->DXILLibrary) continue;
     library->DXILLibrary = device->library_to_run(library->DXILLibrary);
@@ -268,8 +268,8 @@ Result<Parts> gather_parts(const std::shared_ptr<DeviceImpl>& device, const Stat
   }
   // In SPIR-V the checked mode's payload header is part of the payload's type, so checked and
   // unchecked shaders cannot exchange payloads.
-  const bool mixed_is_safe = device->desc.Backend != "vulkan";
-  return Gatherer(device, all || mixed_is_safe ? checked : desc).run();
+  const bool mixed_is_safe = device->desc.Backend != "vulkan" || !device->desc.Checked;
+  return Gatherer(device, all || mixed_is_safe ? variants : desc).run();
 }
 
 }  // namespace detail

@@ -10,11 +10,13 @@
 
 #include "rtapi/src/errors/error_table.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
+#include "runtime/coverage/collector.h"
 #include "runtime/hlsl/driver/link_libraries.h"
 
 namespace rtapi::detail {
 namespace {
 
+namespace coverage = kaamos::coverage;
 namespace hlsl = kaamos::hlsl;
 namespace shader = kaamos::shader;
 
@@ -29,7 +31,7 @@ std::string_view source_of(const ShaderLibrary& library) {
 }
 
 std::string key_of(const LinkPlan& plan, bool spirv) {
-  std::string key = concat(spirv);
+  std::string key = concat(spirv, coverage::is_asked());
   for (const ShaderLibrary& library : plan.libraries) {
     const std::string_view source = source_of(library);
     key += concat(" l", std::hash<std::string_view>()(source), ".", source.size(), ".",
@@ -56,6 +58,7 @@ hlsl::LinkRequest request_of(const LinkPlan& plan) {
   }
   const shader::LibraryDesc& first = desc_of(plan.libraries[0]);
   request.check_access = (first.flags & shader::kLibraryChecked) != 0;
+  request.coverage = coverage::is_asked();
   for (const uint32_t entry : plan.entries) request.entries.push_back(first.exports[entry].name);
   for (const LinkedImport& i : plan.imports) {
     request.definitions.push_back(

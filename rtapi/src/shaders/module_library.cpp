@@ -31,7 +31,8 @@ Built interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spirv) {
   }
   const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options);
   if (!interpreted) return hlsl::Failure{interpreted.error()};
-  return loaded(LoadShaderLibrary(&(*interpreted)->desc(), *interpreted));
+  return loaded(load_library(&(*interpreted)->desc(), (*interpreted)->coverage(), *interpreted,
+                             "interpreted library"));
 }
 
 Built build(const hlsl::ir::Module& module, bool spirv, bool debug) {

@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "rtapi/src/errors/error_table.h"
+#include "rtapi/src/shaders/shader_library_impl.h"
 #include "rtapi/src/shaders/shader_reflection.h"
+#include "runtime/coverage/collector.h"
 #include "runtime/hlsl/driver/build_library.h"
 #include "runtime/hlsl/driver/frontend.h"
 #include "runtime/hlsl/driver/host_compiler.h"
@@ -40,6 +42,7 @@ hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
   out.experimental = options.Experimental;
   out.external_linkage = options.ExternalLinkage;
   out.check_access = options.CheckAccess;
+  out.coverage = coverage::is_asked();
   out.embed_source = options.EmbedSource;
   out.strict = options.Strict;
   return out;
@@ -154,7 +157,8 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
     out.Status = detail::make_error(detail::Id::kInterpreterFailed, interpreted.error());
     return;
   }
-  const auto library = LoadShaderLibrary(&(*interpreted)->desc(), *interpreted);
+  const auto library = detail::load_library(&(*interpreted)->desc(), (*interpreted)->coverage(),
+                                            *interpreted, "interpreted library");
   if (!library) {
     out.Status = library.error();
     return;

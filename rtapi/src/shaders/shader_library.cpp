@@ -6,6 +6,7 @@
 #include "rtapi/src/errors/error_table.h"
 #include "rtapi/src/shaders/file_kind.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
+#include "runtime/coverage/collector.h"
 
 namespace rtapi {
 
@@ -108,28 +109,6 @@ ShaderExportInfo make_info(const shader::LibraryDesc& desc, const shader::Export
   return info;
 }
 
-Result<ShaderLibrary> load(const shader::LibraryDesc* desc, std::shared_ptr<const void> owner,
-                           const std::string& where) {
-  if (!desc) return make_error(Id::kShaderLibrary, where, ": the library table is null");
-  if (desc->abi_version != shader::kAbiVersion ||
-      desc->struct_bytes != sizeof(shader::LibraryDesc)) {
-    return make_error(Id::kShaderLibrary, where, " was compiled for ABI version ",
-                      desc->abi_version, " (", desc->struct_bytes,
-                      " bytes), but this program has version ", shader::kAbiVersion, " (",
-                      sizeof(shader::LibraryDesc), " bytes); recompile the shaders");
-  }
-  auto impl = std::make_shared<ShaderLibraryImpl>();
-  impl->name = desc->name ? desc->name : where;
-  impl->target = desc->target ? desc->target : "";
-  if (Status s = check_table(*desc, impl->name); !s.ok()) return s.error();
-  impl->desc = desc;
-  impl->owner = std::move(owner);
-  for (uint32_t i = 0; i < desc->export_count; ++i) {
-    impl->exports.push_back(make_info(*desc, desc->exports[i]));
-  }
-  return ShaderLibrary(std::move(impl));
-}
-
 }  // namespace
 
 const std::string& ShaderLibrary::name() const {
@@ -153,9 +132,34 @@ const ShaderExportInfo* ShaderLibrary::FindExport(const std::string& name) const
   return found;
 }
 
+Result<ShaderLibrary> detail::load_library(const shader::LibraryDesc* desc,
+                                           const shader::CoverageDesc* coverage,
+                                           std::shared_ptr<const void> owner,
+                                           const std::string& where) {
+  if (!desc) return make_error(Id::kShaderLibrary, where, ": the library table is null");
+  if (desc->abi_version != shader::kAbiVersion ||
+      desc->struct_bytes != sizeof(shader::LibraryDesc)) {
+    return make_error(Id::kShaderLibrary, where, " was compiled for ABI version ",
+                      desc->abi_version, " (", desc->struct_bytes,
+                      " bytes), but this program has version ", shader::kAbiVersion, " (",
+                      sizeof(shader::LibraryDesc), " bytes); recompile the shaders");
+  }
+  auto impl = std::make_shared<ShaderLibraryImpl>();
+  impl->name = desc->name ? desc->name : where;
+  impl->target = desc->target ? desc->target : "";
+  if (Status s = check_table(*desc, impl->name); !s.ok()) return s.error();
+  impl->desc = desc;
+  impl->owner = coverage == nullptr ? std::move(owner)
+                                    : kaamos::coverage::collect(*desc, *coverage, std::move(owner));
+  for (uint32_t i = 0; i < desc->export_count; ++i) {
+    impl->exports.push_back(make_info(*desc, desc->exports[i]));
+  }
+  return ShaderLibrary(std::move(impl));
+}
+
 Result<ShaderLibrary> LoadShaderLibrary(const shader::LibraryDesc* desc,
                                         std::shared_ptr<const void> owner) {
-  return load(desc, std::move(owner), "built-in library");
+  return load_library(desc, nullptr, std::move(owner), "built-in library");
 }
 
 Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
@@ -175,7 +179,9 @@ Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
                       " without the symbol ", shader::kLibraryEntryPoint,
                       ", so it is not a shader library made by kaamos-hlsl");
   }
-  return load(entry(), std::move(owner), path);
+  const auto coverage =
+      reinterpret_cast<shader::CoverageEntryPointFn>(dlsym(handle, shader::kCoverageEntryPoint));
+  return load_library(entry(), coverage == nullptr ? nullptr : coverage(), std::move(owner), path);
 }
 
 }  // namespace rtapi

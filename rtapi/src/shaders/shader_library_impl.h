@@ -6,6 +6,8 @@
 #include <vector>
 
 #include <kaamos/shader/abi.h>
+#include <kaamos/shader/coverage.h>
+#include <rtapi/result.h>
 #include <rtapi/shader_library.h>
 
 namespace rtapi::detail {
@@ -17,5 +19,10 @@ struct ShaderLibraryImpl {
   std::string target;
   std::vector<ShaderExportInfo> exports;  // same order as desc->exports
 };
+
+// LoadShaderLibrary for one whose coverage is collected unless it is null.
+Result<ShaderLibrary> load_library(const kaamos::shader::LibraryDesc* desc,
+                                   const kaamos::shader::CoverageDesc* coverage,
+                                   std::shared_ptr<const void> owner, const std::string& where);
 
 }  // namespace rtapi::detail

@@ -188,6 +188,9 @@ class Analysis {
       case StmtKind::kDebugBreak:
         refuse("it calls DebugBreak");
         return kNone;
+      case StmtKind::kCover:
+        refuse("it collects coverage");
+        return kNone;
       default:
         refuse("it has statements of ray shaders");
         return kNone;

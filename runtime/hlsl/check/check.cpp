@@ -46,6 +46,7 @@ class Checker final : Names {
     const Messages& messages = program_.bench.messages;
     if (!messages.has_errors()) finish_.check_payload_uses();
     if (!messages.has_errors()) finish_.warn_skipped();
+    if (!messages.has_any_errors()) finish_.cover_unreached();
     if (messages.has_any_errors()) return nullptr;
     make_long_vectors_arrays(program_.bench.module, program_.bench.build);
     set_aside_unlinked(program_.bench.module);

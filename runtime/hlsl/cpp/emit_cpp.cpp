@@ -507,6 +507,7 @@ std::string CppEmitter::run() {
   if (has_geometry_) line("#include <kaamos/shader/geometry.h>");
   if (wave_words_ != 0) line("#include <kaamos/shader/wave.h>");
   if (module_.check_access) line("#include <kaamos/shader/checked.h>");
+  if (!module_.coverage.empty()) line("#include <kaamos/shader/coverage.h>");
   include_experimental();
   WideEmitter wide(*this);
   for (const EntryPoint& entry : module_.entry_points) wide.plan(entry);
@@ -521,6 +522,9 @@ std::string CppEmitter::run() {
   // A namespace of its own allows several units in one file.
   line("namespace unit_" + options_.entry_point + " {");
   line("namespace ks = kaamos::shader;");
+  if (!module_.coverage.empty()) {
+    line("static uint8_t covered[" + std::to_string(module_.coverage.size()) + "];");
+  }
   line("namespace u {");
   for (const char* reserved : {"Shared", "Statics", "Context", "WideStatics", "WideContext"}) {
     global_names_.add(reserved);
@@ -540,9 +544,17 @@ std::string CppEmitter::run() {
     if (!wide.emit_group(i) && !wide.emit_graphics(i)) emit_entry(i);
   }
   emit_tables();
+  if (!module_.coverage.empty()) emit_coverage();
   line("}}");
-  line("extern \"C\" __attribute__((visibility(\"default\"))) const kaamos::shader::LibraryDesc* " +
-       options_.entry_point + "() { return &unit_" + options_.entry_point + "::library; }");
+  const auto give = [&](const std::string& type, const std::string& function,
+                        const std::string& table) {
+    line("extern \"C\" __attribute__((visibility(\"default\"))) const kaamos::shader::" + type +
+         "* " + function + "() { return &unit_" + options_.entry_point + "::" + table + "; }");
+  };
+  give("LibraryDesc", options_.entry_point, "library");
+  if (!module_.coverage.empty()) {
+    give("CoverageDesc", options_.entry_point + "_coverage", "coverage");
+  }
   return std::move(out_);
 }
 

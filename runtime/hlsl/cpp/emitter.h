@@ -157,6 +157,7 @@ class CppEmitter {
   void emit_unlinked(const ir::EntryPoint& e, const std::string& bindings,
                      const std::string& imports);
   void emit_tables();
+  void emit_coverage();
   std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   std::string entry_arguments(const ir::EntryPoint& entry);
   void collect_parameters_by_reference();

@@ -401,6 +401,11 @@ void CppEmitter::statement(const Stmt& stmt) {
     case StmtKind::kCutStrip:
       line("ctx.stream->cut = true;");
       break;
+    case StmtKind::kCover:
+      // Qualified, because shaders may have variables of that name.
+      line("ks::cover(::unit_" + options_.entry_point + "::covered[" + std::to_string(stmt.point) +
+           "]);");
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

@@ -111,6 +111,19 @@ void CppEmitter::emit_unlinked(const EntryPoint& e, const std::string& bindings,
        (e.root_signature ? quote(*e.root_signature) : "nullptr") + ", nullptr, " + imports + "},");
 }
 
+void CppEmitter::emit_coverage() {
+  const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
+  open("static const ks::CoveragePoint points[] = {");
+  for (const CoveragePoint& point : module_.coverage) {
+    line("{" + number(point.location.file) + ", " + number(point.location.line) + ", " +
+         number(point.location.column) + ", " + number(point.arm) + "},");
+  }
+  line("};");
+  --indent_;
+  line("static const ks::CoverageDesc coverage = {files, " + number(module_.files.size()) +
+       ", points, " + number(module_.coverage.size()) + ", covered};");
+}
+
 void CppEmitter::emit_tables() {
   const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
   open("static const ks::BindingDesc bindings[] = {");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/driver/frontend.h"
 #include "runtime/hlsl/glsl/emit_glsl.h"
@@ -86,6 +88,42 @@ TEST(CheckAccess, BothEmittersLookAtAccessesOnlyWhenAsked) {
   EXPECT_NE(emit_cpp(*checked, {}).find("ks::checked::access_view"), std::string::npos);
   EXPECT_EQ(emit_glsl(*plain, plain->entry_points[0]).text.find("k_tell"), std::string::npos);
   EXPECT_NE(emit_glsl(*checked, checked->entry_points[0]).text.find("k_tell"), std::string::npos);
+}
+
+// Without the lines that have to do with coverage.
+std::string without_coverage(const std::string& code) {
+  std::istringstream lines(code);
+  std::string out;
+  bool in_points = false;
+  for (std::string line; std::getline(lines, line);) {
+    in_points = in_points || line.find("points[] = {") != std::string::npos;
+    const bool is_of_it = in_points || line.find("cover") != std::string::npos;
+    if (!is_of_it) out += line + "\n";
+    if (line.ends_with("};")) in_points = false;
+  }
+  return out;
+}
+
+TEST(Coverage, IsInTheCodeOnlyWhenAskedAndChangesNothingElse) {
+  MemoryFileLoader files = example_files();
+  FrontendOptions options;
+  options.path = "shaders/main.hlsl";
+  options.defines = {"WIDTH=5"};
+  const auto plain = compile(options, files);
+  options.coverage = true;
+  const auto covered = compile(options, files);
+  const EmitCppOptions cpp = {.line_directives = false, .wide = WideThreads::kNever};
+  const std::string plain_cpp = emit_cpp(*plain, cpp);
+  const std::string covered_cpp = emit_cpp(*covered, cpp);
+  EXPECT_EQ(without_coverage(plain_cpp), plain_cpp);
+  EXPECT_NE(covered_cpp.find("::covered[0]);"), std::string::npos);
+  EXPECT_EQ(without_coverage(covered_cpp), plain_cpp);
+  EXPECT_EQ(covered->source, plain->source);
+  EXPECT_EQ(emit_glsl(*plain, plain->entry_points[0]).text.find("cover"), std::string::npos);
+  EXPECT_NE(emit_glsl(*covered, covered->entry_points[0]).text.find("g_cover(0u);"),
+            std::string::npos);
+  // One thread after another, whatever is asked for.
+  EXPECT_EQ(emit_cpp(*covered, {.wide = WideThreads::kAlways}).find("wide"), std::string::npos);
 }
 
 }  // namespace

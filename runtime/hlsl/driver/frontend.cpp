@@ -128,6 +128,7 @@ std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, Sourc
   check_options.hlsl_version = options.hlsl_version;
   check_options.payload_qualifiers = options.payload_qualifiers.value_or(minor >= 7);
   check_options.strict = options.strict;
+  check_options.coverage = options.coverage;
   return parsed;
 }
 

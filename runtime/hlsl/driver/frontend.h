@@ -36,6 +36,7 @@ struct FrontendOptions {
   // -enable-payload-qualifiers, -disable-payload-qualifiers; if empty, on from lib_6_7 up.
   std::optional<bool> payload_qualifiers = {};
   bool check_access = false;  // Module::check_access
+  bool coverage = false;      // CheckOptions::coverage; not part of Module::source
   bool embed_source = true;   // Module::source
   bool strict = false;        // refuse what DXC refuses; the diagnostic engine needs it too
 };

@@ -32,6 +32,7 @@ Result<std::unique_ptr<ir::Module>> link_libraries(const LinkRequest& request) {
       return Failure{"its source cannot be read; was it made by another version of kaamos-hlsl?"};
     }
     source->options.strict = false;  // each has passed by itself
+    source->options.coverage = request.coverage;
     sources.forget_paths();
     files.use(source->files);
     auto one = parse_source(source->options, sources, diagnostics);

@@ -25,6 +25,7 @@ struct LinkRequest {
   std::vector<std::string> entries;  // as Link::entries
   std::vector<Link::Definition> definitions;
   bool check_access = false;
+  bool coverage = false;
 };
 
 // The entry points of the first library.

@@ -239,6 +239,7 @@ class GlslEmitter {
   // triangle_positions.cpp
   void declare_address();
   std::string print_buffer();
+  void cover(uint32_t point);
   std::string position_table();
   bool reads_tables() const;
   std::string query_table_arguments(bool committed) const;

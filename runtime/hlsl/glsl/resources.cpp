@@ -152,7 +152,6 @@ const char* glsl_atomic(AtomicOp op) {
 
 }  // namespace
 
-// Declares a specialization constant once.
 std::string GlslEmitter::print_buffer() {
   static_assert(offsetof(shader::spirv::DispatchBlock, prints) == 640);
   declare_address();
@@ -164,6 +163,22 @@ std::string GlslEmitter::print_buffer() {
          "()";
 }
 
+// The address is the pipeline's, so that the code needs no block of a dispatch.
+void GlslEmitter::cover(uint32_t point) {
+  constant(shader::spirv::kCoverageLowConstant, "g_coverage_low");
+  constant(shader::spirv::kCoverageHighConstant, "g_coverage_high");
+  const std::string function =
+      generated("g_cover",
+                "layout(buffer_reference, scalar, buffer_reference_align = 4) buffer g_Covered { "
+                "uint v; };\n"
+                "void g_cover(uint point) {\n"
+                "  uint64_t words = packUint2x32(uvec2(g_coverage_low, g_coverage_high));\n"
+                "  if (words != 0UL) g_Covered(words + uint64_t(point) * 4UL).v = 1u;\n"
+                "}\n");
+  line(function + "(" + glsl::number(point) + ");");
+}
+
+// Declares a specialization constant once.
 std::string GlslEmitter::constant(uint32_t id, const std::string& name) {
   if (made_.insert(name).second) {
     constants_ += "layout(constant_id = " + std::to_string(shader_.constants.size()) +

@@ -271,6 +271,9 @@ void GlslEmitter::statement(const Stmt& stmt) {
     case StmtKind::kCutStrip:
       line("EndPrimitive();");
       break;
+    case StmtKind::kCover:
+      cover(stmt.point);
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

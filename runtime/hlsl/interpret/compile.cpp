@@ -192,6 +192,7 @@ std::unique_ptr<Program> make_program(std::shared_ptr<const Module> module,
   program->module = std::move(module);
   program->options = options;
   program->checked = program->module->check_access;
+  program->covered = std::make_unique<uint8_t[]>(program->module->coverage.size());
   program->wave_paths = std::make_unique<WavePaths>(*program->module);
   Compiler(*program).run();
   return program;

@@ -17,6 +17,7 @@
 #include "runtime/hlsl/ir/result.h"
 
 namespace kaamos::shader {
+struct CoverageDesc;
 struct Invocation;
 struct LibraryDesc;
 }  // namespace kaamos::shader
@@ -68,6 +69,7 @@ class InterpretedLibrary {
   InterpretedLibrary& operator=(const InterpretedLibrary&) = delete;
 
   const shader::LibraryDesc& desc() const;
+  const shader::CoverageDesc* coverage() const;  // null: the module has none
 
  private:
   InterpretedLibrary();

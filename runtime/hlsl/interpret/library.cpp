@@ -2,6 +2,7 @@
 //
 // The tables of an interpreted library.
 #include <kaamos/shader/abi.h>
+#include <kaamos/shader/coverage.h>
 
 #include <deque>
 
@@ -30,6 +31,8 @@ struct InterpretedLibrary::Tables {
   std::deque<ReachedCalls> calls;
   std::vector<const char*> files;
   shader::LibraryDesc library = {};
+  std::vector<shader::CoveragePoint> points;
+  shader::CoverageDesc coverage = {};
 };
 
 namespace {
@@ -215,6 +218,9 @@ InterpretedLibrary::~InterpretedLibrary() = default;
 const shader::LibraryDesc& InterpretedLibrary::desc() const {
   return tables_->library;
 }
+const shader::CoverageDesc* InterpretedLibrary::coverage() const {
+  return tables_->points.empty() ? nullptr : &tables_->coverage;
+}
 
 Result<std::shared_ptr<const InterpretedLibrary>> InterpretedLibrary::create(
     std::shared_ptr<const ir::Module> module, const InterpretOptions& options) {
@@ -300,6 +306,12 @@ Result<std::shared_ptr<const InterpretedLibrary>> InterpretedLibrary::create(
   tables.library.print_count = count(tables.prints);
   tables.library.imports = tables.imports.data();
   tables.library.import_count = count(tables.imports);
+  for (const ir::CoveragePoint& point : m.coverage) {
+    tables.points.push_back(
+        {point.location.file, point.location.line, point.location.column, point.arm});
+  }
+  tables.coverage = {tables.files.data(), count(tables.files), tables.points.data(),
+                     count(tables.points), tables.program->covered.get()};
   if (!m.source.empty()) {
     tables.library.source = m.source.data();
     tables.library.source_bytes = m.source.size();

@@ -162,8 +162,9 @@ struct Program {
   std::vector<std::byte> zeros;                  // as long as the longest value
   uint32_t static_bytes = 0;
   uint32_t shared_bytes = 0;
-  std::string error;     // set if a module breaks the rules of the IR
-  bool checked = false;  // Module::check_access
+  std::string error;                   // set if a module breaks the rules of the IR
+  bool checked = false;                // Module::check_access
+  std::unique_ptr<uint8_t[]> covered;  // by Module::coverage: 1 once it ran
 };
 
 // compile.cpp

@@ -4,6 +4,7 @@
 // shader by a jump, so nothing here may rely on a destructor.
 #include <alloca.h>
 #include <kaamos/shader/checked.h>
+#include <kaamos/shader/coverage.h>
 #include <kaamos/shader/debugging.h>
 #include <kaamos/shader/prelude.h>
 
@@ -325,6 +326,10 @@ Flow end_shader(Context& context, shader::AnyHitResult result) {
 Flow run(const Action& action, Frame& frame) {
   Context& context = *frame.context;
   const ir::Stmt& stmt = *action.stmt;
+  if (stmt.kind == StmtKind::kCover) {  // no step of the program
+    shader::cover(context.program->covered[stmt.point]);
+    return Flow::kNext;
+  }
   if (out_of_steps(context, stmt.location)) return Flow::kReturn;
   const InterpretHooks& hooks = context.program->options.hooks;
   if (hooks.statement != nullptr && stmt.location.line != 0) {
@@ -404,6 +409,8 @@ Flow run(const Action& action, Frame& frame) {
       return Flow::kNext;
     case StmtKind::kCutStrip:
       context.stream->cut = true;
+      return Flow::kNext;
+    case StmtKind::kCover:
       return Flow::kNext;
     case StmtKind::kIf:
       return run(evaluate_as<bool>(*action.value, frame) ? action.body : action.orelse, frame);

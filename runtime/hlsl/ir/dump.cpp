@@ -298,6 +298,9 @@ class Dumper {
       case ir::StmtKind::kCutStrip:
         line("cut_strip");
         break;
+      case ir::StmtKind::kCover:
+        line("cover " + std::to_string(of.point));
+        break;
       case ir::StmtKind::kRemoveDevice:
         line("remove_device " + std::to_string(static_cast<int>(of.removal)));
         break;

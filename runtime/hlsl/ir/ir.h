@@ -342,6 +342,7 @@ enum class StmtKind : uint8_t {
                 // Does nothing where the assignment before it (quad_functions.h) is enough
   kEmitVertex,  // operands: the outputs of the geometry shaders that reach it, in their order
   kCutStrip,    // what a geometry shader emits next begins a strip
+  kCover,       // point: it ran
 };
 
 enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };
@@ -407,6 +408,7 @@ struct Stmt {
   Layout layout = Layout::kStructured;
   bool row_major = false;
   uint32_t barrier = 0;  // BarrierFlags
+  uint32_t point = 0;    // index into Module::coverage
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -551,6 +553,13 @@ struct Print {
   bool is_error = false;
 };
 
+// A line, or an arm of a branch. [shader::CoveragePoint]
+struct CoveragePoint {
+  Location location;
+  bool is_arm = false;
+  uint32_t arm = 0;
+};
+
 struct Module {
   std::string name;    // main source file as given
   std::string target;  // "lib_6_6"
@@ -566,7 +575,8 @@ struct Module {
   std::vector<const Struct*> structs;  // used ones, members before users
   std::vector<Binding> bindings;       // reachable ones
   std::vector<Subobject> subobjects;
-  std::vector<Print> prints;  // by the order of the source, equal ones once
+  std::vector<Print> prints;            // by the order of the source, equal ones once
+  std::vector<CoveragePoint> coverage;  // empty unless it was asked for
   // Emitters add checks for what DXR leaves undefined. [-check-access]
   bool check_access = false;
   std::string source;  // all source files and options (embedded_source.h); empty: unknown

@@ -474,6 +474,9 @@ class Verifier {
       case StmtKind::kBlock:
         block(of.body);
         break;
+      case StmtKind::kCover:
+        require(of.point < module_.coverage.size(), "unknown point of coverage", nullptr);
+        break;
       default:
         break;
     }

@@ -60,6 +60,7 @@ struct GpuFeatures {
   std::string graphics_lacks;         // what graphics pipelines need and the device does not have
 };
 
+class CoverageWords;
 class Gpu;
 
 // A buffer with its own memory, with every usage that a D3D12 buffer may have. Its address is a
@@ -121,6 +122,10 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   const Workarounds& workarounds() const { return workarounds_; }
   // Names in the environment's lists of workarounds that do not exist.
   const std::vector<std::string>& unknown_workarounds() const { return unknown_workarounds_; }
+  // What shaders of libraries with coverage write to; null: nothing listens. It belongs to the
+  // backend's device, because buffers keep this one alive.
+  CoverageWords* coverage() const { return coverage_; }
+  void set_coverage(CoverageWords* coverage) { coverage_ = coverage; }
   bool is_lavapipe() const { return properties_.driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE; }
 
   // Visible to the host. `what` names it in messages. Errors: KA0990 out of memory, KA0956 larger
@@ -173,6 +178,7 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   GpuFeatures features_;
   Workarounds workarounds_;
   std::vector<std::string> unknown_workarounds_;
+  CoverageWords* coverage_ = nullptr;
   uint32_t queue_family_ = 0;
   uint32_t timestamp_bits_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;

@@ -5,6 +5,7 @@
 
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/backend/errors.h"
+#include "runtime/vulkan/spirv/coverage_words.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -110,6 +111,11 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
     constants.add(shader::spirv::kTwinPayloadConstant, options.twin_payload_words);
   }
   if (options.allow_micromaps) constants.add(shader::spirv::kAllowMicromapsConstant, 1);
+  if (options.coverage != 0) {
+    constants.add(shader::spirv::kCoverageLowConstant, static_cast<uint32_t>(options.coverage));
+    constants.add(shader::spirv::kCoverageHighConstant,
+                  static_cast<uint32_t>(options.coverage >> 32));
+  }
   for (const StageConstant& constant : more) constants.add(constant.id, constant.value);
   return std::move(constants.result);
 }
@@ -148,6 +154,7 @@ size_t StageList::keep(std::span<const uint32_t> words, std::string name) {
 StageOptions StageList::next_options(const runtime::LinkedShader& shader) {
   StageOptions options = options_;
   options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  if (gpu_.coverage() != nullptr) options.coverage = gpu_.coverage()->address_of(*shader.library);
   shaders_.push_back(&shader);
   return options;
 }

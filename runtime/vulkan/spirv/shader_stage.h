@@ -23,6 +23,7 @@ struct StageOptions {
   uint32_t shader = 0;              // CheckEntry::shader
   uint32_t twin_payload_words = 0;  // kTwinPayloadConstant; 0: no shader uses hit objects
   bool allow_micromaps = false;
+  uint64_t coverage = 0;  // kCoverageLowConstant and kCoverageHighConstant
 };
 
 // A specialization constant of a stage.

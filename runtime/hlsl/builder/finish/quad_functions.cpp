@@ -407,6 +407,7 @@ class QuadFunctions {
       case ir::StmtKind::kStore:
       case ir::StmtKind::kStoreElement:
       case ir::StmtKind::kTypedStore:
+      case ir::StmtKind::kCover:
         if (!live_) break;
         return if_live(to, nullptr);
       case ir::StmtKind::kAtomic:

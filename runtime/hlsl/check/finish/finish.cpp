@@ -144,8 +144,22 @@ void Finish::check_resources() {
 // DXC checks what no entry point reaches, too.
 void Finish::check_unreached() {
   if (!program_.options->strict || program_.link) return;
-  const size_t imports = bench_.module.imports.size();
   messages_.enter_unreached();
+  lower_unreached();
+  messages_.leave_unreached();
+}
+
+// Functions that nothing reaches have lines, too; mistakes in them do not count.
+void Finish::cover_unreached() {
+  if (!program_.options->coverage || program_.link) return;
+  messages_.mute();
+  lower_unreached();
+  messages_.unmute();
+}
+
+void Finish::lower_unreached() {
+  const size_t imports = bench_.module.imports.size();
+  const size_t prints = bench_.module.prints.size();
   for (size_t i = 0; i < program_.functions.size(); ++i) {
     FunctionInfo& function = program_.functions[i];
     const bool is_whole = function.definition && !function.is_template &&
@@ -156,8 +170,8 @@ void Finish::check_unreached() {
       lower_.calls.lower_function(&function, function.definition->location);
     }
   }
-  messages_.leave_unreached();
   bench_.module.imports.resize(imports);
+  bench_.module.prints.resize(prints);
 }
 
 void Finish::check_payload_uses() {

@@ -15,11 +15,14 @@ class Finish : StagePart {
   void check_payload_uses();
   // Bodies that nothing reaches were not checked.
   void warn_skipped();
+  // Their points of coverage.
+  void cover_unreached();
 
  private:
   void check_resources();
   void check_input_reads();
   void check_unreached();
+  void lower_unreached();
 };
 
 }  // namespace kaamos::hlsl

@@ -498,6 +498,7 @@ void Calls::lower_function(FunctionInfo* function, SourceLocation use) {
       info->variable = variable;
       names_.add_variable(scope, parameter.name, parameter.decl->location, info);
     }
+    lower_.coverage.line(function->definition->location);
     lower_.statements.lower_block(function->definition->body->statements);
     if (!function->result->is_void() && !lower_.statements.ends(body)) {
       report(BodyRules::has_return(body) ? CheckId::kMissingReturn : CheckId::kNeverReturns,

@@ -14,6 +14,7 @@
 #include "runtime/hlsl/check/lower/calls.h"
 #include "runtime/hlsl/check/lower/conversions.h"
 #include "runtime/hlsl/check/lower/counters.h"
+#include "runtime/hlsl/check/lower/coverage.h"
 #include "runtime/hlsl/check/lower/debugging.h"
 #include "runtime/hlsl/check/lower/elements.h"
 #include "runtime/hlsl/check/lower/expressions.h"
@@ -83,6 +84,7 @@ class Lowerer final : public Evaluator {
   Streams streams{*this};
   Debugging debugging{*this};
   Printing printing{*this};
+  Coverage coverage{*this};
   Resources resources{*this};
   Textures textures{*this};
   Multisampled multisampled{*this};

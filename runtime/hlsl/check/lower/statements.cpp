@@ -137,6 +137,7 @@ void Statements::lower_statement(const Stmt* statement) {
   }
   ++bench_.depth;
   at(statement->location);
+  lower_.coverage.statement(*statement);
   switch (statement->kind) {
     case StmtKind::kError:
     case StmtKind::kEmpty:
@@ -229,6 +230,7 @@ void Statements::lower_if(const IfStmt* statement) {
   const auto known = evaluate(node->value);
   const int dead = body_.dead_depth;
   if (known && !(*known)[0]) ++body_.dead_depth;
+  if (!known) lower_.coverage.arms(node->body, node->orelse, statement->location);
   lower_body(statement->then_branch, node->body);
   body_.dead_depth = dead + (known && (*known)[0] ? 1 : 0);
   if (statement->else_branch) lower_body(statement->else_branch, node->orelse);
@@ -304,6 +306,7 @@ void Statements::lower_loop(const Expr* condition, const Expr* step, const Stmt*
   if (unroll && unroll->arguments.empty()) {
     lower_.body_rules.check_unroll(*node, unroll->location);
   }
+  lower_.coverage.loop(*node, statement.location);
   body_.emit(node);
 }
 
@@ -354,10 +357,12 @@ void Statements::lower_switch(const SwitchStmt* statement) {
       one.labels.push_back(number);
     }
     body_.block = &one.body;
+    lower_.coverage.section(*node, statement->location);
     lower_block(section.statements);
     body_.block = outer;
     node->cases.push_back(std::move(one));
   }
+  if (!has_default) lower_.coverage.no_section(*node, statement->location);
   --body_.switch_depth;
   body_.scope = scope;
   share_section_variables(node);

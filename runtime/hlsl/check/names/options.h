@@ -36,7 +36,8 @@ struct CheckOptions {
   // True if payload access qualifiers take effect. [-enable-payload-qualifiers,
   // -disable-payload-qualifiers]
   bool payload_qualifiers = false;
-  bool strict = false;  // what DXC refuses is an error, not a warning
+  bool strict = false;    // what DXC refuses is an error, not a warning
+  bool coverage = false;  // the code tells what ran: kCover, Module::coverage
 };
 
 // Libraries that call each other's functions, as one module.

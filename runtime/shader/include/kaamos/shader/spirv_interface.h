@@ -53,6 +53,10 @@ inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
 inline constexpr uint32_t kTwinPayloadConstant = 0xFFFF0005u;
 // If not 0, the pipeline allows opacity micromaps.
 inline constexpr uint32_t kAllowMicromapsConstant = 0xFFFF0006u;
+// Libraries with coverage (coverage.h): the low and the high half of the address of uint32_t[], one
+// for each point, which shaders set to 1. 0: nobody listens.
+inline constexpr uint32_t kCoverageLowConstant = 0xFFFF0007u;
+inline constexpr uint32_t kCoverageHighConstant = 0xFFFF0008u;
 // Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's
 // format differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it
 // does not. The bits of an integer component, to whose range values are clamped; of a UNORM

@@ -8,9 +8,10 @@
 #include <tuple>
 #include <utility>
 
-#include "rtapi/src/shaders/checked_library.h"
+#include "rtapi/src/shaders/library_variant.h"
 #include "rtapi/src/shaders/module_library.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
+#include "runtime/coverage/collector.h"
 #include "runtime/hlsl/driver/embedded_source.h"
 #include "runtime/hlsl/ir/result.h"
 
@@ -20,17 +21,18 @@ namespace {
 namespace hlsl = kaamos::hlsl;
 namespace shader = kaamos::shader;
 
-using CheckedModule = hlsl::Result<std::shared_ptr<const hlsl::ir::Module>>;
+using VariantModule = hlsl::Result<std::shared_ptr<const hlsl::ir::Module>>;
 
-// The IR of the library's source with checks.
-CheckedModule checked_module(const shader::LibraryDesc& library) {
+// The IR of the library's source.
+VariantModule module_of(const shader::LibraryDesc& library, VariantParts parts) {
   if (library.source == nullptr) return hlsl::Failure{"it carries no source (-no-source)"};
   auto source = hlsl::read_embedded_source({library.source, library.source_bytes});
   if (!source) {
     return hlsl::Failure{
         "its source cannot be read; was it made by another version of kaamos-hlsl?"};
   }
-  source->options.check_access = true;
+  source->options.check_access = parts.checks;
+  source->options.coverage = parts.coverage;
   hlsl::SourceManager sources(source->files);
   hlsl::DiagnosticEngine diagnostics({.strict = source->options.strict});
   std::shared_ptr<const hlsl::ir::Module> module =
@@ -39,9 +41,9 @@ CheckedModule checked_module(const shader::LibraryDesc& library) {
   return hlsl::Failure{"its source does not compile:\n" + render_all(diagnostics, sources)};
 }
 
-CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
+LibraryVariant make(const ShaderLibrary& library, VariantParts parts, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
-  const CheckedModule module = checked_module(desc);
+  const VariantModule module = module_of(desc, parts);
   if (!module) return {library, module.error(), {}};
   ModuleLibrary built = library_of(*module, desc.flags, spirv);
   if (!built.library) return {library, std::move(built.error), {}};
@@ -58,27 +60,31 @@ struct Known {
 };
 struct KnownVariants {
   std::mutex mutex;
-  std::map<std::tuple<size_t, size_t, uint32_t, bool>, Known> by_source;
+  std::map<std::tuple<size_t, size_t, uint32_t, VariantParts, bool>, Known> by_source;
   std::deque<ShaderLibrary> kept;
 };
 
 }  // namespace
 
-CheckedLibrary checked_variant(const ShaderLibrary& library, bool spirv) {
+LibraryVariant variant_of(const ShaderLibrary& library, VariantParts parts, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
-  if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, {}};
+  const bool has_checks = (desc.flags & shader::kLibraryChecked) != 0;
+  const bool has_coverage = kaamos::coverage::table_of(desc) != nullptr;
+  if (has_checks >= parts.checks && has_coverage >= parts.coverage) return {library, {}, {}};
+  parts.checks = parts.checks || has_checks;
+  parts.coverage = parts.coverage || has_coverage;
   // Never destroyed: at exit, other threads may still be running what it holds.
   static KnownVariants& known = *new KnownVariants;
   const std::lock_guard lock(known.mutex);
   const std::string_view source(reinterpret_cast<const char*>(desc.source),
                                 desc.source == nullptr ? 0 : desc.source_bytes);
-  Known& entry =
-      known.by_source[{std::hash<std::string_view>()(source), source.size(), desc.flags, spirv}];
+  Known& entry = known.by_source[{std::hash<std::string_view>()(source), source.size(), desc.flags,
+                                  parts, spirv}];
   if (auto variant = entry.variant.lock()) {
     return {ShaderLibrary(std::move(variant)), {}, entry.slow};
   }
-  CheckedLibrary out = make(library, spirv);
-  if (!out.unchecked.empty()) return out;
+  LibraryVariant out = make(library, parts, spirv);
+  if (!out.missing.empty()) return out;
   entry = {out.library.impl(), out.slow};
   known.kept.push_back(out.library);
   if (known.kept.size() > kMostKept) known.kept.pop_front();
