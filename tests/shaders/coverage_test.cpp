@@ -145,6 +145,22 @@ TEST_P(CoverageOn, ProcessesAtATimeLoseNothing) {
   EXPECT_EQ(text_of(path_), expected(kProcesses));
 }
 
+// Vertex, geometry and pixel shaders, and all of ray tracing.
+TEST_P(CoverageOn, EveryStageIsCovered) {
+  const std::string executor = GetParam() == "interpreter" ? "interpreted"
+                               : GetParam() == "embree"    ? "native"
+                                                           : "vulkan";
+  const std::string command =
+      std::string(KAAMOS_PRINTING_TEST) + " --gtest_filter='*/" + executor + "' > /dev/null 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  if (!fs::exists(path_)) GTEST_SKIP() << "no such device";
+  const Tracefile all = parse(path_);
+  ASSERT_EQ(all.size(), 1u);
+  const FileCoverage& file = all.begin()->second;
+  EXPECT_EQ(file.lines.size(), 55u);
+  for (const auto& [line, runs] : file.lines) EXPECT_EQ(runs, 1u) << "printing.hlsl:" << line;
+}
+
 // An ordinary program, whose shaders were compiled without coverage when it was built.
 TEST_P(CoverageOn, ProgramsNeedNoChange) {
   if (GetParam() == "interpreter") GTEST_SKIP() << "programs run native code or Vulkan";
@@ -163,7 +179,7 @@ TEST_P(CoverageOn, ProgramsNeedNoChange) {
 }
 
 // What a device says when the library is made a pipeline of, in a process of its own.
-std::string messages_of(const std::string& tracefile, bool with_source) {
+std::string messages_of(const std::string& tracefile, bool with_source, bool with_compiler = true) {
   int ends[2];
   if (pipe(ends) != 0) return "no pipe";
   const pid_t child = fork();
@@ -172,9 +188,10 @@ std::string messages_of(const std::string& tracefile, bool with_source) {
     options.File = "kernel.hlsl";
     options.Source = "[numthreads(1, 1, 1)] [shader(\"compute\")] void Kernel() {}";
     options.EmbedSource = with_source;
-    options.Interpret = true;
+    options.Interpret = with_compiler;
     options.Spirv = false;
     const rtapi::ShaderLibrary library = rtapi::CompileShaderLibrary(options).Library;
+    if (!with_compiler) setenv("KAAMOS_CXX", "no-such-compiler", 1);
     setenv("KAAMOS_COVERAGE", tracefile.c_str(), 1);
     std::string said;
     rtapi::DeviceDesc desc;
@@ -208,6 +225,10 @@ TEST(Coverage, WhatCannotBeCollectedOrWrittenIsTold) {
             "KA2755 coverage cannot be written: \"" + folder +
                 "/no/a.info\" of $KAAMOS_COVERAGE: its folder cannot be opened: No such file or "
                 "directory\n");
+  const std::string slow = messages_of(folder + "/a.info", true, false);
+  EXPECT_EQ(slow.find("KA2756 code with coverage is interpreted: \"kernel.hlsl\", and what else "),
+            0u)
+      << slow;
   fs::remove_all(folder);
 }
 

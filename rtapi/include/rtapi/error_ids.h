@@ -711,6 +711,7 @@ inline constexpr ErrorId kShaderErrors{2752};  ///< shader does not compile
 inline constexpr ErrorId kInterpreterFailed{2753};  ///< shader cannot be interpreted
 inline constexpr ErrorId kNoCoverage{2754};  ///< library without coverage
 inline constexpr ErrorId kCoverageFile{2755};  ///< coverage cannot be written
+inline constexpr ErrorId kCoverageInterpreted{2756};  ///< code with coverage is interpreted
 inline constexpr ErrorId kSpirvFailed{2760};  ///< SPIR-V could not be made
 inline constexpr ErrorId kSpirvBindings{2761};  ///< too many bindings for SPIR-V
 }  // namespace compiler

@@ -161,6 +161,8 @@ ShaderLibrary DeviceImpl::library_to_run(const ShaderLibrary& library) const {
   }
   if (!interpreted.empty() && parts.checks) {
     reporter->report(kaamos::checks::Id::kCodeInterpreted, interpreted);
+  } else if (!interpreted.empty()) {
+    report(MessageSeverity::kWarning, make_error(Id::kCoverageInterpreted, interpreted));
   }
   return found.library;
 }
