@@ -328,5 +328,58 @@ TEST_F(TwoInfoQueues, AreMutedOneByOne) {
   EXPECT_NE(testing::internal::GetCapturedStderr(), "");
 }
 
+// What shaders print, with the debug layer on, on each backend.
+class PrintingShaders : public D3d12BackendTest {
+ protected:
+  void SetUp() override {
+    ComPtr<ID3D12Debug4> debug;
+    ASSERT_EQ(D3D12GetDebugInterface(IID_PPV_ARGS(debug.GetAddressOf())), S_OK);
+    debug->EnableDebugLayer();
+    D3d12BackendTest::SetUp();
+    debug->DisableDebugLayer();
+  }
+};
+
+TEST_P(PrintingShaders, LinesAreMessagesInTheOrderOfThreads) {
+  const auto code = compile("cs_6_0",
+                            "[RootSignature(\"\")] [numthreads(2, 1, 1)] void main(uint i : "
+                            "SV_DispatchThreadID) { printf(\"half of %u is %v\", i, i * 0.5); "
+                            "if (i == 1) errorf(\"odd\"); }");
+  ComPtr<ID3D12RootSignature> signature;
+  ASSERT_EQ(device_->CreateRootSignature(0, code->GetBufferPointer(), code->GetBufferSize(),
+                                         IID_PPV_ARGS(signature.GetAddressOf())),
+            S_OK);
+  D3D12_COMPUTE_PIPELINE_STATE_DESC desc = {};
+  desc.pRootSignature = signature.Get();
+  desc.CS = {code->GetBufferPointer(), code->GetBufferSize()};
+  ComPtr<ID3D12PipelineState> pipeline;
+  ASSERT_EQ(device_->CreateComputePipelineState(&desc, IID_PPV_ARGS(pipeline.GetAddressOf())),
+            S_OK);
+  ComPtr<ID3D12InfoQueue> info;
+  ASSERT_EQ(device_.As(&info), S_OK);
+  info->ClearStoredMessages();
+  list_->SetComputeRootSignature(signature.Get());
+  list_->SetPipelineState(pipeline.Get());
+  list_->Dispatch(1, 1, 1);
+  run();
+  std::vector<std::string> told;
+  for (UINT64 i = 0; i < info->GetNumStoredMessages(); ++i) {
+    SIZE_T size = 0;
+    info->GetMessage(i, nullptr, &size);
+    std::vector<uint64_t> memory(size / 8 + 1);
+    auto* message = reinterpret_cast<D3D12_MESSAGE*>(memory.data());
+    ASSERT_EQ(info->GetMessage(i, message, &size), S_OK);
+    const std::string text = message->pDescription;
+    const char* severity = message->Severity == D3D12_MESSAGE_SEVERITY_ERROR ? "error " : "";
+    told.push_back(severity + text.substr(0, 6) + text.substr(text.find(": (") + 1));
+  }
+  EXPECT_EQ(told, (std::vector<std::string>{"KA0845 (0,0,0): half of 0 is 0",
+                                            "KA0845 (1,0,0): half of 1 is 0.5",
+                                            "error KA0846 (1,0,0): odd"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, PrintingShaders, testing::Values("embree", "vulkan"),
+                         [](const auto& backend) { return std::string(backend.param); });
+
 }  // namespace
 }  // namespace kaamos::d3d12

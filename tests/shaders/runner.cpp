@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -269,7 +270,7 @@ void Runner::dispatch_rays(const TestRun& test, rtapi::CommandList& list) {
     for (const SceneRecord& record : of) {
       std::vector<rtapi::LocalArgument> arguments;
       for (const std::vector<uint32_t>& constants : record.constants) {
-        arguments.push_back(rtapi::LocalArgument::Constants(constants));
+        arguments.push_back(rtapi::LocalArgument::Constants(std::span<const uint32_t>(constants)));
       }
       made.AddRecord(record.export_name, arguments).value();
     }
