@@ -35,6 +35,8 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (flag(16)) options.target = "cs_6_0";
   if (flag(16)) options.exports = "Main;main=Other";
   options.check_access = flag(8);
+  hlsl::EmitCppOptions cpp_options;
+  if (flag(2)) cpp_options.wide = hlsl::WideThreads::kAlways;
   options.coverage = flag(8);
   hlsl::DiagnosticEngine diagnostics({.strict = options.strict});
   const std::shared_ptr<const hlsl::ir::Module> module =
@@ -49,8 +51,6 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (!violations.empty()) return "the module breaks rules of ir.h:\n" + violations;
   if (hlsl::dump(*module).empty()) return "an empty dump";
   if (hlsl::reflect_json(*module).empty()) return "no reflection";
-  hlsl::EmitCppOptions cpp_options;
-  if (flag(2)) cpp_options.wide = hlsl::WideThreads::kAlways;
   if (batch != nullptr) cpp_options.entry_point = batch->next_name();
   std::string cpp = hlsl::emit_cpp(*module, cpp_options);
   if (cpp.empty()) return "no C++";
