@@ -71,6 +71,28 @@ std::string parameter_of(const ShaderBindingInfo& binding) {
          ", space = " + std::to_string(binding.Space) + ")";
 }
 
+// Whether a local root signature has the binding's register, by a constant or a descriptor of its
+// own; the records of tests have no descriptor tables.
+bool has_register(const rtapi::RootSignatureDesc& signature, const ShaderBindingInfo& binding) {
+  using Type = rtapi::RootParameterType;
+  for (const rtapi::RootParameter& parameter : signature.Parameters) {
+    if (parameter.ParameterType == Type::kDescriptorTable) continue;
+    const bool constants = parameter.ParameterType == Type::k32BitConstants;
+    const char register_class = constants || parameter.ParameterType == Type::kCbv ? 'b'
+                                : parameter.ParameterType == Type::kUav            ? 'u'
+                                                                                   : 't';
+    const uint32_t number =
+        constants ? parameter.Constants.ShaderRegister : parameter.Descriptor.ShaderRegister;
+    const uint32_t space =
+        constants ? parameter.Constants.RegisterSpace : parameter.Descriptor.RegisterSpace;
+    if (register_class == binding.RegisterClass && number == binding.Register &&
+        space == binding.Space) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // "(0,0,0): text" of "KA0845 printf: (0,0,0): text".
 std::string after_title(const std::string& text) {
   const size_t colon = text.find(": ");
@@ -138,7 +160,7 @@ std::string Runner::prepare() {
     const std::string diagnostics = text_of(compiled_.Diagnostics);
     return diagnostics.empty() ? compiled_.Status.error().message : diagnostics;
   }
-  for (const ShaderBindingInfo& binding : compiled_.Reflection.Bindings) {
+  for (const ShaderBindingInfo& binding : global_bindings()) {
     const std::string parameter = parameter_of(binding);
     if (parameter.empty()) {
       return "\"" + binding.Name +
@@ -149,6 +171,16 @@ std::string Runner::prepare() {
     root_signature_text_ += (root_signature_text_.empty() ? "" : ", ") + parameter;
   }
   return make_device();
+}
+
+std::vector<ShaderBindingInfo> Runner::global_bindings() const {
+  std::vector<ShaderBindingInfo> out = compiled_.Reflection.Bindings;
+  for (const std::string& text : source_.tests.local_root_signatures) {
+    const auto signature = rtapi::ParseRootSignature(text);
+    if (!signature.ok()) continue;  // the compiler has said so
+    std::erase_if(out, [&](const auto& binding) { return has_register(*signature, binding); });
+  }
+  return out;
 }
 
 std::string Runner::make_device() {
@@ -233,7 +265,7 @@ void Runner::bind(rtapi::CommandList& list, bool of_draws) {
   of_draws ? list.SetGraphicsRootSignature(root_signature_)
            : list.SetComputeRootSignature(root_signature_);
   uint32_t parameter = 0;
-  for (const ShaderBindingInfo& binding : compiled_.Reflection.Bindings) {
+  for (const ShaderBindingInfo& binding : global_bindings()) {
     const SetView set_view =
         binding.RegisterClass == 'u'   ? of_draws ? &List::SetGraphicsRootUnorderedAccessView
                                                   : &List::SetComputeRootUnorderedAccessView

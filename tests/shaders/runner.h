@@ -57,6 +57,8 @@ class Runner {
 
  private:
   std::string make_device();
+  // What the global root signature holds, in the order of its parameters.
+  std::vector<rtapi::ShaderBindingInfo> global_bindings() const;
   void dispatch(const TestRun& test, rtapi::CommandList& list);
   void dispatch_rays(const TestRun& test, rtapi::CommandList& list);
   void draw(const TestRun& test, rtapi::CommandList& list);

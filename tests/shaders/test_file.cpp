@@ -256,6 +256,14 @@ class Finder {
     if (type.is("TriangleHitGroup") || type.is("ProceduralPrimitiveHitGroup")) {
       out_.hit_groups.push_back(tokens_[i + 1].text);
     }
+    if (type.is("LocalRootSignature")) {
+      std::string text;
+      for (size_t at = i + 2; at < tokens_.size() && !tokens_[at].is(";"); ++at) {
+        const std::string& part = tokens_[at].text;
+        if (part[0] == '"') text += part.substr(1, part.size() - 2);
+      }
+      out_.local_root_signatures.push_back(std::move(text));
+    }
     if (type.is("RaytracingShaderConfig")) out_.has_shader_config = true;
     if (type.is("RaytracingPipelineConfig") || type.is("RaytracingPipelineConfig1")) {
       out_.has_pipeline_config = true;

@@ -37,6 +37,7 @@ struct TestFile {
   std::vector<std::string> hit_groups;
   std::vector<std::string> miss_shaders;
   std::vector<std::string> callable_shaders;
+  std::vector<std::string> local_root_signatures;  // their texts
   bool has_shader_config = false;
   bool has_pipeline_config = false;
   std::string error;  // what is wrong with the attributes of a test: "file:line: ..."
