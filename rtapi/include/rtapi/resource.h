@@ -239,7 +239,8 @@ enum class ResourceBarrierType : uint32_t { kTransition = 0, kAliasing = 1, kUav
 /// A barrier for CommandList::ResourceBarrier; make it by Transition, Uav or Aliasing.
 /// [D3D12: D3D12_RESOURCE_BARRIER]
 struct ResourceBarrier {
-  ResourceBarrierType Type = ResourceBarrierType::kUav;
+  ResourceBarrierType Type =
+      ResourceBarrierType::kUav;  ///< what it orders, and which members count
   /// The resource that the barrier is for. Empty in a UAV barrier: every resource. In an aliasing
   /// barrier: the placed resource that was used before; empty: any.
   /// [DXR: Synchronizing acceleration structure memory writes/reads]
