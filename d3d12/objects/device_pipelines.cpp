@@ -158,15 +158,20 @@ HRESULT Device::CreateRootSignatureFromSubobjectInLibrary(UINT, const void* blob
                                                           LPCWSTR subobject, REFIID riid,
                                                           void** root_signature) {
   if (root_signature != nullptr) *root_signature = nullptr;
-  if (blob == nullptr || subobject == nullptr) {
-    return fail(ErrorId::kNullPointer,
-                "CreateRootSignatureFromSubobjectInLibrary: pLibraryBlob or subobjectName.");
+  if (blob == nullptr || subobject == nullptr || *subobject == 0) {
+    fail(ErrorId::kNullPointer,
+         "CreateRootSignatureFromSubobjectInLibrary: pLibraryBlob or subobjectName, which has no "
+         "default.");
+    return E_INVALIDARG;
   }
   const auto library = load_shader(blob, size, reporter());
   if (!library) return fail(library.error());
   const std::string name = to_utf8(subobject);
   auto made = device_.CreateRootSignature(*library, name);
-  if (!made) return fail(made.error());
+  if (!made) {
+    fail(made.error());
+    return E_INVALIDARG;
+  }
   const std::string named = std::string(static_cast<const char*>(blob), size) + name;
   const Identity identity = root_signature_identity(named.data(), named.size());
   return hand_out(new RootSignature(this, *made, identity), riid, root_signature);

@@ -263,6 +263,27 @@ TEST_P(SharedResources, ACommittedResourceIsOpenedWithItsDesc) {
   EXPECT_TRUE(CloseHandle(first));
 }
 
+// [D3D12: D3D12_RESOURCE_FLAG_ALLOW_CROSS_ADAPTER]
+TEST_P(SharedResources, TexturesForOtherAdaptersMayBeOfRows) {
+  const CD3DX12_HEAP_PROPERTIES properties(D3D12_HEAP_TYPE_DEFAULT);
+  const auto flags = D3D12_HEAP_FLAG_SHARED | D3D12_HEAP_FLAG_SHARED_CROSS_ADAPTER;
+  D3D12_RESOURCE_DESC desc = texture_desc(kSide, kSide, 1, DXGI_FORMAT_R8G8B8A8_UNORM);
+  desc.Layout = D3D12_TEXTURE_LAYOUT_ROW_MAJOR;
+  ComPtr<ID3D12Resource> texture;
+  const auto make = [&] {
+    return device_->CreateCommittedResource(&properties, flags, &desc, D3D12_RESOURCE_STATE_COMMON,
+                                            nullptr,
+                                            IID_PPV_ARGS(texture.ReleaseAndGetAddressOf()));
+  };
+  EXPECT_EQ(make(), E_INVALIDARG) << "without the flag";
+  desc.Flags = D3D12_RESOURCE_FLAG_ALLOW_CROSS_ADAPTER;
+  ASSERT_EQ(make(), S_OK);
+  EXPECT_EQ(texture->GetDesc().Layout, D3D12_TEXTURE_LAYOUT_ROW_MAJOR);
+  EXPECT_NE(open_on_other<ID3D12Resource>(texture.Get()), nullptr);
+  desc.MipLevels = 2;
+  EXPECT_EQ(make(), E_INVALIDARG) << "with two mips";
+}
+
 TEST_P(SharedResources, OnlyWhatWasMadeToBeSharedIs) {
   HANDLE handle = nullptr;
   const auto alone = heap(D3D12_HEAP_TYPE_DEFAULT);

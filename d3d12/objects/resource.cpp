@@ -207,17 +207,33 @@ rtapi::Status check_buffer_desc(const D3D12_RESOURCE_DESC1& desc) {
   return {};
 }
 
+namespace {
+
+// Whether a texture may be of rows that follow each other: one that adapters share. Nobody sees the
+// rows, since such textures are not mapped. [D3D12: D3D12_RESOURCE_FLAG_ALLOW_CROSS_ADAPTER]
+bool is_cross_adapter(const D3D12_RESOURCE_DESC1& desc) {
+  return (desc.Flags & D3D12_RESOURCE_FLAG_ALLOW_CROSS_ADAPTER) != 0 &&
+         desc.Dimension == D3D12_RESOURCE_DIMENSION_TEXTURE2D && desc.MipLevels == 1 &&
+         desc.DepthOrArraySize == 1 && desc.SampleDesc.Count <= 1;
+}
+
+}  // namespace
+
 rtapi::Result<rtapi::TextureDesc> texture_desc(const D3D12_RESOURCE_DESC1& desc) {
   if (desc.Width > UINT32_MAX) {
     return make_error(ErrorId::kResource,
                       "Width is " + std::to_string(desc.Width) + "; textures have up to 16384.");
   }
-  if (desc.Layout != D3D12_TEXTURE_LAYOUT_UNKNOWN &&
-      desc.Layout != D3D12_TEXTURE_LAYOUT_64KB_UNDEFINED_SWIZZLE) {
-    return make_error(ErrorId::kResource,
-                      "Layout is " + std::to_string(desc.Layout) +
-                          "; textures are of D3D12_TEXTURE_LAYOUT_UNKNOWN here. Copy rows through "
-                          "an upload or readback buffer.");
+  const bool is_open = desc.Layout == D3D12_TEXTURE_LAYOUT_UNKNOWN ||
+                       desc.Layout == D3D12_TEXTURE_LAYOUT_64KB_UNDEFINED_SWIZZLE ||
+                       (desc.Layout == D3D12_TEXTURE_LAYOUT_ROW_MAJOR && is_cross_adapter(desc));
+  if (!is_open) {
+    return make_error(
+        ErrorId::kResource,
+        "Layout is " + std::to_string(desc.Layout) +
+            "; textures are of D3D12_TEXTURE_LAYOUT_UNKNOWN (0) here, or of ROW_MAJOR "
+            "(1) with ALLOW_CROSS_ADAPTER, two dimensions, one mip and one sample. "
+            "Copy rows through an upload or readback buffer.");
   }
   rtapi::TextureDesc out;
   out.Dimension = static_cast<rtapi::ResourceDimension>(desc.Dimension);

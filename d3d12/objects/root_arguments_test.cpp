@@ -231,9 +231,12 @@ TEST_P(RootArguments, ASubobjectOfALibraryIsARootSignature) {
   list_->SetComputeRoot32BitConstant(1, 42, 0);
   dispatch();
   EXPECT_EQ(run_and_read()[0], 42u);
-  EXPECT_TRUE(FAILED(device->CreateRootSignatureFromSubobjectInLibrary(
-      0, code->GetBufferPointer(), code->GetBufferSize(), L"third",
-      IID_PPV_ARGS(second.ReleaseAndGetAddressOf()))));
+  for (const wchar_t* name : {L"third", L""}) {
+    EXPECT_EQ(device->CreateRootSignatureFromSubobjectInLibrary(
+                  0, code->GetBufferPointer(), code->GetBufferSize(), name,
+                  IID_PPV_ARGS(second.ReleaseAndGetAddressOf())),
+              E_INVALIDARG);
+  }
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include <rtapi/version.h>
+
 #include "runtime/coverage/collector.h"
 #include "runtime/files/write_file.h"
 #include "tests/shaders/report.h"
@@ -148,6 +150,7 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Runs the tests in an HLSL file. Exit code: 0 all passed, 1 some failed, 2 they could "
       "not run, 77 all skipped, or there is no such device."};
+  app.set_version_flag("--version", std::string("kaamos-test ") + rtapi::GetVersion());
   app.add_option("file", options.source.path, "HLSL with #include <kaamos/test.hlsli>")->required();
   app.add_option("--on", options.executors, "interpreter (the default), embree, vulkan")
       ->delimiter(',');

@@ -94,6 +94,7 @@ inline constexpr ErrorId kUploadOverwritten{488};  ///< upload buffer overwritte
 inline constexpr ErrorId kTargetRead{489};  ///< target read by the draw that writes it
 inline constexpr ErrorId kNothingVisible{490};  ///< draw that cannot be seen
 inline constexpr ErrorId kVertexStride{491};  ///< stride 0 for several vertices
+inline constexpr ErrorId kStructureAliased{492};  ///< acceleration structures over other resources
 inline constexpr ErrorId kMicromapsNotAllowed{493};  ///< opacity micromaps without permission
 inline constexpr ErrorId kMicromapsDisabled{494};  ///< DISABLE_OMMS of a bottom level that does not allow it
 inline constexpr ErrorId kMicromapsReplaced{495};  ///< opacity micromap array is not what was linked
