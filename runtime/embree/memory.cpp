@@ -6,14 +6,15 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "runtime/backend/aligned_pages.h"
+
 namespace kaamos::embree {
 namespace {
 
-constexpr uint64_t kAlignment = 64 * 1024;  // for buffers, as in D3D12
-constexpr uint64_t kMapped = 1024 * 1024;   // from here on, pages come straight from the system
+constexpr uint64_t kMapped = 1024 * 1024;  // from here on, pages come straight from the system
 
 uint64_t rounded(uint64_t bytes) {
-  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  return runtime::round_up(bytes, runtime::kBufferAlignment);
 }
 
 }  // namespace
@@ -21,19 +22,11 @@ uint64_t rounded(uint64_t bytes) {
 uint8_t* Memory::allocate(uint64_t size_bytes) {
   const uint64_t bytes = rounded(size_bytes);
   if (bytes < kMapped) {
-    void* block = std::aligned_alloc(kAlignment, bytes);
+    void* block = std::aligned_alloc(runtime::kBufferAlignment, bytes);
     if (block != nullptr) std::memset(block, 0, bytes);
     return static_cast<uint8_t*>(block);
   }
-  void* mapped = mmap(nullptr, bytes + kAlignment, PROT_READ | PROT_WRITE,
-                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapped == MAP_FAILED) return nullptr;
-  auto* start = static_cast<uint8_t*>(mapped);
-  auto* aligned = reinterpret_cast<uint8_t*>(rounded(reinterpret_cast<uint64_t>(start)));
-  if (aligned != start) munmap(start, aligned - start);
-  const uint64_t rest = start + kAlignment - aligned;
-  if (rest != 0) munmap(aligned + bytes, rest);
-  return aligned;
+  return runtime::map_aligned(bytes, PROT_READ | PROT_WRITE);
 }
 
 void Memory::release(uint8_t* block, uint64_t size_bytes) {

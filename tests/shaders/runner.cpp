@@ -160,7 +160,14 @@ std::string Runner::prepare() {
     const std::string diagnostics = text_of(compiled_.Diagnostics);
     return diagnostics.empty() ? compiled_.Status.error().message : diagnostics;
   }
-  for (const ShaderBindingInfo& binding : global_bindings()) {
+  bindings_ = compiled_.Reflection.Bindings;
+  for (const std::string& text : source_.tests.local_root_signatures) {
+    const auto signature = rtapi::ParseRootSignature(text);
+    if (!signature.ok()) continue;  // the compiler has said so
+    std::erase_if(bindings_,
+                  [&](const auto& binding) { return has_register(*signature, binding); });
+  }
+  for (const ShaderBindingInfo& binding : bindings_) {
     const std::string parameter = parameter_of(binding);
     if (parameter.empty()) {
       return "\"" + binding.Name +
@@ -171,16 +178,6 @@ std::string Runner::prepare() {
     root_signature_text_ += (root_signature_text_.empty() ? "" : ", ") + parameter;
   }
   return make_device();
-}
-
-std::vector<ShaderBindingInfo> Runner::global_bindings() const {
-  std::vector<ShaderBindingInfo> out = compiled_.Reflection.Bindings;
-  for (const std::string& text : source_.tests.local_root_signatures) {
-    const auto signature = rtapi::ParseRootSignature(text);
-    if (!signature.ok()) continue;  // the compiler has said so
-    std::erase_if(out, [&](const auto& binding) { return has_register(*signature, binding); });
-  }
-  return out;
 }
 
 std::string Runner::make_device() {
@@ -265,7 +262,7 @@ void Runner::bind(rtapi::CommandList& list, bool of_draws) {
   of_draws ? list.SetGraphicsRootSignature(root_signature_)
            : list.SetComputeRootSignature(root_signature_);
   uint32_t parameter = 0;
-  for (const ShaderBindingInfo& binding : global_bindings()) {
+  for (const ShaderBindingInfo& binding : bindings_) {
     const SetView set_view =
         binding.RegisterClass == 'u'   ? of_draws ? &List::SetGraphicsRootUnorderedAccessView
                                                   : &List::SetComputeRootUnorderedAccessView

@@ -57,8 +57,6 @@ class Runner {
 
  private:
   std::string make_device();
-  // What the global root signature holds, in the order of its parameters.
-  std::vector<rtapi::ShaderBindingInfo> global_bindings() const;
   void dispatch(const TestRun& test, rtapi::CommandList& list);
   void dispatch_rays(const TestRun& test, rtapi::CommandList& list);
   void draw(const TestRun& test, rtapi::CommandList& list);
@@ -71,6 +69,7 @@ class Runner {
   const Source& source_;
   const std::string executor_;
   rtapi::ShaderCompilation compiled_;
+  std::vector<rtapi::ShaderBindingInfo> bindings_;  // of the global root signature, in its order
   std::string root_signature_text_;
   bool has_no_device_ = false;
 

@@ -36,7 +36,7 @@ void FenceImpl::CallAt(uint64_t at, std::function<void()> reached) {
   {
     std::lock_guard lock(value->mutex);
     now = now || value->current >= at;
-    if (!now) value->calls.emplace(at, FenceValue::Call{this, reached});
+    if (!now) value->calls.emplace(at, FenceValue::Call{device.get(), reached});
   }
   if (now) return reached();
   // Removal between the check and here is told by when_removed itself.
@@ -52,7 +52,7 @@ void FenceImpl::DeviceRemoved() {
   {
     std::lock_guard lock(value->mutex);
     for (auto it = value->calls.begin(); it != value->calls.end();) {
-      if (it->second.fence != this) {
+      if (it->second.device != device.get()) {
         ++it;
         continue;
       }

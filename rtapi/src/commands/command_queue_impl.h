@@ -18,12 +18,10 @@
 
 namespace rtapi::detail {
 
-struct FenceImpl;
-
 // The value of a fence, which is one on every device that the fence was opened on.
 struct FenceValue {
   struct Call {
-    const FenceImpl* fence;  // that was waited on
+    const DeviceImpl* device;  // whose fence was waited on
     std::function<void()> reached;
   };
 
@@ -42,7 +40,7 @@ struct FenceImpl : std::enable_shared_from_this<FenceImpl> {
   std::shared_ptr<FenceValue> value;
 
   void CallAt(uint64_t at, std::function<void()> reached);
-  // Makes all its calls: the fence of a removed device is past every value.
+  // Makes all calls of its device, of which every fence is past every value.
   void DeviceRemoved();
 
  private:

@@ -8,14 +8,15 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/backend/aligned_pages.h"
 #include "runtime/backend/errors.h"
 #include "runtime/vulkan/gpu/gpu.h"
 
 namespace kaamos::vulkan {
 namespace {
 
-constexpr uint64_t kAddressAlignment = 64 * 1024;  // for buffers, as in D3D12
-constexpr uint64_t kFromPages = 1024 * 1024;       // smaller buffers are cleared right away
+constexpr uint64_t kAddressAlignment = runtime::kBufferAlignment;
+constexpr uint64_t kFromPages = 1024 * 1024;  // smaller buffers are cleared right away
 
 constexpr VkBufferUsageFlags kEveryUsage =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -27,20 +28,7 @@ constexpr VkBufferUsageFlags kEveryUsage =
     VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
 
 uint64_t rounded(uint64_t bytes) {
-  return (bytes + kAddressAlignment - 1) / kAddressAlignment * kAddressAlignment;
-}
-
-// Pages at a multiple of the alignment; none if out of memory.
-runtime::MappedPages map_pages(uint64_t bytes) {
-  void* mapped = mmap(nullptr, bytes + kAddressAlignment, PROT_READ | PROT_WRITE,
-                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapped == MAP_FAILED) return {};
-  auto* start = static_cast<uint8_t*>(mapped);
-  auto* aligned = reinterpret_cast<uint8_t*>(rounded(reinterpret_cast<uint64_t>(start)));
-  if (aligned != start) munmap(start, static_cast<size_t>(aligned - start));
-  const auto rest = static_cast<size_t>(start + kAddressAlignment - aligned);
-  if (rest != 0) munmap(aligned + bytes, rest);
-  return {aligned, bytes};
+  return runtime::round_up(bytes, kAddressAlignment);
 }
 
 }  // namespace
@@ -60,7 +48,8 @@ rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes
   std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
   buffer->size_bytes_ = size_bytes;
   if (size_bytes >= kFromPages && imports_pages()) {
-    runtime::MappedPages pages = map_pages(rounded(size_bytes));
+    const uint64_t bytes = rounded(size_bytes);
+    runtime::MappedPages pages(runtime::map_aligned(bytes, PROT_READ | PROT_WRITE), bytes);
     if (pages && import_pages(*buffer, std::move(pages)) == VK_SUCCESS) return buffer;
     release(*buffer);
   }
