@@ -308,6 +308,20 @@ TEST_F(Session, FaultsAreTheirTestsFailure) {
   EXPECT_EQ(ran.results[1].outcome, Outcome::kPassed) << failure(ran.results[1]);
 }
 
+// Which 4 bits would take for another one.
+TEST_F(Session, HitGroupsPast15AreNotCalledAlone) {
+  const SessionResult ran =
+      run("struct P { uint hits; };\n"
+          "[shader(\"closesthit\")] void Hit(inout P p, BuiltInTriangleIntersectionAttributes a) "
+          "{ ++p.hits; }\nTriangleHitGroup G = {\"\", \"Hit\"};\n"
+          "[test(\"raygeneration\")] [cases(0u, 16u)] void f(uint group) { P p = {0}; "
+          "CallHitGroup(group, float2(0.25, 0.25), p); EXPECT_EQ(p.hits, 1); }\n");
+  ASSERT_EQ(ran.error, "");
+  EXPECT_EQ(ran.results[0].outcome, Outcome::kPassed) << failure(ran.results[0]);
+  ASSERT_EQ(ran.results[1].failures.size(), 1u);
+  EXPECT_EQ(failure(ran.results[1]), "hit group 16 is called alone, and only 0 to 15 can be");
+}
+
 TEST_F(Session, WhatCannotRunIsSaid) {
   EXPECT_NE(run("[test] void f() { undeclared(); }").error.find("a.hlsl:2:19: error"),
             std::string::npos);

@@ -22,12 +22,20 @@ RaytracingAccelerationStructure TestScene : register(t0, space9999);
 RaytracingAccelerationStructure kaamos_TestTriangle : register(t1, space9999);
 RaytracingAccelerationStructure kaamos_TestBox : register(t2, space9999);
 
+namespace kaamos_test {
+// Rays name hit groups with 4 bits.
+void CheckHitGroup(uint hit_group) {
+  if (hit_group > 15) errorf("hit group %u is called alone, and only 0 to 15 can be", hit_group);
+}
+}  // namespace kaamos_test
+
 // Runs a hit group of triangles alone: its any-hit shader at these barycentrics, unless flags make
 // the triangle opaque, and its closest-hit shader if the hit is not ignored. RayTCurrent() is 1, the
-// front is hit. Hit groups have the numbers 0 to 15. For tests in "raygeneration".
+// front is hit. Hit groups have the numbers 0 to 15; others fail. For tests in "raygeneration".
 template <typename Payload>
 void CallHitGroup(uint hit_group, float2 barycentrics, inout Payload payload,
                   uint flags = RAY_FLAG_NONE) {
+  kaamos_test::CheckHitGroup(hit_group);
   const RayDesc ray = {float3(barycentrics.yx, -1), 0, float3(0, 0, 1), 2};
   TraceRay(kaamos_TestTriangle, flags, 0xFF, hit_group, 0, MISS(none), ray, payload);
 }
@@ -35,6 +43,7 @@ void CallHitGroup(uint hit_group, float2 barycentrics, inout Payload payload,
 template <typename Payload>
 void CallProceduralHitGroup(uint hit_group, RayDesc ray, inout Payload payload,
                             uint flags = RAY_FLAG_NONE) {
+  kaamos_test::CheckHitGroup(hit_group);
   TraceRay(kaamos_TestBox, flags, 0xFF, hit_group, 0, MISS(none), ray, payload);
 }
 // Runs a miss shader alone.
