@@ -34,16 +34,19 @@ endif()
 option(KAAMOS_SHADER_AVX2 "Compile shader libraries for AVX2 too" ${_kaamos_shader_avx2})
 
 # kaamos_add_shader_library(TARGET SOURCES a.hlsl b.hlsl ... [INCLUDES folder ...]
-#   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...] [SUFFIX text] [BASELINE_ONLY])
+#   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...] [SUFFIX text] [BASELINE_ONLY]
+#   [AT_FIRST_USE])
 # makes a static library TARGET to link to. Each source NAME.hlsl gets a header <shaders/NAME.h> with
 #   const kaamos::shader::LibraryDesc* kaamos_shaders_NAME();
 # to pass to rtapi::ShaderLibrary. Sources are libraries unless OPTIONS has a target, such as
 # -T ps_6_6 -E main; SUFFIX _ps makes both names end so (NAME_ps), for a source with several entry
 # points. The library runs on every backend; OPTIONS -no-spirv leaves out what
 # Vulkan needs, BASELINE_ONLY leaves out the AVX2 version. It is compiled again when a source or anything
-# it includes changes.
+# it includes changes. AT_FIRST_USE checks the sources and leaves their code to the program, which has
+# it made by the C++ compiler of the machine where it runs when it first loads the library; a cache keeps
+# it. Programs whose shaders are many and of which a run needs few build faster so.
 function(kaamos_add_shader_library target)
-  cmake_parse_arguments(arg "BASELINE_ONLY" "SUFFIX" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "BASELINE_ONLY;AT_FIRST_USE" "SUFFIX" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "kaamos_add_shader_library(${target}): unknown arguments: "
       "${arg_UNPARSED_ARGUMENTS}; name the files after SOURCES")
@@ -63,7 +66,9 @@ function(kaamos_add_shader_library target)
   endforeach()
   set(optimisation "$<$<NOT:$<CONFIG:Debug,RelWithDebInfo>>:${KAAMOS_SHADER_OPTIMISATION}>")
   set(levels sse2)
-  if(KAAMOS_SHADER_AVX2 AND NOT arg_BASELINE_ONLY)
+  if(arg_AT_FIRST_USE)
+    list(APPEND flags -emit source)
+  elseif(KAAMOS_SHADER_AVX2 AND NOT arg_BASELINE_ONLY)
     list(APPEND levels avx2)
   endif()
   set(generated)

@@ -16,12 +16,12 @@ namespace {
 constexpr std::uint32_t kMostSamplesPerDispatch = 1024;
 
 // Fills in the shaders that the frame needs.
-rtapi::Status find_libraries(FrameContext& context, bool are_given) {
+rtapi::Result<Outcome> find_libraries(FrameContext& context, bool are_given,
+                                      const Progress& progress) {
   const std::vector<EffectLibrary> wanted = frame_libraries(context.settings, context.effects);
   if (!are_given) {
-    auto loaded = load_libraries(wanted);
-    if (!loaded) return loaded.error();
-    context.libraries = std::move(*loaded);
+    const auto done = load_libraries(wanted, context.libraries, progress);
+    if (!is_done(done)) return done;
   }
   for (const EffectLibrary& library : wanted) {
     if (context.libraries.count(library.file) != 0) continue;
@@ -29,7 +29,7 @@ rtapi::Status find_libraries(FrameContext& context, bool are_given) {
                       "the frame needs the shader library \"" + library.file +
                           "\": hand all of frame_libraries() to set_libraries");
   }
-  return {};
+  return Outcome::kDone;
 }
 
 }  // namespace
@@ -79,7 +79,8 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   has_surfaces_ = has_effects_ = false;
   {
     const auto step = Profile::enter(context_.profile, ProfilePart::kStart, "shader libraries");
-    if (const auto s = find_libraries(context_, has_own_libraries_); !s) return s.error();
+    const auto done = find_libraries(context_, has_own_libraries_, progress);
+    if (!is_done(done)) return done;
   }
   const double start = context_.runner.now_ms();
   if (const auto done = create_stages(progress); !is_done(done)) return done;

@@ -9,7 +9,12 @@
 #include <shaders/visibility_filter.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
 
+#include "effects/assets/common/parallel.h"
 #include "effects/composition/composite/composite.h"
 #include "effects/composition/enlarge/enlarge.h"
 #include "effects/composition/taa/taa.h"
@@ -101,14 +106,33 @@ std::vector<EffectLibrary> frame_libraries(const FrameSettings& settings,
   return out;
 }
 
-rtapi::Result<ShaderLibraries> load_libraries(const std::vector<EffectLibrary>& libraries) {
-  ShaderLibraries out;
-  for (const EffectLibrary& library : libraries) {
-    const auto loaded = library.built_in();
-    if (!loaded) return loaded.error();
-    out[library.file] = *loaded;
+rtapi::Result<Outcome> load_libraries(const std::vector<EffectLibrary>& libraries,
+                                      ShaderLibraries& out, const Progress& progress) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kUnnoticed(500);
+  const Clock::time_point start = Clock::now();
+  const std::thread::id caller = std::this_thread::get_id();
+  std::vector<std::optional<rtapi::Result<rtapi::ShaderLibrary>>> loaded(libraries.size());
+  std::atomic<std::size_t> done = 0;
+  std::atomic<bool> stopped = false;
+  run_parallel(0, libraries.size(), [&](std::size_t i) {
+    if (stopped) return;
+    loaded[i].emplace(libraries[i].built_in());
+    const std::size_t count = ++done;
+    // What follows says when it is complete.
+    if (!progress || count == libraries.size() || std::this_thread::get_id() != caller) return;
+    if (Clock::now() - start < kUnnoticed) return;
+    stopped = !progress("shader libraries", double(count) / double(libraries.size()));
+  });
+  if (stopped) return Outcome::kStopped;
+  for (std::size_t i = 0; i < libraries.size(); ++i) {
+    if (!*loaded[i]) return loaded[i]->error();
+    out[libraries[i].file] = **loaded[i];
   }
-  return out;
+  if (progress && Clock::now() - start >= kUnnoticed && !progress("shader libraries", 1.0)) {
+    return Outcome::kStopped;
+  }
+  return Outcome::kDone;
 }
 
 DenoiseLibraries denoise_libraries(const ShaderLibraries& libraries) {

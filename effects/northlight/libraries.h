@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "effects/denoise/denoise.h"
+#include "effects/engine/outcome.h"
 #include "effects/northlight/effects.h"
+#include "effects/northlight/pass_runner.h"
 #include "effects/northlight/settings.h"
 
 namespace kaamos::effects {
@@ -23,9 +25,12 @@ using ShaderLibraries = std::map<std::string, rtapi::ShaderLibrary>;
 std::vector<EffectLibrary> frame_libraries(
     const FrameSettings& settings, const std::vector<Effect>& effects = northlight_effects());
 
-/// Loads what is built in.
+/// Loads what is built in, and compiles first what the build left to its first use, on all threads;
+/// `progress` is told on the caller's, and only of what takes longer than half a second. `out` is
+/// complete with kDone.
 /// @errors those of rtapi::LoadShaderLibrary.
-rtapi::Result<ShaderLibraries> load_libraries(const std::vector<EffectLibrary>& libraries);
+rtapi::Result<Outcome> load_libraries(const std::vector<EffectLibrary>& libraries,
+                                      ShaderLibraries& out, const Progress& progress = {});
 
 /// The denoiser's among them.
 DenoiseLibraries denoise_libraries(const ShaderLibraries& libraries);

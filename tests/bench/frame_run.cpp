@@ -11,8 +11,8 @@ namespace kaamos::bench {
 namespace {
 
 effects::ShaderLibraries listening_libraries(const effects::FrameSettings& settings) {
-  effects::ShaderLibraries libraries =
-      effects::load_libraries(effects::frame_libraries(settings)).value();
+  effects::ShaderLibraries libraries;
+  effects::load_libraries(effects::frame_libraries(settings), libraries).value();
   for (auto& [file, library] : libraries) library = listening_library(library);
   return libraries;
 }

@@ -376,7 +376,30 @@ echo "given: $*"'
   run_demo --backend vulkan
   expect_status 0
   expect_call 'apt-get .*install --no-install-recommends -t bookworm-backports mesa-vulkan-drivers'
-  expect "given: --backend vulkan --out $checkout/out/demo"
+  expect "given: --backend vulkan --effects all --out $checkout/out/demo"
+  expect_call 'cmake .*--preset demo.* -DKAAMOS_VULKAN=ON'
+}
+
+demo_keeps_vulkan_in_its_build() {
+  northlight '#!/bin/sh'
+  run_demo
+  expect_no_call 'cmake .*-DKAAMOS_VULKAN=ON'
+  echo 'KAAMOS_VULKAN:BOOL=ON' >"$checkout/build/demo/CMakeCache.txt"
+  run_demo
+  expect_call 'cmake .*--preset demo.* -DKAAMOS_VULKAN=ON'
+}
+
+demo_renders_the_whole_frame_unless_told_otherwise() {
+  northlight '#!/bin/sh
+echo "given: $*"'
+  run_demo
+  expect 'given: --effects all --out'
+  run_demo --scene my.gltf --size=64x64
+  expect 'given: --scene my.gltf --size=64x64 --effects all --out'
+  run_demo --effects ao
+  expect 'given: --effects ao --out'
+  run_demo --measure sun --size 64x64
+  expect 'given: --measure sun --size 64x64 --out'
 }
 
 demo_understands_backend_with_equals() {
@@ -723,9 +746,9 @@ ci_makes_warnings_errors() {
 
 # Installs a program in northlight's place that prints its arguments.
 northlight() {
-  mkdir -p "$checkout/build/release/bin"
-  printf '%s\n' "$1" >"$checkout/build/release/bin/northlight"
-  chmod +x "$checkout/build/release/bin/northlight"
+  mkdir -p "$checkout/build/demo/bin"
+  printf '%s\n' "$1" >"$checkout/build/demo/bin/northlight"
+  chmod +x "$checkout/build/demo/bin/northlight"
 }
 
 demo_writes_into_out_demo() {
@@ -733,8 +756,8 @@ demo_writes_into_out_demo() {
 echo "given: $*"'
   run_demo --size 64x64
   expect_status 0
-  expect_call 'cmake --build --preset release .*--target northlight'
-  expect "given: --size 64x64 --out $checkout/out/demo"
+  expect_call 'cmake --build --preset demo .*--target northlight'
+  expect "given: --size 64x64 --effects all --out $checkout/out/demo"
   expect_last_line "Pictures: $checkout/out/demo"
 }
 

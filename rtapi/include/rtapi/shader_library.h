@@ -81,7 +81,8 @@ class ShaderLibrary {
 /// kaamos_add_shader_library generates declares. `desc` must outlive the result, or belong to
 /// `owner`, which the result keeps alive.
 /// @errors KA0910 `desc` is null, was made for another version of the ABI, or holds broken counts
-/// or indices.
+/// or indices. KA2750, KA2751, KA2760, KA2761, as CompileShaderLibrary: `desc` holds HLSL without
+/// code (AT_FIRST_USE, `kaamos-hlsl -emit source`), and compiling it failed.
 Result<ShaderLibrary> LoadShaderLibrary(const kaamos::shader::LibraryDesc* desc,
                                         std::shared_ptr<const void> owner = nullptr);
 

@@ -8,8 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include "rtapi/src/errors/error_table.h"
 #include "rtapi/src/shaders/library_variant.h"
 #include "rtapi/src/shaders/module_library.h"
+#include "rtapi/src/shaders/native_library.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
 #include "runtime/coverage/collector.h"
 #include "runtime/hlsl/driver/embedded_source.h"
@@ -64,7 +66,44 @@ struct KnownVariants {
   std::deque<ShaderLibrary> kept;
 };
 
+// Libraries that were compiled for tables with kLibrarySource. Each is compiled by the first thread
+// that wants it; threads that want others do not wait.
+struct SourceLibrary {
+  std::mutex mutex;
+  ShaderLibrary library;
+};
+struct SourceLibraries {
+  std::mutex mutex;
+  std::map<std::pair<size_t, uint64_t>, SourceLibrary> by_source;
+};
+
+#ifdef KAAMOS_HAVE_VULKAN
+constexpr bool kWithSpirv = true;
+#else
+constexpr bool kWithSpirv = false;
+#endif
+
 }  // namespace
+
+Result<ShaderLibrary> load_source_library(const shader::LibraryDesc& desc) {
+  const std::string file = desc.name == nullptr ? "built-in library" : desc.name;
+  // Never destroyed: at exit, other threads may still be running what it holds.
+  static SourceLibraries& all = *new SourceLibraries;
+  if (desc.source == nullptr) {
+    return make_error(Id::kShaderLibrary, in_quotes(file), ": its source is missing");
+  }
+  std::unique_lock lock(all.mutex);
+  const std::string_view source(desc.source, desc.source_bytes);
+  SourceLibrary& entry = all.by_source[{std::hash<std::string_view>()(source), source.size()}];
+  lock.unlock();
+  const std::lock_guard compiling(entry.mutex);
+  if (entry.library) return entry.library;
+  const VariantModule module = module_of(desc, {.coverage = kaamos::coverage::is_asked()});
+  if (!module) return make_error(Id::kShaderLibrary, in_quotes(file), ": ", module.error());
+  const auto built = build_native(file, {}, **module, {.spirv = kWithSpirv});
+  if (!built) return built.error();
+  return entry.library = built->library;
+}
 
 LibraryVariant variant_of(const ShaderLibrary& library, VariantParts parts, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
@@ -73,8 +112,7 @@ LibraryVariant variant_of(const ShaderLibrary& library, VariantParts parts, bool
   if (has_checks >= parts.checks && has_coverage >= parts.coverage) return {library, {}, {}};
   parts.checks = parts.checks || has_checks;
   parts.coverage = parts.coverage || has_coverage;
-  // Never destroyed: at exit, other threads may still be running what it holds.
-  static KnownVariants& known = *new KnownVariants;
+  static KnownVariants& known = *new KnownVariants;  // never destroyed, as above
   const std::lock_guard lock(known.mutex);
   const std::string_view source(reinterpret_cast<const char*>(desc.source),
                                 desc.source == nullptr ? 0 : desc.source_bytes);

@@ -4,12 +4,11 @@
 #include <filesystem>
 
 #include "rtapi/src/errors/error_table.h"
+#include "rtapi/src/shaders/native_library.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
 #include "rtapi/src/shaders/shader_reflection.h"
 #include "runtime/coverage/collector.h"
-#include "runtime/hlsl/driver/build_library.h"
 #include "runtime/hlsl/driver/frontend.h"
-#include "runtime/hlsl/driver/host_compiler.h"
 #include "runtime/hlsl/front/file_loader.h"
 #include "runtime/hlsl/front/print_tokens.h"
 #include "runtime/hlsl/glsl/spirv.h"
@@ -101,43 +100,22 @@ std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
   return out;
 }
 
-// The compiler, which knows nothing of rtapi, has numbers.
-static_assert(hlsl::kSpirvFailed == static_cast<uint16_t>(detail::Id::kSpirvFailed) &&
-              hlsl::kSpirvBindings == static_cast<uint16_t>(detail::Id::kSpirvBindings));
-
-Error failed(const ShaderCompileOptions& options, const hlsl::BuildFailure& failure) {
-  const auto id = failure.id == 0 ? detail::Id::kCompilerFailed : detail::Id(failure.id);
-  return detail::make_error(id, options.File, ": ", failure.text);
-}
-
 // Builds the emitted code and loads it.
 void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
            ShaderCompilation& out) {
-  const auto compiler = hlsl::find_host_compiler(options.CxxCompiler);
-  if (!compiler) {
-    out.Status =
-        detail::make_error(detail::Id::kNoCompiler, compiler.error(),
-                           "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
-    return;
-  }
   hlsl::BuildOptions settings;
   if (options.Debug) settings.optimisation = hlsl::Optimisation::kDebug;
   if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
   settings.spirv = options.Spirv;
   settings.quick = options.Quick && !options.Debug;
   settings.wide = options.WideThreads;
-  const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
-  if (object.error) {
-    out.Status = failed(options, object.error);
+  const auto built = detail::build_native(options.File, options.CxxCompiler, module, settings);
+  if (!built) {
+    out.Status = built.error();
     return;
   }
-  out.FromCache = object.from_cache;
-  const auto library = LoadShaderLibraryFromFile(object.path.string());
-  if (!library) {
-    out.Status = library.error();
-    return;
-  }
-  out.Library = *library;
+  out.FromCache = built->from_cache;
+  out.Library = built->library;
 }
 
 void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::ir::Module> module,
@@ -147,7 +125,7 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
   if (options.Spirv) {
     hlsl::SpirvLibrary spirv = hlsl::compile_spirv(*module);
     if (spirv.error) {
-      out.Status = failed(options, spirv.error);
+      out.Status = detail::make_compiler_error(options.File, spirv.error);
       return;
     }
     settings.spirv = std::move(spirv.modules);

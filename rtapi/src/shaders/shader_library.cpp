@@ -5,6 +5,7 @@
 
 #include "rtapi/src/errors/error_table.h"
 #include "rtapi/src/shaders/file_kind.h"
+#include "rtapi/src/shaders/library_variant.h"
 #include "rtapi/src/shaders/shader_library_impl.h"
 #include "runtime/coverage/collector.h"
 
@@ -144,6 +145,7 @@ Result<ShaderLibrary> detail::load_library(const shader::LibraryDesc* desc,
                       " bytes), but this program has version ", shader::kAbiVersion, " (",
                       sizeof(shader::LibraryDesc), " bytes); recompile the shaders");
   }
+  if (desc->flags & shader::kLibrarySource) return load_source_library(*desc);
   auto impl = std::make_shared<ShaderLibraryImpl>();
   impl->name = desc->name ? desc->name : where;
   impl->target = desc->target ? desc->target : "";

@@ -33,6 +33,10 @@ struct EmitCppOptions {
   WideThreads wide = WideThreads::kWhereFaster;
 };
 
+// A unit whose table holds the module's source and no code (kLibrarySource): the code is compiled
+// when a program loads the library.
+std::string emit_source(const ir::Module& module, const std::string& entry_point);
+
 // The module must have passed the checker without errors; emission cannot fail.
 std::string emit_cpp(const ir::Module& module, const EmitCppOptions& options);
 

@@ -252,5 +252,7 @@ bool is_unrolled(const ir::Stmt& loop);
 const char* scalar_name(ir::Scalar scalar);
 // Quoted for C and C++.
 std::string quote(std::string_view text);
+// The array `source`, with the text that the library carries.
+std::string source_table(const ir::Module& module);
 
 }  // namespace kaamos::hlsl

@@ -244,14 +244,7 @@ void CppEmitter::emit_tables() {
   std::string files = "static const char* const files[] = {";
   for (const std::string& file : module_.files) files += quote(file) + ", ";
   line(files + "nullptr};");
-  if (!module_.source.empty()) {
-    out_ += "static const char source[] =\n";
-    // Compilers read many short literals faster than one long one, and some reject long ones.
-    for (size_t at = 0; at < module_.source.size(); at += 4000) {
-      out_ += quote(std::string_view(module_.source).substr(at, 4000)) + "\n";
-    }
-    out_ += ";\n";
-  }
+  if (!module_.source.empty()) out_ += source_table(module_);
   line("static const ks::LibraryDesc library = {ks::kAbiVersion, sizeof(ks::LibraryDesc), " +
        quote(module_.name) + ", " + quote(module_.target) + ", exports, " +
        number(module_.entry_points.size() + unlinked.size() + module_.library_functions.size()) +

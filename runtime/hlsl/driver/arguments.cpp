@@ -23,6 +23,8 @@ bool parse_emit(Arguments& a, const std::string& value) {
   if (value == "cpp") {
     a.emit = Emit::kCpp;
     a.spirv = false;  // it takes many times longer than the C++
+  } else if (value == "source") {
+    a.emit = Emit::kSource;
   } else if (value == "ir") {
     a.emit = Emit::kIr;
   } else if (value == "reflection") {
@@ -132,7 +134,7 @@ const std::vector<Option>& options() {
       {"-no-wide", false, flag(&Arguments::no_wide), ""},
       {"-check-access", false, flag(&Arguments::check_access), ""},
       {"-check", false, flag(&Arguments::check_only), ""},
-      {"-emit", true, parse_emit, "cpp, ir, reflection, object, glsl or spirv"},
+      {"-emit", true, parse_emit, "cpp, source, ir, reflection, object, glsl or spirv"},
       {"-Fo", true, text(&Arguments::output), ""},
       {"-o", true, text(&Arguments::output), ""},
       {"-MF", true, text(&Arguments::dependency_file), ""},
@@ -203,6 +205,11 @@ Result<Arguments> parse_arguments(const std::vector<std::string>& words) {
   if (out.emit == Emit::kObject && out.output.empty() && !out.check_only) {
     return Failure{"-emit object needs a file name: give it with -Fo"};
   }
+  if (out.emit == Emit::kSource && (out.no_source || out.check_access || out.debug)) {
+    const char* other = out.no_source ? "-no-source" : out.check_access ? "-check-access" : "-Zi";
+    return Failure{std::string("-emit source writes no code, and does not go with ") + other +
+                   ": leave one of them out"};
+  }
   if (!out.dependency_file.empty() && out.output.empty()) {
     return Failure{"-MF needs the name of the output: give it with -Fo"};
   }
@@ -233,8 +240,9 @@ As in DXC:
   -help, --version          prints this text, or which Kaamos this is
 Of its own:
   -check                    only checks the source, writes nothing
-  -emit cpp|ir|reflection|object|glsl|spirv
-                            what to write: the C++ alone, the typed intermediate form, the exports
+  -emit cpp|source|ir|reflection|object|glsl|spirv
+                            what to write: the C++ alone, C++ that holds the HLSL for
+                            LoadShaderLibrary to compile, the typed intermediate form, the exports
                             and bindings as JSON, a shared object for LoadShaderLibraryFromFile,
                             the GLSL of every export, or the SPIR-V of the only one; without
                             -emit: C++ that holds the SPIR-V too

@@ -12,7 +12,7 @@
 
 namespace kaamos::hlsl {
 
-enum class Emit : uint8_t { kCpp, kIr, kReflection, kObject, kGlsl, kSpirv };
+enum class Emit : uint8_t { kCpp, kSource, kIr, kReflection, kObject, kGlsl, kSpirv };
 
 struct Arguments {
   std::string source;

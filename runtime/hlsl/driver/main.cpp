@@ -111,6 +111,9 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
   switch (arguments.emit) {
     case Emit::kCpp:
       return write_cpp(arguments, module);
+    case Emit::kSource:
+      text = emit_source(module, arguments.entry_function);
+      break;
     case Emit::kIr:
       text = dump(module);
       break;

@@ -661,7 +661,8 @@ struct SubobjectDesc {
 enum LibraryFlags : uint32_t {
   kLibraryChecked = 1,  // built with -check-access
   kLibraryInterpreted = 2,
-  kLibraryDebug = 4,  // built with -Od -Zi
+  kLibraryDebug = 4,   // built with -Od -Zi
+  kLibrarySource = 8,  // nothing but `source`, which LoadShaderLibrary compiles
 };
 
 struct LibraryDesc {
