@@ -203,6 +203,19 @@ TEST_F(Driver, EmitsEachForm) {
   EXPECT_EQ(text_of("x.cpp"), cpp.out);
 }
 
+TEST_F(Driver, EmitsTheSourceAlone) {
+  const Outcome source = run("-emit source --entry-function my_table main.hlsl");
+  EXPECT_EQ(source.status, 0);
+  EXPECT_THAT(source.out, AllOf(HasSubstr("kLibrarySource"), HasSubstr("my_table"),
+                                HasSubstr("helper(2)"), HasSubstr("#define NUMBER 7")));
+  EXPECT_THAT(source.out, Not(HasSubstr("prelude.h")));
+  for (const std::string other : {"-no-source", "-check-access", "-Zi"}) {
+    const Outcome refused = run("-emit source " + other + " main.hlsl");
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.error, HasSubstr("does not go with " + other));
+  }
+}
+
 // Milliseconds of processor time, the least of a few runs, since other processes share the machine.
 double least_ms(const std::function<void()>& run) {
   const auto used = [] {
