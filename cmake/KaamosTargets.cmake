@@ -36,6 +36,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # An eighth of what g++ takes goes into tidying its own memory. It has a gigabyte before it begins to.
   kaamos_add_build_flags(COMPILE --param=ggc-min-heapsize=1000000)
 endif()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  set(KAAMOS_X86_64 ON)
+else()
+  set(KAAMOS_X86_64 OFF)
+  # So that results have the bits that they have on x86-64. By default g++ fuses a * b + c wherever the
+  # processor can, rounding once, not twice; any x86-64 cannot. char has a sign there, and not on ARM.
+  kaamos_add_build_flags(COMPILE -ffp-contract=off -fsigned-char)
+endif()
 if(KAAMOS_WERROR)
   kaamos_add_build_flags(COMPILE -Werror)
 endif()

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/dispatch.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 
 #include "runtime/backend/backend.h"
@@ -57,7 +55,7 @@ void fetch_row(const std::vector<Picture>& pictures, const Tile& tile, uint32_t 
     const uint8_t* end = row + uint64_t{tile.last[0]} * picture.texel_bytes;
     for (const uint8_t* at = row + uint64_t{tile.first[0]} * picture.texel_bytes; at < end;
          at += kLine) {
-      _mm_prefetch(reinterpret_cast<const char*>(at), _MM_HINT_T0);
+      __builtin_prefetch(at);
     }
   }
 }

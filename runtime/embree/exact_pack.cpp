@@ -117,7 +117,10 @@ std::vector<TrianglePack> build_packs(RTCDevice device, const std::vector<PackIn
 }
 
 PackFilter fastest_pack_filter() {
-  return __builtin_cpu_supports("avx") != 0 ? filter_pack_avx : filter_pack_sse2;
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx") != 0) return filter_pack_avx;
+#endif
+  return filter_pack_sse2;
 }
 
 }  // namespace kaamos::embree

@@ -31,7 +31,7 @@ struct alignas(16) TrianglePack {
 // products have the sign of the exact ones or are 0, so no error bound is needed.
 using PackFilter = uint32_t (*)(const ExactRay& ray, const TrianglePack& pack);
 uint32_t filter_pack_sse2(const ExactRay& ray, const TrianglePack& pack);
-uint32_t filter_pack_avx(const ExactRay& ray, const TrianglePack& pack);
+uint32_t filter_pack_avx(const ExactRay& ray, const TrianglePack& pack);  // on x86-64 only
 // The fastest filter that this machine can run. All give the same results.
 PackFilter fastest_pack_filter();
 

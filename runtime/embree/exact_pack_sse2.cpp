@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <emmintrin.h>
-
 #include "runtime/embree/exact_pack.h"
+#include "runtime/embree/simd.h"
 
 namespace kaamos::embree {
 namespace {

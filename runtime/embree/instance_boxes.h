@@ -5,8 +5,6 @@
 // rays that are traced together are tested against one box after another. Numbers: README.md.
 #pragma once
 
-#include <immintrin.h>
-
 #include <bit>
 #include <cfloat>
 #include <cmath>
@@ -16,6 +14,7 @@
 
 #include "kaamos/shader/abi.h"
 #include "runtime/embree/embree_shim.h"
+#include "runtime/embree/simd.h"
 
 namespace kaamos::embree {
 

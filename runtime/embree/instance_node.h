@@ -3,11 +3,10 @@
 // The data that a traversal needs about an instance, in two cache lines, and the ray transform.
 #pragma once
 
-#include <immintrin.h>
-
 #include <cstdint>
 
 #include "runtime/embree/embree_shim.h"
+#include "runtime/embree/simd.h"
 #include "runtime/structures/instances.h"
 
 namespace kaamos::embree {

@@ -88,7 +88,7 @@ template <typename Floats>
 }  // namespace
 
 void search_lanes(const shader::LaneRays& rays, const InstanceBoxes& boxes, LaneSearches& out,
-                  shader::CpuLevel level) {
+                  [[maybe_unused]] shader::CpuLevel level) {
 #if defined(__x86_64__)
   if (level == shader::CpuLevel::kAvx2) return search_by_avx2(rays, boxes, out);
 #endif

@@ -6,11 +6,10 @@
 // the speed (README.md).
 #pragma once
 
-#include <immintrin.h>
-
 #include <limits>
 
 #include "runtime/embree/embree_shim.h"
+#include "runtime/embree/simd.h"
 #include "runtime/structures/build_inputs.h"
 
 namespace kaamos::embree {
@@ -28,7 +27,7 @@ struct PaddedBox {
             _mm_setr_ps(bounds.upper[0], bounds.upper[1], bounds.upper[2], 0)};
   }
 
-  bool active() const { return _mm_comile_ss(lower, upper) != 0; }
+  bool active() const { return _mm_cvtss_f32(lower) <= _mm_cvtss_f32(upper); }
 
   // Returns whether the ray passes the box between its tnear and tfar, both included. Never false
   // for one that does: the relative error of each t is at most 3 half ulps, since differences of

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <cstdint>
 
 #include "runtime/embree/parallel.h"
+#include "runtime/shader/float_mode.h"
 
 namespace kaamos::bench {
 
@@ -18,8 +17,7 @@ void for_each_cell(tbb::task_arena& arena, uint32_t width, uint32_t height, Make
   const uint32_t columns = (width + kEdge - 1) / kEdge;
   const uint32_t rows = (height + kEdge - 1) / kEdge;
   embree::parallel_ranges(arena, uint64_t{columns} * rows, [&](uint64_t begin, uint64_t end) {
-    const uint32_t saved = _mm_getcsr();
-    _mm_setcsr(saved | 0x8040);  // flush to zero, denormals are zero
+    const shader::FloatMode float_mode;
     auto cell = make_cell();
     for (auto tile = static_cast<uint32_t>(begin); tile < end; ++tile) {
       const uint32_t left = tile % columns * kEdge;
@@ -30,7 +28,6 @@ void for_each_cell(tbb::task_arena& arena, uint32_t width, uint32_t height, Make
         for (uint32_t x = left; x < right; ++x) cell(y * width + x);
       }
     }
-    _mm_setcsr(saved);
   });
 }
 

@@ -73,6 +73,14 @@ std::unique_ptr<SharedDevice> take_device(const Target& target) {
   return out;
 }
 
+bool embree_rounds_distances() {
+#if defined(__x86_64__)
+  return !__builtin_cpu_supports("avx512vl");
+#else
+  return true;
+#endif
+}
+
 }  // namespace
 
 Context::Context(std::unique_ptr<SharedDevice> shared, const Target& target, bool goes_on)
@@ -114,7 +122,7 @@ DeviceDesc Target::device_desc() const {
 bool Context::is_distance(float found, float expected) const {
   const bool rounds = target_.backend == "embree" &&
                       target_.precision != rtapi::TraversalPrecision::kExact &&
-                      !__builtin_cpu_supports("avx512vl");
+                      embree_rounds_distances();
   if (!rounds) return found == expected;
   // One ulp of a number lies between epsilon / 2 and epsilon times that number.
   return std::abs(found - expected) <= std::numeric_limits<float>::epsilon() * std::abs(expected);

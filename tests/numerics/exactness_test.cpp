@@ -66,8 +66,10 @@ class Environment {
 
 TEST(Exactness, HitsDoNotDependOnTheInstructionSet) {
   std::vector<const char*> sets = {"isa=sse2", "isa=sse4.2"};
+#if defined(__x86_64__)
   if (__builtin_cpu_supports("avx")) sets.push_back("isa=avx");
   if (__builtin_cpu_supports("avx2")) sets.push_back("isa=avx2");
+#endif
   for (const Placement& place :
        {Placement{1, 0, 0}, Placement{1e-9f, 0, 0}, Placement{1, 1e4f, 0}, Placement{1, 0, 1e4f},
         Placement{1, 1e6f, 10}, Placement{1e12f, 0, 10}}) {

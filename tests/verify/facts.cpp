@@ -111,6 +111,8 @@ std::string vector_extensions() {
   KAAMOS_NAME_IF_SUPPORTED("avx512bw")
   KAAMOS_NAME_IF_SUPPORTED("avx512vl")
 #undef KAAMOS_NAME_IF_SUPPORTED
+#elif defined(__aarch64__)
+  out = "neon";  // all ARM64 processors have it
 #endif
   return out.empty() ? "none" : out;
 }

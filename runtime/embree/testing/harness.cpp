@@ -67,6 +67,14 @@ rtapi::TraversalPrecision precision_of_environment() {
   return name == "exact" ? rtapi::TraversalPrecision::kExact : rtapi::TraversalPrecision::kRobust;
 }
 
+bool embree_rounds_distances() {
+#if defined(__x86_64__)
+  return !__builtin_cpu_supports("avx512vl");
+#else
+  return true;
+#endif
+}
+
 }  // namespace
 
 ::testing::AssertionResult is_distance(float t, float expected) {
@@ -75,8 +83,7 @@ rtapi::TraversalPrecision precision_of_environment() {
 
 ::testing::AssertionResult is_distance(float t, float expected,
                                        rtapi::TraversalPrecision precision) {
-  const bool rounds =
-      precision != rtapi::TraversalPrecision::kExact && !__builtin_cpu_supports("avx512vl");
+  const bool rounds = precision != rtapi::TraversalPrecision::kExact && embree_rounds_distances();
   // An ulp is between epsilon / 2 and epsilon times the number.
   const float error = rounds ? std::numeric_limits<float>::epsilon() * std::abs(expected) : 0.0f;
   if (std::abs(t - expected) <= error) return ::testing::AssertionSuccess();

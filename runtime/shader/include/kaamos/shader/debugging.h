@@ -19,6 +19,8 @@ inline uint32_t is_debugging_enabled(Invocation& invocation) {
 // Stops in a debugger at this very line, which the instruction behind it belongs to, too.
 #if defined(__x86_64__)
 #define KAAMOS_BREAKPOINT() __asm__ volatile("int3\n\tnop")
+#elif defined(__aarch64__)
+#define KAAMOS_BREAKPOINT() __asm__ volatile("brk #0\n\tnop")  // gdb knows to go on behind it
 #else
 #define KAAMOS_BREAKPOINT() __builtin_trap()
 #endif
