@@ -9,7 +9,7 @@
 include_guard()
 
 option(KAAMOS_BATCHES "Compile several sources at a time" OFF)
-set(KAAMOS_BATCH_SIZE 6 CACHE STRING "How many sources are compiled at a time at most")
+set(KAAMOS_BATCH_SIZE 12 CACHE STRING "How many sources are compiled at a time at most")
 option(KAAMOS_BATCH_ALL "Compile together also what runs faster compiled by itself (KAAMOS_ALONE)" OFF)
 define_property(TARGET PROPERTY KAAMOS_ALONE BRIEF_DOCS "Each source of the target is compiled by itself")
 define_property(SOURCE PROPERTY KAAMOS_ALONE BRIEF_DOCS "The source is compiled by itself")

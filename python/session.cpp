@@ -2,12 +2,58 @@
 #include "python/session.h"
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <thread>
 #include <utility>
 
 namespace kaamos::python {
 namespace {
 
 std::atomic<uint64_t> g_sessions{0};
+
+bool is_on_main_thread() {
+  const py::module_ threading = py::module_::import("threading");
+  return threading.attr("current_thread")().is(threading.attr("main_thread")());
+}
+
+// Work of a device, in a thread of its own, so that this one can listen to Ctrl-C meanwhile.
+class InterruptibleWork {
+ public:
+  explicit InterruptibleWork(const std::function<void()>& work)
+      : thread_([this, &work] {
+          try {
+            work();
+          } catch (...) {
+            error_ = std::current_exception();
+          }
+          const std::lock_guard lock(mutex_);
+          done_ = true;
+          changed_.notify_one();
+        }) {}
+  ~InterruptibleWork() {
+    const py::gil_scoped_release released;
+    thread_.join();
+  }
+
+  bool wait_for(std::chrono::milliseconds time) {
+    const py::gil_scoped_release released;
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, time, [this] { return done_; });
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool done_ = false;
+  std::exception_ptr error_;
+  std::thread thread_;  // starts when all else is there
+};
 
 }  // namespace
 
@@ -55,8 +101,22 @@ void Session::dispatch(const Library& library, const std::string& entry,
 
 void Session::execute(rtapi::CommandList& list, const BoundResources& bound) {
   if (!bound.undo.empty()) list.ResourceBarrier(bound.undo);
-  const py::gil_scoped_release released;
-  queue_.ExecuteAndWait(list).value();
+  const auto work = [&] { queue_.ExecuteAndWait(list).value(); };
+  // Python tells no other thread of signals.
+  if (!is_on_main_thread()) {
+    const py::gil_scoped_release released;
+    return work();
+  }
+  InterruptibleWork running(work);
+  while (!running.wait_for(std::chrono::milliseconds(50))) {
+    if (PyErr_CheckSignals() == 0) continue;
+    py::error_already_set interrupt;
+    (void)device_.RemoveDevice();
+    while (!running.wait_for(std::chrono::milliseconds(50))) {
+    }
+    throw interrupt;
+  }
+  running.rethrow();
 }
 
 std::vector<Message> Session::take_messages() {

@@ -15,19 +15,20 @@ Reporter& reporter_of(ID3D12Device* device) {
 }
 
 HRESULT Device::GetDeviceRemovedReason() {
-  if (removed_) return DXGI_ERROR_DEVICE_REMOVED;
   const rtapi::Status status = device_.GetDeviceRemovedReason();
   if (status.ok()) return S_OK;
   const rtapi::ErrorId id = status.error().id;
   if (id == rtapi::error_ids::api::kListNotExecutable) return DXGI_ERROR_INVALID_CALL;
   if (id == rtapi::error_ids::backend::kOutOfMemory) return E_OUTOFMEMORY;
-  if (id == rtapi::error_ids::backend::kVulkanDeviceLost) return DXGI_ERROR_DEVICE_REMOVED;
+  if (id == rtapi::error_ids::api::kRemovedByCall ||
+      id == rtapi::error_ids::backend::kVulkanDeviceLost) {
+    return DXGI_ERROR_DEVICE_REMOVED;
+  }
   return DXGI_ERROR_DEVICE_HUNG;  // what D3D12 calls an endless loop or too deep a recursion
 }
 
-// Objects go on working; the reason is what programs look at.
 void Device::RemoveDevice() {
-  removed_ = true;
+  device_.RemoveDevice();
 }
 
 void Device::rename(const std::string&) {}

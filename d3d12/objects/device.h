@@ -235,7 +235,6 @@ class Device final : public NamedObject<ID3D12DeviceEntries, InfoQueue, DebugDev
   rtapi::Device device_;
   bool debug_;
   LUID luid_;
-  std::atomic<bool> removed_{false};
   LiveObjects live_objects_;
   ShaderIdentifiers shader_identifiers_;
 };

@@ -349,6 +349,10 @@ TEST_F(DeviceCalls, ARemovedDeviceSaysSo) {
   EXPECT_EQ(device_->GetDeviceRemovedReason(), S_OK);
   device_->RemoveDevice();
   EXPECT_EQ(device_->GetDeviceRemovedReason(), DXGI_ERROR_DEVICE_REMOVED);
+  ComPtr<ID3D12CommandQueue> queue;
+  const D3D12_COMMAND_QUEUE_DESC desc = {};
+  EXPECT_EQ(device_->CreateCommandQueue(&desc, IID_PPV_ARGS(queue.GetAddressOf())),
+            DXGI_ERROR_DEVICE_REMOVED);
 }
 
 // [D3D12: ID3D12DeviceRemovedExtendedData]

@@ -2,6 +2,8 @@
 """The Python package against numpy."""
 
 import os
+import signal
+import threading
 import unittest
 
 import kaamos
@@ -279,6 +281,32 @@ class Package(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             frame.render(stop)
         self.assertEqual(frame.layer("ao").shape[:2], (32, 48))  # and it goes on
+
+    def test_ctrl_c_ends_a_dispatch(self):
+        library = self.device.compile("""
+            RWStructuredBuffer<uint> sums;
+            [numthreads(64, 1, 1)] void Main(uint i : SV_DispatchThreadID) {
+              uint sum = i;
+              for (uint k = 0; k < 10000; ++k) sum = sum * 1664525 + 1013904223;
+              InterlockedAdd(sums[i % 64], sum); }""", target="cs_6_6", entry="Main")
+        sums = self.device.buffer(np.zeros(64, np.uint32))
+        threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            self.device.dispatch(library, "Main", (65535, 100, 1), sums=sums)
+        with self.assertRaises(kaamos.Error) as refused:
+            self.device.dispatch(library, "Main", (1, 1, 1), sums=sums)
+        self.assertEqual(refused.exception.id, "KA0917")
+
+    def test_other_threads_dispatch(self):
+        library = self.device.compile("""
+            RWStructuredBuffer<uint> out_;
+            [numthreads(1, 1, 1)] void Main(uint i : SV_DispatchThreadID) { out_[i] = i + 1; }""",
+            target="cs_6_6", entry="Main")
+        made = self.device.buffer(np.zeros(4, np.uint32))
+        thread = threading.Thread(target=lambda: self.device.dispatch(library, "Main", (4, 1, 1), out_=made))
+        thread.start()
+        thread.join()
+        np.testing.assert_array_equal(made.numpy(np.uint32), [1, 2, 3, 4])
 
     def test_pipelines_are_made_once(self):
         library = self.device.compile("""RWStructuredBuffer<uint> a;

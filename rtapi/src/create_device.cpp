@@ -81,6 +81,7 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   impl->desc = desc;
   impl->tag = ++g_device_count;
   impl->context.addresses = &impl->addresses;
+  impl->context.stopped = &impl->is_removed();
   // The backend is a member of the device: the pointer outlives it.
   if (!impl->desc.PrintThread) impl->desc.PrintThread = print_thread_of_environment();
   impl->context.message = [raw = impl.get()](const Message& message) {

@@ -5,6 +5,7 @@
 // execution. Its input has been checked, except for what is in GPU memory.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -211,10 +212,14 @@ class CommandObserver {
   }
 };
 
+inline const std::atomic<bool> kNeverStopped = false;
+
 // Everything that a backend gets from rtapi. All of it outlives the backend.
 struct Context {
   const AddressMap* addresses = nullptr;
   std::function<void(const rtapi::Message&)> message;  // never empty; may be called from any thread
+  // True once the device is removed: work that executes ends as soon as it can.
+  const std::atomic<bool>* stopped = &kNeverStopped;
   // Both null unless DeviceDesc::Checked.
   CommandObserver* observer = nullptr;
   checks::Reporter* reporter = nullptr;

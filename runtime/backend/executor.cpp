@@ -238,6 +238,7 @@ rtapi::Status execute(std::span<const Command> commands, CommandTarget& target,
                       const Context& context) {
   Executor executor(target, context);
   for (const Command& command : commands) {
+    if (context.stopped->load(std::memory_order_relaxed)) break;
     if (auto s = executor.run(command); !s) return s;
     executor.next();
   }

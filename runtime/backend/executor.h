@@ -63,7 +63,8 @@ class CommandTarget {
   virtual rtapi::Status finish() = 0;
 };
 
-// The commands in order, up to the first error. The last ones need not be done yet: see finish().
+// The commands in order, up to the first error or the removal of the device. The last ones need not
+// be done yet: see finish().
 rtapi::Status execute(std::span<const Command> commands, CommandTarget& target,
                       const Context& context);
 

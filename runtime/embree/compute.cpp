@@ -79,7 +79,7 @@ void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
   worker.running = &job.pipeline->shader();
   const bool at_once = compute.lanes != nullptr && job.wave_lanes <= shader::kLanes;
   const auto body = compute.group != nullptr ? run_group : at_once ? run_lanes : run_threads;
-  for (uint64_t i = begin; i < end && !job.dispatch->removed.load(std::memory_order_relaxed); ++i) {
+  for (uint64_t i = begin; i < end && !job.dispatch->ends(); ++i) {
     GroupRun group_run = {job.pipeline, {}};
     FiberGroup& run = group_run.fibers;
     run.worker = &worker;

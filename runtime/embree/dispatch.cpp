@@ -98,7 +98,7 @@ void run_tiles(RunningDispatch& dispatch, const Grid& grid, const ShaderRecord& 
   const shader::FloatMode float_mode;
   Worker worker;
   begin_worker(dispatch, worker);
-  for (uint64_t i = begin; i < end && !dispatch.removed.load(std::memory_order_relaxed); ++i) {
+  for (uint64_t i = begin; i < end && !dispatch.ends(); ++i) {
     Tile tile = {&worker, &grid, &record, {}, {}};
     const uint64_t position[3] = {i % grid.tiles[0], i / grid.tiles[0] % grid.tiles[1],
                                   i / grid.tiles[0] / grid.tiles[1]};
@@ -194,6 +194,7 @@ struct RecordRead {
 void begin_dispatch(const DispatchEnvironment& environment, const runtime::RootBindings& state,
                     RunningDispatch& dispatch) {
   dispatch.memory = environment.memory;
+  if (environment.context != nullptr) dispatch.stopped = environment.context->stopped;
   if (environment.context != nullptr && environment.context->reporter != nullptr) {
     dispatch.context = environment.context;
     dispatch.ranges = environment.context->addresses->ranges();

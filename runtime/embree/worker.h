@@ -97,13 +97,19 @@ struct RunningDispatch {
   // whatever the scheduler promises.
   std::atomic<bool> begun = false;
   std::atomic<bool> removed = false;
-  std::atomic<uint64_t> unknown_structure = 0;  // one that a ray was traced against
-  std::mutex mutex;                             // guards the members below
+  const std::atomic<bool>* stopped = &runtime::kNeverStopped;  // Context::stopped
+  std::atomic<uint64_t> unknown_structure = 0;                 // one that a ray was traced against
+  std::mutex mutex;                                            // guards the members below
   Removal removal;
   Counters counters;
   FarRays far_rays;
   std::vector<runtime::ReachedFrom> reached;  // each different one once, by hash
   std::unordered_set<uint64_t> reached_hashes;
+
+  // Whether nothing more of it may begin.
+  bool ends() const {
+    return removed.load(std::memory_order_relaxed) || stopped->load(std::memory_order_relaxed);
+  }
 };
 
 // The members that each ray reads are in the first cache line: spread over two, primary rays take

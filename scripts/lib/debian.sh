@@ -18,6 +18,9 @@ make_debian_packages() {
   stage "libkaamos-d3d12-$soversion" d3d12
   stage kaamos-tools tools
   stage libkaamos-dev development
+  LD_LIBRARY_PATH="$deb_work/libkaamos$soversion/usr/lib:$deb_work/libkaamos-d3d12-$soversion/usr/lib" write_manual_pages \
+    "$deb_work/kaamos-tools/usr/bin" "$deb_work/kaamos-tools/usr/share/man/man1" "$root/scripts/packaging/man_pages.txt" \
+    "$(package_version)" "$(date -u -d "@$(source_date)" +%F)"
   packages=("libkaamos$soversion" "libkaamos-d3d12-$soversion" kaamos-d3d12 kaamos-tools libkaamos-dev kaamos-doc)
   mkdir -p "$deb_work/kaamos-d3d12/usr/lib"
   mv "$deb_work/libkaamos-d3d12-$soversion/usr/lib/kaamos" "$deb_work/kaamos-d3d12/usr/lib/"

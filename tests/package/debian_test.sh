@@ -54,6 +54,17 @@ unnamed=$(sed -n 's/^find_dependency(\([A-Za-z_]*\).*/\L\1/p' "$work/root/usr/li
 
 # Programs, libraries and the Python package, from there.
 usr=$work/root/usr
+for program in "$usr"/bin/*; do
+  page=$usr/share/man/man1/${program##*/}.1.gz
+  [[ -s $page ]] || fail "${program##*/} has no manual page"
+  command -v man >/dev/null || continue
+  said=$(LC_ALL=C.UTF-8 MANROFFSEQ='' MANWIDTH=120 man --warnings -l "$page" 2>&1 >"$work/page.txt") || fail "man: $said"
+  [[ -z $said ]] || fail "man has something to say about ${program##*/}.1: $said"
+  "$program" --help >"$work/help.txt"
+  while read -r word; do
+    grep -qF -e "$word" "$work/page.txt" || fail "the page of ${program##*/} lacks $word"
+  done < <(grep -oE -e '(^|[ ,])-[-A-Za-z0-9]+' "$work/help.txt" | tr -d ' ,' | sort -u)
+done
 env -u KAAMOS_REQUIRE_VULKAN VK_LOADER_DRIVERS_DISABLE='*' "$usr/bin/kaamos-verify" >"$work/output.txt" || fail "kaamos-verify: $(<"$work/output.txt")"
 "$cxx" -std=c++20 "$source/tests/package/loads_d3d12.cpp" -o "$work/loads_d3d12" -ldl
 LD_LIBRARY_PATH=$usr/lib/kaamos/d3d12:$usr/lib "$work/loads_d3d12" >"$work/output.txt" || fail "loads_d3d12: $(<"$work/output.txt")"

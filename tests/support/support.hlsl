@@ -152,6 +152,13 @@ void CallTwo() {
 }
 
 [shader("raygeneration")]
+void TakeLong() {
+  uint sum = DispatchRaysIndex().x;
+  for (uint i = 0; i < 100000; ++i) sum = sum * 1664525 + 1013904223;
+  g_out[DispatchRaysIndex().x] = sum;
+}
+
+[shader("raygeneration")]
 void WriteIndex() {
   const uint3 size = DispatchRaysDimensions();
   const uint3 at = DispatchRaysIndex();

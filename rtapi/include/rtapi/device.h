@@ -147,8 +147,13 @@ class Device {
   /// Ok while the device works, else why it was removed.
   /// [D3D12: ID3D12Device::GetDeviceRemovedReason]
   /// @errors KA0904 empty handle; the id of what removed the device, with the code kDeviceRemoved:
-  /// KA0789-0796, KA0890-0898, KA0950-0963, KA0990.
+  /// KA0789-0796, KA0890-0898, KA0917, KA0950-0963, KA0990.
   Status GetDeviceRemovedReason() const;
+  /// Removes the device, from any thread: with KA0917 as the reason, unless it was removed before.
+  /// Work that executes ends early: Embree starts no more tiles or thread groups, Vulkan no more
+  /// commands, and what they wrote is incomplete. [D3D12: ID3D12Device5::RemoveDevice]
+  /// @errors KA0904 empty handle.
+  Status RemoveDevice() const;
   /// Counts since the device was made or ResetStatistics was called, over all queues. Vulkan counts
   /// only with DeviceDesc::CollectStatistics, Embree always. On Vulkan a miss for which no shader
   /// ran counts as a hit. All zero for an empty handle.

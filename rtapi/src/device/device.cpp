@@ -32,6 +32,7 @@ void DeviceImpl::Remove(const Error& reason) {
     Error error = reason;
     error.code = ErrorCode::kDeviceRemoved;
     removed_ = error;
+    is_removed_.store(true, std::memory_order_relaxed);
     calls.swap(removal_calls_);
   }
   report(MessageSeverity::kError, reason);
@@ -208,6 +209,12 @@ const DeviceInfo& Device::GetInfo() const {
 }
 const DeviceDesc& Device::GetDesc() const {
   return impl_ ? impl_->desc : kEmptyDesc;
+}
+
+Status Device::RemoveDevice() const {
+  if (!impl_) return make_error(Id::kNullHandle, "RemoveDevice on an empty device handle");
+  impl_->Remove(make_error(Id::kRemovedByCall, "by a call of RemoveDevice"));
+  return {};
 }
 
 Status Device::GetDeviceRemovedReason() const {

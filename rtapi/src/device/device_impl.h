@@ -48,6 +48,8 @@ struct DeviceImpl {
 
   void Remove(const Error& reason);
   Status removed() const;
+  // Whether it is, for those who look often.
+  const std::atomic<bool>& is_removed() const { return is_removed_; }
   // Calls a function when the device is removed: at once if it is. Each is kept until then.
   void when_removed(std::function<void()> call);
   void report(MessageSeverity severity, const Error& error) const;
@@ -91,6 +93,7 @@ struct DeviceImpl {
   std::map<uintptr_t, HeapRange> heaps_;
   mutable std::mutex removed_mutex_;
   Status removed_;
+  std::atomic<bool> is_removed_ = false;
   std::vector<std::function<void()>> removal_calls_;
   mutable std::mutex said_mutex_;
   mutable std::set<std::string> said_;  // reasons

@@ -42,6 +42,19 @@ TEST(DeviceTest, IsListedAndChosenByName) {
   EXPECT_ERROR(CreateDevice({.Backend = "voodoo"}), "KA0901", "\"voodoo\"", "\"null\"");
 }
 
+TEST(DeviceTest, TheFirstReasonForARemovalCounts) {
+  EXPECT_ERROR(Device().RemoveDevice(), "KA0904");
+  const Device device = CreateNullDevice();
+  const CommandQueue queue = device.CreateCommandQueue().value();
+  const Fence fence = device.CreateFence().value();
+  EXPECT_TRUE(device.RemoveDevice().ok());
+  EXPECT_TRUE(device.RemoveDevice().ok());
+  EXPECT_ERROR(device.GetDeviceRemovedReason(), "KA0917");
+  EXPECT_ERROR(device.CreateCommandQueue(), "KA0917");
+  EXPECT_ERROR(fence.Wait(1), "KA0917");
+  EXPECT_EQ(fence.GetCompletedValue(), UINT64_MAX);
+}
+
 TEST(DeviceTest, DescriptionIsChecked) {
   CreateNullDevice();
   EXPECT_ERROR(CreateDevice({.Backend = "null", .Threads = 5000}), "KA0914", "5000");
