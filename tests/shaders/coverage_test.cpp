@@ -31,6 +31,19 @@ constexpr char kMark[] = "//= ";
 const std::string kMain = KAAMOS_TESTDATA "/coverage.hlsl";
 const std::string kPart = KAAMOS_TESTDATA "/coverage_part.hlsli";
 
+// Where the branch of a line stands for which a mark has this before its bracket: the operator ?, &
+// or |, else the first keyword.
+size_t branch_of(const std::string& text, char kind) {
+  if (kind == '?') return text.find(" ? ") + 1;
+  if (kind == '&') return text.find("&&");
+  if (kind == '|') return text.find("||");
+  size_t keyword = std::string::npos;
+  for (const char* word : {"if (", "for (", "while (", "do {", "switch ("}) {
+    keyword = std::min(keyword, text.find(word));
+  }
+  return keyword;
+}
+
 // What the marks of a file say, for so many runs.
 FileCoverage marked(const std::string& path, uint64_t runs) {
   FileCoverage out;
@@ -39,17 +52,17 @@ FileCoverage marked(const std::string& path, uint64_t runs) {
   for (uint32_t line = 1; std::getline(in, text); ++line) {
     const size_t mark = text.find(kMark);
     if (mark == std::string::npos || text.starts_with("//")) continue;
-    std::string counts = text.substr(mark + sizeof(kMark) - 1);
+    const std::string counts = text.substr(mark + sizeof(kMark) - 1);
     out.lines[line] = runs * static_cast<uint64_t>(counts[0] - '0');
-    size_t keyword = std::string::npos;
-    for (const char* word : {"if (", "for (", "while (", "do {", "switch ("}) {
-      keyword = std::min(keyword, text.find(word));
-    }
-    std::erase_if(counts, [](char c) { return c == ' ' || c == '[' || c == ']'; });
-    for (uint32_t arm = 0; arm + 1 < counts.size(); ++arm) {
-      const char count = counts[arm + 1];
-      out.arms[{line, static_cast<uint32_t>(keyword) + 1, arm}] =
-          count == '-' ? 0 : runs * static_cast<uint64_t>(count - '0');
+    for (size_t open = counts.find('['); open != std::string::npos;
+         open = counts.find('[', open + 1)) {
+      const auto column = static_cast<uint32_t>(branch_of(text, counts[open - 1])) + 1;
+      uint32_t arm = 0;
+      for (size_t i = open + 1; counts[i] != ']'; ++i) {
+        if (counts[i] == ' ') continue;
+        out.arms[{line, column, arm++}] =
+            counts[i] == '-' ? 0 : runs * static_cast<uint64_t>(counts[i] - '0');
+      }
     }
   }
   return out;

@@ -1,5 +1,5 @@
 // What runs here is known: "//=" stands behind each line that has code, with the number of runs that
-// come there, and in brackets the arms of its branch. [coverage_test.cpp]
+// come there, and in brackets the arms of its branch: of a statement, or of ?, & or |. [coverage_test.cpp]
 #include <kaamos/test.hlsli>
 #include "coverage_part.hlsli"
 #pragma kaamos geometry wall triangles (-1,-1,0) (1,-1,0) (0,1,0)
@@ -79,7 +79,7 @@ uint loops(uint count) {  //= 1
     ++sum;  //= 0
   }
   [unroll] for (uint k = 0; k < 3; ++k) sum += k;  //= 1 [1 1]
-  while (sum > 2000 && sum != 7) --sum;  //= 1 [0 1]
+  while (sum > 2000 && sum != 7) --sum;  //= 1 [0 1] &[0 1]
   return sum;  //= 1
 }
 
@@ -91,11 +91,23 @@ uint never_called(uint x) {  //= 0
   return 2;  //= 0
 }
 
+#define EITHER(a, b) ((a) ? (b) : 0)
+uint choose(uint x, bool2 both) {  //= 1
+  const uint picked = x > 3 ? x : 3;  //= 1 ?[1 1]
+  const uint always = kNever ? 9 : 1;  //= 1
+  const uint small = x < 100 ? 0 : 50;  //= 1 ?[1 0]
+  const uint in_macro = EITHER(x > 1, 4);  //= 1
+  const bool odd = x == 2 || picked == 5;  //= 1 |[1 1]
+  const uint2 each = select(both, uint2(1, 2), uint2(0, 0));  //= 1
+  return picked + always + small + in_macro + each.x + (odd && both.y ? 100 : 0);  //= 1 &[1 1] ?[1 1]
+}
+
 groupshared uint Shared[4];
 
 [test] void Classifies() {  //= 1
   EXPECT_EQ(classify(3), 111);  //= 1
   EXPECT_EQ(loops(5), 12);  //= 1
+  EXPECT_EQ(choose(2, true) + choose(7, bool2(true, false)), 122);  //= 1
   Counter counter = {1};  //= 1
   counter.add(2);  //= 1
   EXPECT_EQ(counter.value + larger(1, 2) + uint(larger(2.0, 1.0)) + from_include(1), 9);  //= 1
@@ -109,7 +121,7 @@ groupshared uint Shared[4];
     if (i < step) Shared[i] += Shared[i + step];  //= 1 [1 1]
   }
   GroupMemoryBarrierWithGroupSync();  //= 1
-  if (i == 0 && Shared[0] != 6) Log.Store(0, 1);  //= 1 [0 1]
+  if (i == 0 && Shared[0] != 6) Log.Store(0, 1);  //= 1 [0 1] &[1 1]
 }
 
 struct Payload {

@@ -73,6 +73,10 @@ void Coverage::arms(ir::Block& then, ir::Block& orelse, SourceLocation location)
   orelse.push_back(arm(location, 1));
 }
 
+void Coverage::sides(ir::Block& first, ir::Block& second, SourceLocation location) {
+  if (names_.options().hlsl_version >= 2021) arms(first, second, location);
+}
+
 void Coverage::loop(ir::Stmt& node, SourceLocation location) {
   if (!has_arms(location) || !node.value || evaluate(node.value)) return;
   at(location);

@@ -23,6 +23,9 @@ class Coverage : LowerPart {
 
   // The arms of an if, before they are lowered.
   void arms(ir::Block& then, ir::Block& orelse, SourceLocation location);
+  // The sides of ?:, and of && and || the right side and that it is skipped. Both sides of them run
+  // before HLSL 2021.
+  void sides(ir::Block& first, ir::Block& second, SourceLocation location);
   // Whether a loop takes another turn, after it is lowered.
   void loop(ir::Stmt& node, SourceLocation location);
   // The section of a switch that is lowered next, and what stands for a default that is not there.

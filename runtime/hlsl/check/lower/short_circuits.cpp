@@ -54,6 +54,8 @@ Value ShortCircuits::lower_logical(const BinaryExpr* expr) {
   if (!a || !b) return error_value();
   at(expr->location);
   const Type* boolean = types_.boolean();
+  ir::Block skipped;
+  if (!evaluate(a)) lower_.coverage.sides(right_block, skipped, expr->location);
   if (right_block.empty()) {
     if (a->kind == ir::ExprKind::kLiteral) {
       return rvalue((a->literal[0] != 0) == is_and ? b : a, boolean);
@@ -76,6 +78,7 @@ Value ShortCircuits::lower_logical(const BinaryExpr* expr) {
   body_.assign(result, b);
   body_.block = outer;
   branch->body = std::move(right_block);
+  branch->orelse = std::move(skipped);
   body_.emit(branch);
   return rvalue(build_.read(result), boolean);
 }
@@ -190,6 +193,7 @@ Value ShortCircuits::lower_conditional(const ConditionalExpr* expr) {
   if (!condition.type || !condition.type->is_numeric() || condition.type->is_scalar()) {
     const ir::Expr* chosen = lower_.conversions.as_condition(condition, expr->condition->location);
     if (!chosen) return error_value();
+    if (!evaluate(chosen)) lower_.coverage.sides(blocks[0], blocks[1], expr->location);
     const auto is_element = [](const Value& value) {
       return value.kind == ValueKind::kHeap && value.offset;
     };
