@@ -13,18 +13,24 @@ CoverageWords::~CoverageWords() {
   coverage::remove_reader(*this);
 }
 
-uint64_t CoverageWords::address_of(const shader::LibraryDesc& library) {
+rtapi::Status CoverageWords::provide(const shader::LibraryDesc& library) {
   // Before the lock: whoever reads has both locks in the other order.
   const shader::CoverageDesc* table = coverage::table_of(library);
-  if (table == nullptr) return 0;
+  if (table == nullptr) return {};
   const std::lock_guard lock(mutex_);
   std::unique_ptr<GpuBuffer>& buffer = buffers_[table];
-  if (buffer == nullptr) {
-    auto made = gpu_.create_buffer(table->point_count * sizeof(uint32_t), "coverage of a library");
-    if (!made) return 0;
-    buffer = std::move(*made);
-  }
-  return buffer->address();
+  if (buffer != nullptr) return {};
+  auto made = gpu_.create_buffer(table->point_count * sizeof(uint32_t), "coverage of a library");
+  if (!made) return made.error();
+  buffer = std::move(*made);
+  return {};
+}
+
+uint64_t CoverageWords::address_of(const shader::LibraryDesc& library) {
+  const shader::CoverageDesc* table = coverage::table_of(library);
+  const std::lock_guard lock(mutex_);
+  const auto at = buffers_.find(table);
+  return at == buffers_.end() || at->second == nullptr ? 0 : at->second->address();
 }
 
 void CoverageWords::read(const shader::CoverageDesc& table, bool is_last) {
