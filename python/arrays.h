@@ -14,14 +14,12 @@ namespace kaamos::python {
 
 namespace py = pybind11;
 
-// A buffer, and the array that it was made from: what numpy() gives without arguments. On the
-// upload heap it is the memory of an array, too, and shaders only read it.
+// A buffer, and the array that it was made from: what numpy() gives without arguments. On a custom
+// heap it is the memory of an array, too.
 struct ArrayBuffer {
   rtapi::Buffer buffer;
   py::dtype type;
   std::vector<py::ssize_t> shape;
-
-  bool is_mapped() const { return buffer.GetDesc().Heap == rtapi::HeapType::kUpload; }
 };
 
 // A 2-D texture of one mip, whose texels are those of an array of shape (height, width) or (height,
@@ -37,7 +35,7 @@ py::array contiguous(const py::object& object);
 std::span<const std::byte> bytes_of(const py::array& array);
 py::array array_of(const std::vector<std::byte>& bytes, const py::dtype& type,
                    std::vector<py::ssize_t> shape);
-// The mapped bytes of a buffer on the upload or readback heap, without a copy. The array keeps the
+// The mapped bytes of a buffer, without a copy. The array keeps the
 // buffer.
 py::array mapped_array(const rtapi::Buffer& buffer, const py::dtype& type,
                        std::vector<py::ssize_t> shape);

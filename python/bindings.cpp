@@ -126,11 +126,6 @@ rtapi::Format element_format(const ArrayBuffer& array) {
 const ArrayBuffer& buffer_of(const ShaderBindingInfo& binding, const Bound& bound) {
   const auto* array = std::get_if<ArrayBuffer>(&bound);
   if (array == nullptr) wrong_kind(binding, bound, "a buffer");
-  if (binding.IsWritable && array->is_mapped()) {
-    throw py::type_error("'" + binding.Name +
-                         "' is a mapped buffer, which shaders only read; give a Buffer of "
-                         "Device.buffer");
-  }
   return *array;
 }
 

@@ -44,8 +44,16 @@ ArrayBuffer make_buffer(Session& session, const py::object& object) {
 ArrayBuffer make_mapped_buffer(Session& session, const py::object& object) {
   const py::array array = contiguous(object);
   if (array.nbytes() == 0) throw py::value_error("the array is empty");
-  return {rtapi::CreateUploadBuffer(session.device(), bytes_of(array), "mapped buffer").value(),
-          array.dtype(), shape_of(array)};
+  const std::span<const std::byte> bytes = bytes_of(array);
+  const rtapi::Buffer buffer =
+      session.device()
+          .CreateBuffer({.SizeInBytes = bytes.size(),
+                         .Heap = rtapi::HeapType::kCustom,
+                         .Flags = rtapi::ResourceFlags::kAllowUnorderedAccess,
+                         .Name = "mapped buffer"})
+          .value();
+  std::copy(bytes.begin(), bytes.end(), buffer.Map().value().begin());
+  return {buffer, array.dtype(), shape_of(array)};
 }
 
 // What the device copied is the array's memory.

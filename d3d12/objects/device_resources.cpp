@@ -21,7 +21,7 @@ bool fits_its_type(const D3D12_HEAP_PROPERTIES& heap) {
           heap.CPUPageProperty == D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE);
 }
 
-// Returns which of rtapi's three heap types has these properties. A custom heap is told by its page
+// Returns which of rtapi's heap types has these properties. A custom heap is told by its page
 // property. [D3D12: D3D12_HEAP_PROPERTIES]
 rtapi::Result<rtapi::HeapType> heap_type(const D3D12_HEAP_PROPERTIES& heap) {
   if (!fits_its_type(heap)) {
@@ -44,9 +44,8 @@ rtapi::Result<rtapi::HeapType> heap_type(const D3D12_HEAP_PROPERTIES& heap) {
         case D3D12_CPU_PAGE_PROPERTY_NOT_AVAILABLE:
           return rtapi::HeapType::kDefault;
         case D3D12_CPU_PAGE_PROPERTY_WRITE_COMBINE:
-          return rtapi::HeapType::kUpload;
         case D3D12_CPU_PAGE_PROPERTY_WRITE_BACK:
-          return rtapi::HeapType::kReadback;
+          return rtapi::HeapType::kCustom;
         default:
           break;
       }

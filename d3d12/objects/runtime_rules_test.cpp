@@ -140,6 +140,28 @@ TEST_P(RuntimeRules, UnknownModesOfImmediateValuesFailTheList) {
   EXPECT_EQ(list_->Close(), E_INVALIDARG);
 }
 
+TEST_P(RuntimeRules, BuffersOfCustomHeapsAreMappedAndWritten) {
+  for (const auto page :
+       {D3D12_CPU_PAGE_PROPERTY_WRITE_BACK, D3D12_CPU_PAGE_PROPERTY_WRITE_COMBINE}) {
+    const D3D12_HEAP_PROPERTIES heap = {D3D12_HEAP_TYPE_CUSTOM, page, D3D12_MEMORY_POOL_L0, 0, 0};
+    D3D12_RESOURCE_DESC desc = CD3DX12_RESOURCE_DESC::Buffer(16);
+    desc.Flags = D3D12_RESOURCE_FLAG_ALLOW_UNORDERED_ACCESS;
+    ComPtr<ID3D12Resource> words;
+    ASSERT_EQ(device_->CreateCommittedResource(&heap, D3D12_HEAP_FLAG_NONE, &desc,
+                                               D3D12_RESOURCE_STATE_COMMON, nullptr,
+                                               IID_PPV_ARGS(words.GetAddressOf())),
+              S_OK);
+    ComPtr<ID3D12GraphicsCommandList2> list2;
+    ASSERT_EQ(list_.As(&list2), S_OK);
+    const D3D12_WRITEBUFFERIMMEDIATE_PARAMETER value = {words->GetGPUVirtualAddress() + 4, 5};
+    list2->WriteBufferImmediate(1, &value, nullptr);
+    EXPECT_EQ(read(words.Get(), 2), (std::vector<uint32_t>{0, 5}));
+    void* mapped = nullptr;
+    ASSERT_EQ(words->Map(0, nullptr, &mapped), S_OK);
+    EXPECT_EQ(static_cast<const uint32_t*>(mapped)[1], 5u);
+  }
+}
+
 TEST_P(RuntimeRules, TexelsOfCustomHeapsAreReadAndWritten) {
   D3D12_HEAP_PROPERTIES heap = {D3D12_HEAP_TYPE_CUSTOM, D3D12_CPU_PAGE_PROPERTY_WRITE_BACK,
                                 D3D12_MEMORY_POOL_L0, 0, 0};

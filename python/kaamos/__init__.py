@@ -52,8 +52,8 @@ class Buffer:
 
 
 class MappedBuffer(Buffer):
-    """A buffer whose memory is that of `array`: what is written there, the next dispatch reads, and
-    nothing is copied. Shaders only read it."""
+    """A buffer whose memory is that of `array`: what is written there, the next dispatch reads, what shaders
+    write stands there after the dispatch, and nothing is copied."""
 
     @property
     def array(self):

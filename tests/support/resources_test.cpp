@@ -21,6 +21,28 @@ TEST_P(Resources, CreateBuffer) {
   EXPECT_NE(made->GetGPUVirtualAddress(), 0u);
 }
 
+TEST_P(Resources, CreateBuffer_custom_heap) {
+  const auto made = device_.CreateBuffer({.SizeInBytes = 4 * kCount,
+                                          .Heap = HeapType::kCustom,
+                                          .Flags = ResourceFlags::kAllowUnorderedAccess,
+                                          .InitialState = ResourceStates::kUnorderedAccess});
+  KAAMOS_SUPPORTED(made);
+  out_ = *made;
+  const std::span<std::byte> memory = made->Map().value();
+  std::fill(memory.begin(), memory.end(), std::byte{1});
+  compute("FromRootConstants");
+  uint32_t words[kCount];
+  std::memcpy(words, memory.data(), sizeof words);
+  for (uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(words[i], i * constants_[0] + constants_[1]);
+  CommandList list = device_.CreateCommandList().value();
+  list.ResourceBarrier(ResourceBarrier::Transition(*made, ResourceStates::kUnorderedAccess,
+                                                   ResourceStates::kCopyDest));
+  list.CopyBufferRegion(*made, 0, upload(numbers(40)), 0, 4 * kCount);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  std::memcpy(words, memory.data(), sizeof words);
+  EXPECT_EQ(words[kCount - 1], 47u);
+}
+
 TEST_P(Resources, CreateTexture) {
   TextureDesc desc;
   desc.Width = desc.Height = 16;

@@ -24,9 +24,12 @@ struct TextureImpl;
 /// The kind of memory that a buffer lies in, and so who can read and write it.
 /// [D3D12: D3D12_HEAP_TYPE]
 enum class HeapType : uint32_t {
-  kDefault = 1,  ///< for shaders and commands; the host cannot map it
-  kUpload = 2,   ///< the host writes, shaders and copies read
-  kReadback = 3  ///< copies write, the host reads
+  kDefault = 1,   ///< for shaders and commands; the host cannot map it
+  kUpload = 2,    ///< the host writes, shaders and copies read
+  kReadback = 3,  ///< copies write, the host reads
+  /// For everything, and mapped: a custom heap of pages that the processor caches, in its own
+  /// memory. What the host writes between two lists shaders see, and the other way round.
+  kCustom = 4
 };
 
 /// The kind of resource. [D3D12: D3D12_RESOURCE_DIMENSION]
@@ -81,10 +84,10 @@ inline constexpr bool kIsFlags<ResourceStates> = true;
 struct BufferDesc {
   uint64_t SizeInBytes = 0;                    ///< 1 to 2^40; the memory starts at zero
   HeapType Heap = HeapType::kDefault;          ///< who can reach it
-  ResourceFlags Flags = ResourceFlags::kNone;  ///< unordered access: default heap only
+  ResourceFlags Flags = ResourceFlags::kNone;  ///< unordered access: default and custom heaps
   /// The state before the first barrier. Upload heaps are always in kGenericRead, readback heaps
   /// always in kCopyDest; kCommon stands for either. A buffer for acceleration structures needs
-  /// kRaytracingAccelerationStructure, the default heap and kAllowUnorderedAccess.
+  /// kRaytracingAccelerationStructure, the default heap or a custom one, and kAllowUnorderedAccess.
   ResourceStates InitialState = ResourceStates::kCommon;
   std::string Name = {};  ///< for messages
 };
@@ -131,9 +134,10 @@ class Buffer {
   /// empty handle.
   void SetName(std::string name);
 
-  /// The memory of an upload or readback buffer, size() bytes. It is mapped from its creation on
-  /// and stays so: the span is valid as long as the buffer lives. Reads see what completed commands
-  /// wrote; commands see what was written before they execute. [D3D12: ID3D12Resource::Map]
+  /// The memory of a buffer that is not on the default heap, size() bytes. It is mapped from its
+  /// creation on and stays so: the span is valid as long as the buffer lives. Reads see what
+  /// completed commands wrote; commands see what was written before they execute. [D3D12:
+  /// ID3D12Resource::Map]
   /// @errors KA0904 empty handle; KA0911 default heap.
   Result<std::span<std::byte>> Map() const;
   /// Does nothing: mapped memory stays mapped. [D3D12: ID3D12Resource::Unmap]

@@ -203,6 +203,7 @@ Access allowed_of(const BufferDesc& desc) {
     case HeapType::kReadback:
       return Access::kCopyDest | Access::kResolveDest;
     case HeapType::kDefault:
+    case HeapType::kCustom:
       break;
   }
   const auto all = static_cast<Access>(kAccessBits);

@@ -140,9 +140,9 @@ Result<Heap> CreateHeap(const Device& device, const HeapDesc& desc) {
     return make_error(Id::kPlacement, name, " has ", desc.SizeInBytes,
                       " bytes; it must have 1 to 2^40");
   }
-  if (desc.Type < HeapType::kDefault || desc.Type > HeapType::kReadback) {
+  if (desc.Type < HeapType::kDefault || desc.Type > HeapType::kCustom) {
     return make_error(Id::kPlacement, name, " has type ", static_cast<uint32_t>(desc.Type),
-                      "; it must be kDefault, kUpload or kReadback");
+                      "; it must be kDefault, kUpload, kReadback or kCustom");
   }
   auto memory = runtime::HeapMemory::create(desc.SizeInBytes);
   if (!memory) {

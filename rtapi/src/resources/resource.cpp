@@ -21,21 +21,19 @@ Status check_buffer(const DeviceImpl& device, const BufferDesc& desc) {
     return make_error(Id::kBufferSize, name, " has ", desc.SizeInBytes,
                       " bytes; it must have 1 to 2^40");
   }
-  const bool known_heap = desc.Heap == HeapType::kDefault || desc.Heap == HeapType::kUpload ||
-                          desc.Heap == HeapType::kReadback;
-  if (!known_heap) {
+  if (desc.Heap < HeapType::kDefault || desc.Heap > HeapType::kCustom) {
     return make_error(Id::kBufferHeap, name, " has heap type ", static_cast<uint32_t>(desc.Heap),
-                      "; it must be kDefault, kUpload or kReadback");
+                      "; it must be kDefault, kUpload, kReadback or kCustom");
   }
   const bool unordered = HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess);
   if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
     return make_error(Id::kBufferHeap, name, " has undefined flags ",
                       hex(static_cast<uint32_t>(desc.Flags)));
   }
-  const bool on_default = desc.Heap == HeapType::kDefault;
-  if (unordered && !on_default) {
+  const bool is_free = has_free_state(desc.Heap);
+  if (unordered && !is_free) {
     return make_error(Id::kBufferHeap, name,
-                      " has kAllowUnorderedAccess, which needs the default heap");
+                      " has kAllowUnorderedAccess, which needs the default heap or a custom one");
   }
   if (desc.InitialState == ResourceStates::kRaytracingAccelerationStructure) {
     if (Status s = check_has_raytracing(device, name + ", which starts in state "
@@ -43,15 +41,15 @@ Status check_buffer(const DeviceImpl& device, const BufferDesc& desc) {
         !s.ok()) {
       return s;
     }
-    if (!on_default || !unordered) {
+    if (!is_free || !unordered) {
       return make_error(Id::kAccelerationStructureBuffer, name,
                         " starts in state kRaytracingAccelerationStructure, which needs ",
-                        on_default ? "the flag kAllowUnorderedAccess" : "the default heap");
+                        is_free ? "the flag kAllowUnorderedAccess" : "the default heap");
     }
   } else if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
     return make_error(Id::kAccelerationStructureBuffer, name,
                       " combines kRaytracingAccelerationStructure with another state");
-  } else if (!on_default && desc.InitialState != ResourceStates::kCommon) {
+  } else if (!is_free && desc.InitialState != ResourceStates::kCommon) {
     const ResourceStates fixed =
         desc.Heap == HeapType::kUpload ? ResourceStates::kGenericRead : ResourceStates::kCopyDest;
     if (desc.InitialState != fixed) {

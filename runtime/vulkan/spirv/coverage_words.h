@@ -20,7 +20,8 @@ class CoverageWords final : public coverage::Reader {
   CoverageWords(const CoverageWords&) = delete;
   CoverageWords& operator=(const CoverageWords&) = delete;
 
-  // Makes a library's words, which live as long as the library. KA0990: there is no memory for them.
+  // Makes a library's words, which live as long as the library. KA0990: there is no memory for
+  // them.
   rtapi::Status provide(const shader::LibraryDesc& library);
   // The address of words that were made; 0: the library has no points.
   uint64_t address_of(const shader::LibraryDesc& library);

@@ -143,8 +143,7 @@ rtapi::Status StageList::check_code(const runtime::LinkedShader& shader) const {
                                    ", but the device has no VK_KHR_ray_query; use another device "
                                    "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
   }
-  return gpu_.coverage() == nullptr ? rtapi::Status()
-                                    : gpu_.coverage()->provide(*shader.library);
+  return gpu_.coverage() == nullptr ? rtapi::Status() : gpu_.coverage()->provide(*shader.library);
 }
 
 size_t StageList::keep(std::span<const uint32_t> words, std::string name) {
