@@ -35,9 +35,9 @@ struct Ray {
   uint32_t miss = 0;
   uint32_t extra[3] = {};  // arguments for a test's own shaders
 };
-enum End : uint32_t { kNothingRan, kClosestHitRan, kMissRan };
+enum RayEnd : uint32_t { kNothingRan, kClosestHitRan, kMissRan };
 struct Seen {
-  uint32_t end;  // End
+  uint32_t end;  // RayEnd
   uint32_t record;
   uint32_t any_hits;
   uint32_t any_record;

@@ -68,7 +68,7 @@ TEST_P(FirstUse, GivesTheBitsOfTheBuild) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, FirstUse, ::testing::Values("embree", "vulkan"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& tested) { return tested.param; });
 
 TEST(FirstUseOnce, ThreadsThatLoadTheSameLibraryGetOne) {
   std::vector<ShaderLibrary> loaded(4);

@@ -280,6 +280,7 @@ inline constexpr ErrorId kMapDefaultHeap{911};  ///< default heap cannot be mapp
 inline constexpr ErrorId kDeviceDesc{914};  ///< invalid device description
 inline constexpr ErrorId kTableDescription{915};  ///< shader tables cannot be described
 inline constexpr ErrorId kExplain{916};  ///< cannot explain the pixel
+inline constexpr ErrorId kRemovedByCall{917};  ///< the device was removed
 }  // namespace api
 
 /// Section "Backends" of rtapi/ERRORS.md.

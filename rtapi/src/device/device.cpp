@@ -212,8 +212,8 @@ const DeviceDesc& Device::GetDesc() const {
 }
 
 Status Device::RemoveDevice() const {
-  if (!impl_) return make_error(Id::kNullHandle, "RemoveDevice on an empty device handle");
-  impl_->Remove(make_error(Id::kRemovedByCall, "by a call of RemoveDevice"));
+  if (!impl_) return detail::make_error(detail::Id::kNullHandle, "the device is an empty handle");
+  impl_->Remove(detail::make_error(detail::Id::kRemovedByCall, "by a call of RemoveDevice"));
   return {};
 }
 

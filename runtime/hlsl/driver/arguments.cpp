@@ -205,10 +205,18 @@ Result<Arguments> parse_arguments(const std::vector<std::string>& words) {
   if (out.emit == Emit::kObject && out.output.empty() && !out.check_only) {
     return Failure{"-emit object needs a file name: give it with -Fo"};
   }
-  if (out.emit == Emit::kSource && (out.no_source || out.check_access || out.debug)) {
-    const char* other = out.no_source ? "-no-source" : out.check_access ? "-check-access" : "-Zi";
-    return Failure{std::string("-emit source writes no code, and does not go with ") + other +
-                   ": leave one of them out"};
+  if (out.emit == Emit::kSource) {
+    const std::pair<bool, const char*> of_code[] = {{out.no_source, "-no-source"},
+                                                    {out.check_access, "-check-access"},
+                                                    {out.debug, "-Zi"},
+                                                    {out.no_wide, "-no-wide"},
+                                                    {out.spirv_wanted == true, "-spirv"},
+                                                    {out.spirv_wanted == false, "-no-spirv"}};
+    for (const auto& [given, name] : of_code) {
+      if (!given) continue;
+      return Failure{std::string("-emit source writes no code, and does not go with ") + name +
+                     ": leave one of them out"};
+    }
   }
   if (!out.dependency_file.empty() && out.output.empty()) {
     return Failure{"-MF needs the name of the output: give it with -Fo"};

@@ -209,7 +209,8 @@ TEST_F(Driver, EmitsTheSourceAlone) {
   EXPECT_THAT(source.out, AllOf(HasSubstr("kLibrarySource"), HasSubstr("my_table"),
                                 HasSubstr("helper(2)"), HasSubstr("#define NUMBER 7")));
   EXPECT_THAT(source.out, Not(HasSubstr("prelude.h")));
-  for (const std::string other : {"-no-source", "-check-access", "-Zi"}) {
+  for (const std::string other :
+       {"-no-source", "-check-access", "-Zi", "-no-wide", "-spirv", "-no-spirv"}) {
     const Outcome refused = run("-emit source " + other + " main.hlsl");
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.error, HasSubstr("does not go with " + other));
