@@ -33,6 +33,9 @@ class HeapMemory {
  public:
   // Zeros, which cost nothing until they are touched; null if out of memory.
   static std::shared_ptr<HeapMemory> create(uint64_t size_bytes);
+  ~HeapMemory();
+  HeapMemory(const HeapMemory&) = delete;
+  HeapMemory& operator=(const HeapMemory&) = delete;
 
   uint64_t size_bytes() const { return size_bytes_; }
   // Bytes [offset, offset + size) in whole pages; the offset is a multiple of 4 KiB. Nothing if out
@@ -40,11 +43,12 @@ class HeapMemory {
   MappedPages map(uint64_t offset_bytes, uint64_t size_bytes) const;
 
  private:
-  HeapMemory(MappedPages all, uint64_t size_bytes)
-      : all_(std::move(all)), size_bytes_(size_bytes) {}
+  HeapMemory(MappedPages all, uint64_t size_bytes, int file)
+      : all_(std::move(all)), size_bytes_(size_bytes), file_(file) {}
 
   MappedPages all_;
   uint64_t size_bytes_;
+  int file_;  // whose pages they are, where the system cannot map pages a second time; else -1
 };
 
 // Where a resource lies; the bytes are inside of the heap.

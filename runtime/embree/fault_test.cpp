@@ -55,6 +55,9 @@ TEST(Fault, TheProcessGoesOnAfterMany) {
 
 TEST(Fault, AnIntegerDivisionByZeroRemovesTheDevice) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer reports the division itself";
+#if defined(__aarch64__)
+  GTEST_SKIP() << "the quotient is 0 on ARM64, and nothing faults";
+#endif
   Harness h;
   const auto status = run(h, [](shader::Invocation& invocation) {
     volatile int32_t zero = static_cast<int32_t>(invocation.index[1]);
