@@ -64,7 +64,12 @@ if(KAAMOS_SANITIZE)
 endif()
 find_program(KAAMOS_MOLD mold)
 if(KAAMOS_MOLD AND NOT KAAMOS_SANITIZE)
-  kaamos_add_build_flags(LINK -fuse-ld=mold)
+  if(NOT CMAKE_CROSSCOMPILING)
+    kaamos_add_build_flags(LINK -fuse-ld=mold)
+  elseif(EXISTS "/usr/libexec/mold/ld")
+    # g++ for another processor looks for a mold with that processor's name, but takes any ld of -B.
+    kaamos_add_build_flags(LINK -B/usr/libexec/mold)
+  endif()
 endif()
 find_program(KAAMOS_CCACHE ccache)
 if(KAAMOS_CCACHE)
@@ -82,6 +87,16 @@ endfunction()
 # northlight alone takes five seconds.
 function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# What scripts/test --full=arm64 builds: the tests below these folders, and the programs that they start.
+set(KAAMOS_EMULATED_TESTS "^(runtime|rtapi|tests/(conformance|draws|errors|hlsl|observed|shaders))(/|$)")
+add_custom_target(emulated-tests)
+function(kaamos_test_when_emulated target)
+  file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  if(folder MATCHES "${KAAMOS_EMULATED_TESTS}")
+    add_dependencies(emulated-tests ${target})
+  endif()
 endfunction()
 
 # kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s]
@@ -113,10 +128,19 @@ function(kaamos_add_test name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
   target_compile_definitions(${name} PRIVATE
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  # CMake calls the program that starts a test its emulator.
-  set_target_properties(${name} PROPERTIES
-    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT};--share;${KAAMOS_TESTS_PER_PROCESS}")
+  # CMake calls the program that starts a test its emulator. A real one, of cross builds, has to start
+  # kaamos-isolate too, which starts the test under it.
+  set(isolate "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate" --limit ${arg_TIMEOUT}
+    --share ${KAAMOS_TESTS_PER_PROCESS})
+  if(CMAKE_CROSSCOMPILING)
+    list(PREPEND isolate ${CMAKE_CROSSCOMPILING_EMULATOR})
+    foreach(word IN LISTS CMAKE_CROSSCOMPILING_EMULATOR)
+      list(APPEND isolate --under ${word})
+    endforeach()
+  endif()
+  set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR "${isolate}")
   add_dependencies(${name} kaamos-isolate)
+  kaamos_test_when_emulated(${name})
   math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it before this
   include(GoogleTest)
   # DISCOVERY_MODE PRE_TEST keeps the build from running every test executable once. With sanitizers

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-isolate [--limit SECONDS] [--share TESTS] PROGRAM [ARGUMENTS]: ctest starts tests through
-// this program, one test in each process, or with --share several (shared_runs.h).
+// kaamos-isolate [--limit SECONDS] [--share TESTS] [--under WORD]... PROGRAM [ARGUMENTS]: ctest
+// starts tests through this program, one test in each process, or with --share several
+// (shared_runs.h). The words of --under stand before the program: an emulator, for tests that were
+// built for another processor.
 //
 // A test on Vulkan (with "vulkan" in its own name or its program's) that a signal ends, or that is
 // not done within the limit, is run once more, because some of the driver's faults come and go. A
@@ -21,6 +23,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "child_process.h"
 #include "shared_runs.h"
@@ -71,26 +74,33 @@ int main(int argc, char** argv) {
   int first = 1;
   double limit_seconds = 120;
   size_t share = 0;
+  std::vector<char*> command;
   for (; first + 1 < argc; first += 2) {
     if (std::strcmp(argv[first], "--limit") == 0) {
       limit_seconds = std::atof(argv[first + 1]);
     } else if (std::strcmp(argv[first], "--share") == 0) {
       share = std::strtoul(argv[first + 1], nullptr, 10);
+    } else if (std::strcmp(argv[first], "--under") == 0) {
+      command.push_back(argv[first + 1]);
     } else {
       break;
     }
   }
   if (first >= argc) {
-    std::fprintf(stderr,
-                 "usage: kaamos-isolate [--limit SECONDS] [--share TESTS] PROGRAM [ARGUMENTS]\n");
+    std::fprintf(
+        stderr,
+        "usage: kaamos-isolate [--limit SECONDS] [--share TESTS] [--under WORD]... PROGRAM "
+        "[ARGUMENTS]\n");
     return 2;
   }
+  command.insert(command.end(), argv + first, argv + argc);
+  command.push_back(nullptr);
   std::string name = file_name(argv[first]);
   bool on_vulkan = lower(name).find("vulkan") != std::string::npos;
   for (int i = first + 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--gtest_list_tests") == 0) {
-      execvp(argv[first], argv + first);
-      std::perror(argv[first]);
+      execvp(command[0], command.data());
+      std::perror(command[0]);
       return 127;
     }
     if (std::strncmp(argv[i], "--gtest_filter=", 15) == 0) name = argv[i] + 15;
@@ -103,7 +113,8 @@ int main(int argc, char** argv) {
 
   const char* folder = std::getenv("KAAMOS_SHARED_RUNS");
   if (share > 1 && folder != nullptr) {
-    SharedRuns runs(folder, {argv + first, argv + argc}, share, limit_seconds);
+    SharedRuns runs(std::string(folder) + "/" + file_name(argv[first]),
+                    {command.begin(), command.end() - 1}, share, limit_seconds);
     const auto result = runs.result_of(name);
     for (const std::string& crash : runs.crashes()) {
       if (on_vulkan) log_run("repeated\t" + name + "\t" + crash + "\n");
@@ -115,7 +126,7 @@ int main(int argc, char** argv) {
     }
   }
 
-  int status = run(argv + first, limit_seconds);
+  int status = run(command.data(), limit_seconds);
   if (on_vulkan) {
     std::string lines = "ran\t" + name + "\n";
     if (crashed(status)) {
@@ -123,7 +134,7 @@ int main(int argc, char** argv) {
       std::printf("\nkaamos-isolate: %s %s; it is run once more\n", name.c_str(), why.c_str());
       std::fflush(stdout);
       lines += "repeated\t" + name + "\t" + why + "\n";
-      status = run(argv + first, limit_seconds);
+      status = run(command.data(), limit_seconds);
     }
     log_run(lines);
   }

@@ -49,6 +49,9 @@ export KAAMOS_TEST_COSTS="$work/costs.txt"
 check cost_is_noted 0 1 '' -- "$work/good" --gtest_filter=Shapes.Embree/0
 unset KAAMOS_TEST_COSTS
 grep -qE $'^0[.][0-9]+\tgood\tShapes.Embree/0$' "$work/costs.txt" || { echo "FAILED cost: $(cat "$work/costs.txt")"; failures=$((failures + 1)); }
+program greeting 'echo "greeting: $GREETING"'
+check words_before_the_program 0 1 '' -- --under env --under GREETING=hello "$work/greeting" --gtest_filter=Shapes.Embree/0
+grep -q 'greeting: hello' "$work/output" || { echo "FAILED under: $(cat "$work/output")"; failures=$((failures + 1)); }
 check missing_program 127 0 '' -- "$work/absent"
 
 # Programs that speak like GoogleTest: four tests, of which b fails and d is skipped.

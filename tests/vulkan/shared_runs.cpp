@@ -131,7 +131,7 @@ std::vector<TestResult> split_output(const std::string& output,
 
 SharedRuns::SharedRuns(const std::string& folder, std::vector<char*> command, size_t share,
                        double limit_seconds)
-    : folder_(folder + "/" + fs::path(command[0]).filename().string()),
+    : folder_(folder),
       command_(std::move(command)),
       share_(share),
       limit_seconds_(limit_seconds),

@@ -32,6 +32,7 @@ std::vector<std::string> parse_test_list(const std::string& listed);
 
 class SharedRuns {
  public:
+  // `folder` is that of this program's groups.
   SharedRuns(const std::string& folder, std::vector<char*> command, size_t share,
              double limit_seconds);
 
