@@ -6,6 +6,7 @@ package_list="$root/scripts/packages.txt"
 # list_packages PURPOSE...: lines "package<TAB>role".
 list_packages() {
   local package purpose role
+  if [[ " $* " == *' build '* && $(uname -m) == aarch64 ]]; then set -- "$@" on-arm64; fi
   while read -r package purpose role; do
     [[ $package != '#'* && " $* " == *" $purpose "* && -n $purpose ]] || continue
     printf '%s\t%s\n' "$package" "$role"

@@ -38,8 +38,8 @@ make_machine() {
   mkdir -p "$checkout" "$bin" "$state"
   cp -r "$source_root/scripts" "$source_root/.ci" "$checkout/"
   local tool tools=()
-  for tool in awk bash cp cut date df dirname env flock grep head mkdir mktemp nproc paste rm sed \
-    sort tail touch tr uname wc; do
+  for tool in awk bash cp cut date df dirname env find flock grep head ln mkdir mktemp mv nproc paste readlink rm sed \
+    sort tail touch tr uname wc xargs; do
     tools+=("$(type -P "$tool")")
   done
   ln -s "${tools[@]}" "$bin/"
@@ -110,7 +110,8 @@ case \$1 in -un) echo $1;; *) echo $2;; esac"
 
 # system NAME CODENAME: what os-release says.
 system() {
-  printf 'PRETTY_NAME="%s"\nVERSION_CODENAME=%s\n' "$1" "$2" >"$state/os-release"
+  local id=${1%% *}
+  printf 'PRETTY_NAME="%s"\nVERSION_CODENAME=%s\nID=%s\n' "$1" "$2" "${id,,}" >"$state/os-release"
   fake cat <<<"#!/bin/sh
 if [ \"\$*\" = /etc/os-release ]; then exec $real_cat \"\${0%/*}/../state/os-release\"; fi
 exec $real_cat \"\$@\""
@@ -221,7 +222,7 @@ everything_installed_asks_for_no_root() {
   run_test
   expect_status 0
   expect_no_call apt-get
-  expect "All $(grep -vcE '^(clang-tidy|lintian|debootstrap)$' "$state/packages") needed packages are installed."
+  expect "All $(grep -vcE '^(clang-tidy|lintian|debootstrap|g\+\+-aarch64-linux-gnu|qemu-user-static|libsimde-dev)( .*)?$' "$state/packages") needed packages are installed."
 }
 
 missing_packages_are_named_and_installed() {
@@ -628,9 +629,10 @@ label_is_passed_to_ctest() {
 }
 
 full_run_adds_every_part() {
+  arm64_tools
   run_test --full
   expect_status 0
-  expect_last_line '14 passed, 0 failed, 0 skipped'
+  expect_last_line '16 passed, 0 failed, 0 skipped'
   expect_call 'ctest .*build/release .*-LE \^full\$'
   expect_call 'ctest .*build/release .*-L \^long\$'
   expect_call 'cmake --build --preset asan'
@@ -705,6 +707,82 @@ packages_part_installs_lintian_and_runs_its_tests_alone() {
   expect_no_call 'build/(asan|tsan)'
 }
 
+# What the part arm64 needs. apt-get brings one package, of which dpkg-deb unpacks what has to be corrected.
+arm64_tools() {
+  fake aarch64-linux-gnu-g++ <<<'#!/bin/sh'
+  fake qemu-aarch64-static <<<'#!/bin/sh'
+  fake apt-get <<'END'
+#!/bin/sh
+echo "apt-get $*" >>"${0%/*}/../state/calls"
+case " $* " in *' install --download-only '*) touch "${APT_CONFIG%/*}/archives/libm_arm64.deb";; esac
+END
+  fake dpkg-deb <<'END'
+#!/bin/sh
+echo "dpkg-deb $*" >>"${0%/*}/../state/calls"
+lib="$3/usr/lib/aarch64-linux-gnu"
+mkdir -p "$lib/cmake" "$3/lib/aarch64-linux-gnu" "$3/tmp"
+touch "$3/lib/aarch64-linux-gnu/libm.so.6"
+ln -s /lib/aarch64-linux-gnu/libm.so.6 "$lib/libm.so"
+echo 'set(_IMPORT_PREFIX "/usr") "/usr/lib/aarch64-linux-gnu/libm.so"' >"$lib/cmake/m.cmake"
+END
+}
+
+arm64_part_unpacks_packages_and_runs_its_tests_alone() {
+  arm64_tools
+  sed -i '/^g++-aarch64-linux-gnu$/d' "$state/packages"
+  run_test --full=arm64
+  expect_status 1  # the fake apt-get installs nothing
+  expect 'these packages are still missing'
+  echo g++-aarch64-linux-gnu >>"$state/packages"
+  run_test --full=arm64
+  expect_status 0
+  expect_call 'apt-get .*install --download-only .*libembree-dev.*libsimde-dev$'
+  expect_no_call 'install --download-only .*(pybind11-dev| cmake| g[+][+])'
+  expect_call 'cmake .*--preset arm64'
+  expect_call 'cmake --build --preset arm64 .*--target emulated-tests$'
+  expect_call 'ctest .*build/arm64 .*-L \^\(unit\|hlsl\|conformance\)\$'
+  expect_no_call 'preset release'
+  : >"$state/calls"
+  run_test --full=arm64  # the folder is there
+  expect_status 0
+  expect_no_call download
+}
+
+arm64_packages_refer_to_their_own_folder() {
+  arm64_tools
+  command_ "$checkout/scripts/arm64-sysroot" "$work/arm64_packages_refer_to_their_own_folder/sysroot"
+  expect_status 0
+  local folder="$work/arm64_packages_refer_to_their_own_folder/sysroot"
+  output=$(readlink "$folder/usr/lib/aarch64-linux-gnu/libm.so")
+  expect '../../../lib/aarch64-linux-gnu/libm.so.6'
+  [[ -e $folder/usr/lib/aarch64-linux-gnu/libm.so ]] || fail 'the link leads nowhere'
+  [[ ! -e $folder/tmp ]] || fail 'qemu would look for files of /tmp there'
+  output=$(<"$folder/usr/lib/aarch64-linux-gnu/cmake/m.cmake")
+  expect 'set(_IMPORT_PREFIX "${CMAKE_SYSROOT}/usr") "${CMAKE_SYSROOT}/usr/lib/aarch64-linux-gnu/libm.so"'
+  command_ "$checkout/scripts/arm64-sysroot" --all
+  expect_status 1
+  expect 'scripts/arm64-sysroot: error: unknown option "--all".'
+}
+
+arm64_part_without_its_packages_is_skipped() {
+  arm64_tools
+  rm "$bin/qemu-aarch64-static"
+  run_test --full=long,arm64
+  expect_status 0
+  expect '  arm64: qemu-aarch64-static is not installed.'
+  expect_last_line '2 passed, 0 failed, 1 skipped'
+  fake qemu-aarch64-static <<<'#!/bin/sh'
+  fake dpkg-deb <<<'#!/bin/sh
+exit 2'
+  run_test --full=long,arm64
+  expect_status 0
+  expect "  arm64: Debian's packages for ARM64 could not be fetched"
+  system 'Ubuntu 22.04.5 LTS' jammy
+  run_test --full=long,arm64
+  expect '  arm64: the packages for ARM64 come from Debian 12 or newer, and this is Ubuntu 22.04.5 LTS.'
+  expect_no_call 'preset arm64'
+}
+
 package_options_are_named() {
   command_ "$checkout/scripts/package" --help
   expect_status 0
@@ -722,7 +800,7 @@ unknown_full_part_is_named() {
   run_test --full=long,fast
   expect_status 1
   expect 'scripts/test: error: --full has no part "fast".'
-  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), files, packages, fuzz.'
+  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), files, packages, arm64, fuzz.'
   run_test --full=
   expect_status 1
   expect '--full= needs a part, for example: scripts/test --full=long'
@@ -780,8 +858,8 @@ echo "northlight: error: out/demo: Permission denied" >&2; exit 3'
   expect 'northlight ended with status 3'
 }
 
-rules=$(sed -n 's/^\([a-z_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
-  grep -vxE 'fake|machine|make_machine|fresh_machine|called|user|system|mesa|installed_packages|results|command_|fail|northlight|vulkan_runs')
+rules=$(sed -n 's/^\([a-z0-9_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
+  grep -vxE 'fake|machine|make_machine|fresh_machine|called|user|system|mesa|installed_packages|results|command_|fail|northlight|vulkan_runs|arm64_tools')
 rm -rf "$work"
 mkdir -p "$work"
 : >"$work/.made-by-scripts-test"

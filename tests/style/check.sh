@@ -156,7 +156,7 @@ check_listed() {
     while IFS=: read -r file line text; do
       while read -r package kind pattern; do
         if [[ $text =~ $pattern ]]; then
-          if [[ $kind == needed ]] && ! grep -qE "^${package//+/[+]}(>=[0-9.]+)? " scripts/packages.txt; then
+          if [[ $kind == needed ]] && ! grep -qE "^${package//+/[+]}(>=[0-9.:]+)? " scripts/packages.txt; then
             echo "$file:$line: needs $package, which scripts/packages.txt does not list"
           fi
           continue 2
