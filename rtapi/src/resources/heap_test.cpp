@@ -36,8 +36,8 @@ class HeapTest : public ::testing::Test {
 TEST_F(HeapTest, SizeAndTypeAreChecked) {
   EXPECT_ERROR(CreateHeap(device_, {.SizeInBytes = 0, .Name = "h"}), "KA0576", "\"h\" has 0 bytes");
   EXPECT_ERROR(CreateHeap(device_, {.SizeInBytes = (uint64_t{1} << 40) + 1}), "KA0576", "2^40");
-  EXPECT_ERROR(CreateHeap(device_, {.SizeInBytes = 1, .Type = static_cast<HeapType>(4)}), "KA0576",
-               "type 4");
+  EXPECT_ERROR(CreateHeap(device_, {.SizeInBytes = 1, .Type = static_cast<HeapType>(5)}), "KA0576",
+               "type 5");
   EXPECT_ERROR(CreateHeap({}, {.SizeInBytes = 1}), "KA0904");
   EXPECT_ERROR(OpenHeap({}, heap_), "KA0904");
   EXPECT_ERROR(OpenHeap(device_, {}), "KA0904");

@@ -93,7 +93,8 @@ TEST_F(Driver, WrongCommandLines) {
       {"main.hlsl -T", "kaamos-hlsl: -T needs a value after it; -help lists the options\n"},
       {"-HV 2017 main.hlsl", "kaamos-hlsl: -HV 2017: the value must be 2018 or 2021\n"},
       {"-emit exe main.hlsl",
-       "kaamos-hlsl: -emit exe: the value must be cpp, ir, reflection, object, glsl or spirv\n"},
+       "kaamos-hlsl: -emit exe: the value must be cpp, source, ir, reflection, object, glsl or "
+       "spirv\n"},
       {"-default-linkage none main.hlsl",
        "kaamos-hlsl: -default-linkage none: the value must be external or internal\n"},
       {"-auto-binding-space 1x main.hlsl",

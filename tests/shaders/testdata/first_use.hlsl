@@ -3,6 +3,7 @@
 
 RWByteAddressBuffer results : register(u0);
 
+[shader("compute")]
 [numthreads(64, 1, 1)]
 void Angles(uint3 id : SV_DispatchThreadID) {
   results.Store(4 * id.x, asuint(angle_of(id.x)));
