@@ -22,8 +22,8 @@ bool is_on_main_thread() {
 // Work of a device, in a thread of its own, so that this one can listen to Ctrl-C meanwhile.
 class InterruptibleWork {
  public:
-  explicit InterruptibleWork(const std::function<void()>& work)
-      : thread_([this, &work] {
+  explicit InterruptibleWork(std::function<void()> work)
+      : thread_([this, work = std::move(work)] {
           try {
             work();
           } catch (...) {

@@ -288,10 +288,10 @@ class Package(unittest.TestCase):
     def test_ctrl_c_ends_a_dispatch(self):
         library = self.device.compile("""
             RWStructuredBuffer<uint> sums;
-            [numthreads(64, 1, 1)] void Main(uint i : SV_DispatchThreadID) {
+            [shader("compute")] [numthreads(64, 1, 1)] void Main(uint i : SV_DispatchThreadID) {
               uint sum = i;
               for (uint k = 0; k < 10000; ++k) sum = sum * 1664525 + 1013904223;
-              InterlockedAdd(sums[i % 64], sum); }""", target="cs_6_6", entry="Main")
+              InterlockedAdd(sums[i % 64], sum); }""")
         sums = self.device.buffer(np.zeros(64, np.uint32))
         threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,)).start()
         with self.assertRaises(KeyboardInterrupt):
@@ -303,8 +303,7 @@ class Package(unittest.TestCase):
     def test_other_threads_dispatch(self):
         library = self.device.compile("""
             RWStructuredBuffer<uint> out_;
-            [numthreads(1, 1, 1)] void Main(uint i : SV_DispatchThreadID) { out_[i] = i + 1; }""",
-            target="cs_6_6", entry="Main")
+            [shader("compute")] [numthreads(1, 1, 1)] void Main(uint i : SV_DispatchThreadID) { out_[i] = i + 1; }""")
         made = self.device.buffer(np.zeros(4, np.uint32))
         thread = threading.Thread(target=lambda: self.device.dispatch(library, "Main", (4, 1, 1), out_=made))
         thread.start()
