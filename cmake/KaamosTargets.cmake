@@ -89,6 +89,12 @@ function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
+# How many times as long a test may take: tests of cross builds run in an emulator.
+set(KAAMOS_TIME_FACTOR 1)
+if(CMAKE_CROSSCOMPILING)
+  set(KAAMOS_TIME_FACTOR 10)
+endif()
+
 # What scripts/test --full=arm64 builds: the tests below these folders, and the programs that they start.
 set(KAAMOS_EMULATED_TESTS "^(runtime|rtapi|tests/(conformance|draws|errors|hlsl|observed|shaders))(/|$)")
 add_custom_target(emulated-tests)
@@ -123,6 +129,7 @@ function(kaamos_add_test name)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
+  math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * ${KAAMOS_TIME_FACTOR}")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE kaamos_build_flags ${arg_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)

@@ -12,7 +12,11 @@ namespace kaamos::conformance {
 
 namespace {
 
+#if defined(KAAMOS_EMULATED)
+constexpr unsigned kLimitSeconds = 1200;
+#else
 constexpr unsigned kLimitSeconds = 120;
+#endif
 
 bool write_all(int to, const void* data, size_t bytes) {
   for (const char* at = static_cast<const char*>(data); bytes > 0;) {
