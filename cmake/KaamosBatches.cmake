@@ -152,9 +152,10 @@ function(kaamos_batch_target target)
 @text@
 ")
     target_sources(${target} PRIVATE "${file}")
-    # A local name may be that of a constant of another file.
+    # A local name may be that of a constant of another file, and the classes of a source file may have
+    # members whose types are in its unnamed namespace, of which g++ warns in headers.
     set_source_files_properties("${file}" TARGET_DIRECTORY ${target} PROPERTIES
-      COMPILE_OPTIONS "-Wno-shadow;$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>")
+      COMPILE_OPTIONS "-Wno-shadow;$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>;$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>")
   endforeach()
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
 endfunction()
