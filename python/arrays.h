@@ -35,8 +35,7 @@ py::array contiguous(const py::object& object);
 std::span<const std::byte> bytes_of(const py::array& array);
 py::array array_of(const std::vector<std::byte>& bytes, const py::dtype& type,
                    std::vector<py::ssize_t> shape);
-// The mapped bytes of a buffer, without a copy. The array keeps the
-// buffer.
+// The mapped bytes of a buffer, without a copy. The array keeps the buffer.
 py::array mapped_array(const rtapi::Buffer& buffer, const py::dtype& type,
                        std::vector<py::ssize_t> shape);
 

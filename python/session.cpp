@@ -19,7 +19,8 @@ bool is_on_main_thread() {
   return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
-// Work of a device, in a thread of its own, so that this one can listen to Ctrl-C meanwhile.
+// Work of a device, in a thread of its own, so that this one can listen to Ctrl-C meanwhile. Lives
+// until the work is done.
 class InterruptibleWork {
  public:
   explicit InterruptibleWork(std::function<void()> work)
@@ -112,8 +113,6 @@ void Session::execute(rtapi::CommandList& list, const BoundResources& bound) {
     if (PyErr_CheckSignals() == 0) continue;
     py::error_already_set interrupt;
     (void)device_.RemoveDevice();
-    while (!running.wait_for(std::chrono::milliseconds(50))) {
-    }
     throw interrupt;
   }
   running.rethrow();

@@ -20,6 +20,11 @@
 
 namespace kaamos::runtime {
 
+// Whether buffers on such a heap change their state, and shaders may write them.
+inline bool has_free_state(rtapi::HeapType heap) {
+  return heap == rtapi::HeapType::kDefault || heap == rtapi::HeapType::kCustom;
+}
+
 struct Allocation {
   uint64_t address = 0;
   uint64_t size_bytes = 0;

@@ -7,7 +7,7 @@
 
 namespace kaamos::runtime {
 
-// Of the addresses of buffers, in bytes, as in D3D12.
+// Addresses of buffers are multiples of it, in bytes, as in D3D12.
 inline constexpr uint64_t kBufferAlignment = 64 * 1024;
 
 inline constexpr uint64_t round_up(uint64_t bytes, uint64_t to) {

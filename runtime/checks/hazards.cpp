@@ -148,10 +148,7 @@ void Hazards::use_scratch(uint64_t address, uint64_t size_bytes) {
 
 void Hazards::use(uint64_t address, ResourceStates wanted, const std::string& what) {
   const auto allocation = addresses_.find(address);
-  const auto fixed = [](rtapi::HeapType heap) {
-    return heap == rtapi::HeapType::kUpload || heap == rtapi::HeapType::kReadback;
-  };
-  if (!allocation || fixed(allocation->heap)) return;
+  if (!allocation || !runtime::has_free_state(allocation->heap)) return;
   if (allocation->acceleration_structure) return;
   const auto [it, first] = states_.try_emplace(allocation->address, State{wanted, true, label_});
   if (first) return;

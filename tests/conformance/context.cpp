@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "runtime/embree/testing/rounding.h"
+
 namespace kaamos::conformance {
 
 using namespace rtapi;
@@ -73,14 +75,6 @@ std::unique_ptr<SharedDevice> take_device(const Target& target) {
   return out;
 }
 
-bool embree_rounds_distances() {
-#if defined(__x86_64__)
-  return !__builtin_cpu_supports("avx512vl");
-#else
-  return true;
-#endif
-}
-
 }  // namespace
 
 Context::Context(std::unique_ptr<SharedDevice> shared, const Target& target, bool goes_on)
@@ -122,7 +116,7 @@ DeviceDesc Target::device_desc() const {
 bool Context::is_distance(float found, float expected) const {
   const bool rounds = target_.backend == "embree" &&
                       target_.precision != rtapi::TraversalPrecision::kExact &&
-                      embree_rounds_distances();
+                      embree::testing::rounds_distances();
   if (!rounds) return found == expected;
   // One ulp of a number lies between epsilon / 2 and epsilon times that number.
   return std::abs(found - expected) <= std::numeric_limits<float>::epsilon() * std::abs(expected);

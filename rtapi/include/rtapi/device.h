@@ -150,8 +150,9 @@ class Device {
   /// KA0789-0796, KA0890-0898, KA0917, KA0950-0963, KA0990.
   Status GetDeviceRemovedReason() const;
   /// Removes the device, from any thread: with KA0917 as the reason, unless it was removed before.
-  /// Work that executes ends early: Embree starts no more tiles or thread groups, Vulkan no more
-  /// commands, and what they wrote is incomplete. [D3D12: ID3D12Device5::RemoveDevice]
+  /// Work that executes ends early, and what it wrote is incomplete: Embree starts no more tiles,
+  /// thread groups or other commands; Vulkan submits no more, and what the driver has goes on.
+  /// [D3D12: ID3D12Device5::RemoveDevice]
   /// @errors KA0904 empty handle.
   Status RemoveDevice() const;
   /// Counts since the device was made or ResetStatistics was called, over all queues. Vulkan counts

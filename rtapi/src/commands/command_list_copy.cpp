@@ -45,7 +45,7 @@ Status check_transition(const ResourceBarrier& barrier) {
                       ": a buffer keeps the state kRaytracingAccelerationStructure for life; order "
                       "builds and traces with UAV barriers");
   }
-  if (buffer && !has_free_state(buffer->GetDesc().Heap)) {
+  if (buffer && !runtime::has_free_state(buffer->GetDesc().Heap)) {
     return make_error(Id::kBarrier, name, ": upload and readback buffers cannot leave their state");
   }
   const auto* texture = std::get_if<Texture>(&barrier.Resource);

@@ -30,7 +30,7 @@ Status check_buffer(const DeviceImpl& device, const BufferDesc& desc) {
     return make_error(Id::kBufferHeap, name, " has undefined flags ",
                       hex(static_cast<uint32_t>(desc.Flags)));
   }
-  const bool is_free = has_free_state(desc.Heap);
+  const bool is_free = runtime::has_free_state(desc.Heap);
   if (unordered && !is_free) {
     return make_error(Id::kBufferHeap, name,
                       " has kAllowUnorderedAccess, which needs the default heap or a custom one");

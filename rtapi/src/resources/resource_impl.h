@@ -13,11 +13,6 @@
 
 namespace rtapi::detail {
 
-// Whether its buffers change their state, and shaders may write them.
-inline bool has_free_state(HeapType heap) {
-  return heap == HeapType::kDefault || heap == HeapType::kCustom;
-}
-
 struct BufferImpl {
   std::shared_ptr<DeviceImpl> device;
   BufferDesc desc;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/testing/harness.h"
 #include "runtime/embree/device.h"
+#include "runtime/embree/testing/rounding.h"
 
 #include <gtest/gtest.h>
 
@@ -67,14 +68,6 @@ rtapi::TraversalPrecision precision_of_environment() {
   return name == "exact" ? rtapi::TraversalPrecision::kExact : rtapi::TraversalPrecision::kRobust;
 }
 
-bool embree_rounds_distances() {
-#if defined(__x86_64__)
-  return !__builtin_cpu_supports("avx512vl");
-#else
-  return true;
-#endif
-}
-
 }  // namespace
 
 ::testing::AssertionResult is_distance(float t, float expected) {
@@ -83,7 +76,7 @@ bool embree_rounds_distances() {
 
 ::testing::AssertionResult is_distance(float t, float expected,
                                        rtapi::TraversalPrecision precision) {
-  const bool rounds = precision != rtapi::TraversalPrecision::kExact && embree_rounds_distances();
+  const bool rounds = precision != rtapi::TraversalPrecision::kExact && rounds_distances();
   // An ulp is between epsilon / 2 and epsilon times the number.
   const float error = rounds ? std::numeric_limits<float>::epsilon() * std::abs(expected) : 0.0f;
   if (std::abs(t - expected) <= error) return ::testing::AssertionSuccess();
